@@ -42,7 +42,7 @@ int32_t guarded (const tactus_plugin_report* report, F&& f) noexcept
 }
 
 //==============================================================================
-/// What the person asks for.
+/// The description of a device, as read.
 struct Wanted
 {
     std::string port;
@@ -67,8 +67,8 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
 }
 
 //==============================================================================
-/// The devices that went away while they were open, by the port that they were opened with: another device may get the same number, and the
-/// calibration is not meant for it.
+/// The devices that went away while they were open, by the port with which they were opened: another device may get the same number, and must not
+/// get the calibration.
 class GoneDevices
 {
 public:
@@ -102,7 +102,7 @@ GoneDevices& gone()
     return devices;
 }
 
-/// The path of the one device for which this holds. Puts why there is none into `why`.
+/// The path of the only device that meets a condition. If there is none, `why` gets the reason.
 template <typename Fits>
 std::string onlyOne (Fits&& fits, const std::string& what, std::string& why)
 {
@@ -120,7 +120,7 @@ std::string onlyOne (Fits&& fits, const std::string& what, std::string& why)
     return {};
 }
 
-/// The path of the device that is meant by a port: a path, or a name or a part of one.
+/// The path of the device that `port` means: a path, a name, or a part of a name.
 std::string findPath (const std::string& port, std::string& why)
 {
     if (const auto before = gone().at (port))

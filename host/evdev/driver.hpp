@@ -12,7 +12,7 @@ namespace tactus::host::evdev
 /// keys: port, calibration, max_rate.
 extern const tactus_device_driver driver;
 
-/// The driver finds its devices there. A test gives it a fake before it opens any. [one thread]
+/// The system in which the driver finds its devices. A test sets a fake before it opens any device. [one thread]
 void setSystem (EventSystem&);
 
 }   // namespace tactus::host::evdev

@@ -58,17 +58,17 @@ public:
     {
         std::uint16_t type = 0, code = 0;
         int value = 0;
-        double age_s = 0.0;   ///< how long ago the kernel got it
+        double age_s = 0.0;   ///< time since the kernel got it
     };
 
     virtual ~EventDevice() = default;
 
     virtual const EventDeviceInfo& info() const noexcept = 0;   ///< as it was when it was opened
 
-    /// Waits for the next event. After events were lost (SYN_DROPPED), those follow that lead from the old state to the new one. [reading thread]
+    /// Waits for the next event. After lost events (SYN_DROPPED), it returns the events that lead from the old state to the new one. [reading thread]
     virtual Got next (Event&, int timeout_ms) = 0;
 
-    /// Uploads an effect. One with the id -1 is new, and gets its id. Waits as long as the kernel's driver does. 0, or an errno. [writing thread]
+    /// Uploads an effect. An effect with the id -1 is new, and gets an id. Waits as long as the kernel's driver does. 0, or an errno. [writing thread]
     virtual int upload (ff_effect&) = 0;
 
     /// Writes an event of the type EV_FF: the id of an effect with 1 (plays it) or 0 (stops it), or FF_GAIN and such. 0, or an errno. [writing thread]
@@ -81,17 +81,17 @@ class EventSystem
 public:
     virtual ~EventSystem() = default;
 
-    /// Those that have force feedback, in the order of their numbers. [opening thread]
+    /// The devices with force feedback, in the order of their numbers. [opening thread]
     virtual std::vector<EventDeviceInfo> list() = 0;
 
-    /// Opens the device at a path for reading and writing. The error says why it cannot. [opening thread]
+    /// Opens the device at a path for reading and writing. The error gives the reason if it fails. [opening thread]
     virtual Result<std::unique_ptr<EventDevice>> open (const std::string& path) = 0;
 };
 
 /// Through libevdev.
 EventSystem& thisComputer();
 
-/// What a person can do who may not open a device, in one line.
+/// A remedy for a user without permission to open a device, in one line.
 std::string howToPermit (const EventDeviceInfo&);
 
 }   // namespace tactus::host::evdev

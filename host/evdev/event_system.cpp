@@ -125,7 +125,7 @@ double updateInterval (const fs::path& input_device)
     return 0.0;
 }
 
-/// The name of the node in sysfs, also if the path leads there by a link: "event5".
+/// The name of the node in sysfs, even if the path is a link to it: "event5".
 std::string nodeOf (const std::string& path)
 {
     std::error_code failed;
@@ -133,7 +133,7 @@ std::string nodeOf (const std::string& path)
     return failed ? fs::path (path).filename().string() : real.filename().string();
 }
 
-/// What can be known without opening the device.
+/// What is known about a device without opening it.
 EventDeviceInfo look (const std::string& path)
 {
     const auto at = fs::path (sys_folder) / nodeOf (path) / "device";
@@ -172,14 +172,14 @@ class LinuxEventDevice final : public EventDevice
 public:
     LinuxEventDevice (int f, libevdev* d, EventDeviceInfo i) : file (f), device (d), about (std::move (i))
     {
-        // The kernel would leave out changes that are smaller than the fuzz of an axis, which is 1/256 of the travel of many joysticks.
+        // The kernel would ignore changes that are smaller than the fuzz of an axis, which is 1/256 of the travel of many joysticks.
         for (const auto& axis : about.axes)
             if (const auto* had = libevdev_get_abs_info (device, axis.code); had != nullptr && had->fuzz != 0)
             {
                 auto without = *had;
                 without.fuzz = 0;
                 fuzzy.push_back ({ axis.code, *had });
-                static_cast<void> (libevdev_kernel_set_abs_info (device, axis.code, &without));   // if it fails, the axis is coarser
+                static_cast<void> (libevdev_kernel_set_abs_info (device, axis.code, &without));   // if this fails, the axis is coarser
             }
     }
 

@@ -18,7 +18,7 @@ namespace
 using namespace std::chrono_literals;
 using Seconds = std::chrono::duration<double>;
 
-constexpr double usual_updates_hz = 250.0;   // where the port does not say how often it takes one
+constexpr double usual_updates_hz = 250.0;   // if the update interval of the port is not known
 constexpr double watchdog = 0.05, ramp = 0.2;
 constexpr auto state_again = 10ms;   // several times within the watchdog
 constexpr double largest_level = 32767.0, largest_motor = 65535.0;
@@ -125,8 +125,8 @@ std::string ForceDevice::prepare()
         return std::string ("the device does not take an effect: ") + std::strerror (failed);
     }
     // Full gain, because the limits count on it; and no spring of the device's own beside the force.
-    if (info.has_gain) static_cast<void> (events->tell (FF_GAIN, 0xffff));                    // a weaker force is no danger
-    if (info.has_autocenter && pushes) static_cast<void> (events->tell (FF_AUTOCENTER, 0));   // it is felt if it stays
+    if (info.has_gain) static_cast<void> (events->tell (FF_GAIN, 0xffff));                    // if this fails, the force is weaker, which is no danger
+    if (info.has_autocenter && pushes) static_cast<void> (events->tell (FF_AUTOCENTER, 0));   // if this fails, the spring can be felt
     return {};
 }
 
@@ -230,7 +230,7 @@ std::int32_t ForceDevice::read (std::chrono::milliseconds timeout, tactus_readin
 //==============================================================================
 // Writing
 
-/// Updates the effect, and starts it if that is due. [writing thread]
+/// Updates the effect, and starts it when that is due. [writing thread]
 int ForceDevice::send (Clock::time_point now, bool must_start, bool is_update)
 {
     int reports = 0;

@@ -18,17 +18,17 @@
 namespace tactus::host::evdev
 {
 
-/// A wheel, a joystick or a pad with force feedback, through its event device. Its force is one effect (FF_CONSTANT), or, if it has none, its two
-/// rumble motors are (FF_RUMBLE). The effect is uploaded once and then updated. It lasts for `effect_lasts`, and is restarted while a force acts, so
-/// it ends by itself when the program dies; the kernel removes it, too.
+/// A wheel, a joystick or a pad with force feedback, through its event device. It uses a single effect: the constant force (FF_CONSTANT), or, if
+/// the device has none, its two rumble motors (FF_RUMBLE). The effect is uploaded once and then updated. It lasts for `effect_lasts`, and is
+/// restarted while a force acts, so it ends by itself when the program dies; the kernel removes it, too.
 ///
-/// A device that has a constant force is not rumbled, although most kernel drivers offer that: the same motor would render both, and no limit would
-/// hold for the sum.
+/// A device with a constant force gets no rumble, although most kernel drivers offer it: the same motor would render both, and no limit would hold
+/// for the sum.
 ///
-/// An update that comes before the port of the device can take it is left out, except one that ends the force: Linux queues updates for a slow
+/// An update that comes before the port of the device can take it is skipped, unless it ends the force: Linux queues updates for a slow
 /// device, and a queue is a delay.
 ///
-/// Times are given, so that tests need no clock.
+/// Times are passed in, so that tests need no clock.
 class ForceDevice
 {
 public:
@@ -37,17 +37,17 @@ public:
     /// `most_hz`: how many updates per second the person allows; 0: as many as the port takes, or 250 if that is unknown.
     ForceDevice (std::unique_ptr<EventDevice>, const hid::PidCalibration&, double most_hz);
 
-    /// Uploads the effects, without a force. Returns why it cannot; empty if it can. [opening thread]
+    /// Uploads the effects, without a force. Returns the reason if it fails; empty if it succeeds. [opening thread]
     std::string prepare();
 
-    /// What it is. Refers to this object.
+    /// The description of the device. Refers to this object.
     void describe (tactus_device_about&);
 
     /// The limits, as in docs/safety.md.
     const GuardLimits& limits() const noexcept { return guard; }
 
-    /// The next reading. While nothing changes, the state counts as a new reading every 10 ms: Linux reports only changes, and reports when the device
-    /// is gone. There is none before the first event, because until then the state may be that of before the device was opened.
+    /// The next reading. While nothing changes, the state counts as a new reading every 10 ms: Linux reports only changes, and the
+    /// loss of the device. There is no reading before the first event, because until then the state may be older than the opening of the device.
     /// TACTUS_DEVICE_OK, … [reading thread]
     std::int32_t read (std::chrono::milliseconds timeout, tactus_reading&, tactus_device_stamp&);
 
@@ -76,7 +76,7 @@ private:
 
     const std::unique_ptr<EventDevice> events;
     const hid::PidCalibration calibration;
-    const bool pushes, rumbles;   // has a constant force; else has rumble motors
+    const bool pushes, rumbles;   // has a constant force; otherwise, has rumble motors
     std::chrono::duration<double> between;
     GuardLimits guard;
     std::string guard_text, sentence;
@@ -99,7 +99,7 @@ private:
     std::optional<Clock::time_point> busy_until, started, updated, tracked;
     double mean_interval = 0.0;
     std::array<hid::VibrationTracker, 2> amplitudes;
-    double quiet_s = 0.0;   // for how long the signals have been 0
+    double quiet_s = 0.0;   // time for which the signals have been 0
 
     std::atomic<double> reached_hz = 0.0;
 };

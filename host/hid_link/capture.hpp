@@ -28,7 +28,7 @@ namespace tactus::host::hid
 struct Capture
 {
     /// One line after the first. `bytes` are as HidPort gets and sends them: a report id comes first if the device uses ids; if not, `in` has
-    /// none and what is sent has a 0. A line without a profile has no reports: `in` is then what came at once.
+    /// none and what is sent has a 0. A line without a profile has no reports: `in` then has the bytes that came together.
     struct Line
     {
         enum class What
@@ -77,7 +77,7 @@ private:
     const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
 
-/// A system that records what passes through the devices that are opened with it. The other system and the file must outlive it and all that it
+/// A system that records the reports to and from the devices that are opened with it. The other system and the file must outlive it and all that it
 /// opens. [any thread]
 class CapturingSystem final : public HidSystem
 {

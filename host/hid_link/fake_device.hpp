@@ -22,36 +22,36 @@
 namespace tactus::host::hid
 {
 
-/// What a fake device does wrong, and from when to when, in s of its own time.
+/// A fault of a fake device, with its start and end in s of the device's own time.
 struct DeviceFault
 {
     enum class Kind
     {
         stall,       ///< sends nothing and takes nothing
         garbage,     ///< sends random bytes instead of reports
-        half,        ///< sends only the first half of what a report is on the wire
-        lost_byte,   ///< leaves out a byte in the middle of it
-        missed,      ///< misses the last byte of whatever comes at once
+        half,        ///< sends only the first half of a report's bytes on the wire
+        lost_byte,   ///< leaves out a byte in the middle of a report
+        missed,      ///< misses the last byte of the bytes that come together
         reset,       ///< is being reset; comes back on the same line as if switched on again, and has forgotten what `init` has set up
-        late,        ///< sends the report before last again after each one
-        lie,         ///< an encoder, or else the first coordinate, stays where it was
+        late,        ///< after each report, sends the previous one again
+        lie,         ///< an encoder stops counting, or, without encoders, the first coordinate is frozen
         away,        ///< is unplugged; comes back as if switched on again, and a serial line then has another name
-        push,        ///< only a service: sends without being asked, and answers nothing
-        rename       ///< only a service: its device has another name
+        push,        ///< services only: sends without a request, and does not answer
+        rename       ///< services only: its device has another name
     };
 
     Kind kind = Kind::stall;
     double from = 0.0, to = std::numeric_limits<double>::infinity();
 };
 
-/// True for what only a service can do wrong, not the device of a profile.
+/// True for a fault of services, which the device of a profile cannot have.
 constexpr bool isOfService (DeviceFault::Kind kind) noexcept { return kind == DeviceFault::Kind::push || kind == DeviceFault::Kind::rename; }
 
 /// Reads "stall", "stall@2" (from 2 s on) or "stall@2:0.5" (for half a second). Id: fake/fault.
 Result<DeviceFault> readFault (std::string_view);
 
-/// The device of a profile, played from the outside: the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool
-/// and feels the force. Its time is the number of steps, so nothing depends on when they are made. Like the Tactus board, it releases its motors
+/// Simulates the device of a profile at the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool and feels the
+/// force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
 /// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0.
 ///
 /// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, has no watchdog, and
@@ -67,7 +67,7 @@ public:
         std::vector<DeviceFault> faults;
     };
 
-    /// What passed over the wire. `bytes` is one report, or what could not be one.
+    /// An event on the wire. `bytes` is one report, or bytes that are no report.
     struct Line
     {
         enum class What
@@ -98,13 +98,13 @@ public:
     FakeDevice (const FakeDevice&) = delete;
     FakeDevice& operator= (const FakeDevice&) = delete;
 
-    /// Called with everything that passes.
+    /// Called for each event on the wire.
     std::function<void (const Line&)> on_line;
 
-    /// Does something wrong from now on, for so long, in s of its own time.
+    /// Has a fault from now on, for a duration in s of its own time.
     void fail (DeviceFault::Kind kind, double duration_s) { options.faults.push_back ({ kind, time(), time() + duration_s }); }
 
-    /// One tick: hears what has come, moves the hand, and sends its input reports.
+    /// One tick: takes the reports that have come, moves the hand, and sends its input reports.
     void step();
 
     /// Takes a report that has come, or waits for one. False if none comes. step() calls it without waiting, until there is none.

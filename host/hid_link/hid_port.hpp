@@ -66,11 +66,11 @@ struct PortCounts
 ///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
 ///    everything sent afterwards.
-///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids; over another wire, by the
-///    place that the person has named.
-///  - A device that is driven, but sends only when something changes, is asked for the reports that say where it is while they do not
-///    come, once it has sent something. An answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
-///    until it is reopened, and its readings get old when nothing changes.
+///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids; on other wires, by the
+///    port or address that the person has named.
+///  - A device that is driven, but sends only when something changes, is asked for the reports with its position while they do not come, once it
+///    has sent something. An answer counts as a report. If the device does not answer, or takes longer than the watchdog, it is not asked
+///    again until it is reopened, and its readings get old when nothing changes.
 ///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports, again and again until the system takes them.
 ///  - If the process dies or freezes, the failsafe sends the neutral reports (Transport::armFailsafe). A port whose device got
 ///    them, or that finds that the computer has slept, treats the device as gone away and back.
@@ -120,7 +120,7 @@ public:
 
     /// Replaces the content of an output report. `answers` is the arrival time of the report that this one answers; 0 if
     /// it answers none. A report that `rests` asks for no effort: if the last one sent did, it is sent at once, whatever the rate
-    /// and the keepalive of the profile, so a stop is never later than its promise.
+    /// and the keepalive of the profile, so a stop never takes longer than promised.
     void offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t episode, Nanoseconds answers, bool rests) noexcept;
 
     /// Wakes the writing thread, which sends what was offered. Without this call, sending may be delayed by half a report period.

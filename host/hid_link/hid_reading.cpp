@@ -83,7 +83,7 @@ bool HidPort::isNews() noexcept
     return std::exchange (known, all) != all;
 }
 
-/// Reads what has arrived and, if that is nothing, waits. False if the device cannot be read any more.
+/// Reads the reports that have arrived, or waits if there are none. False if the device cannot be read any more.
 bool HidPort::readUntil (Clock::time_point until) noexcept
 {
     if (! isConnected()) return false;   // the writing thread has given it up
@@ -103,7 +103,7 @@ bool HidPort::readUntil (Clock::time_point until) noexcept
     return works;
 }
 
-/// Reads what has arrived, without waiting. False if the device cannot be read any more.
+/// Reads the reports that have arrived, without waiting. False if the device cannot be read any more.
 bool HidPort::takeWaiting() noexcept
 {
     for (std::size_t n = 0; n < most_at_once; ++n)
@@ -225,7 +225,7 @@ void HidPort::lose (Transport& t, const std::string& why)
     const std::lock_guard lock (writing);
     current_episode.fetch_add (1, std::memory_order_acq_rel);
     quieten (t);
-    driven = false;   // whatever it took: it starts again from zero
+    driven = false;   // regardless of the reports that it took: the force starts again from zero
 }
 
 const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& devices) const
@@ -246,7 +246,7 @@ void HidPort::lookAgain()
     }
     if (isStopping()) return;
 
-    const auto devices = wanted.wire == Wire::hid ? system.connected() : std::vector { wanted };   // a person has named the place of a wire
+    const auto devices = wanted.wire == Wire::hid ? system.connected() : std::vector { wanted };   // the person has named the port or address of a wire
     const auto* same = wanted.wire == Wire::hid ? sameAmong (devices) : &devices.front();
     if (same == nullptr) return;
     auto opened = system.reach (*same, *description);

@@ -16,7 +16,7 @@ bool isHid (const Json& description);
 /// The wire of such a description.
 Wire wireOf (const Json& description);
 
-/// True if something is where the description says: always for UDP, where only an answer could tell. For wires other than HID.
+/// True if the port of the description exists. Always true for UDP, where only an answer could tell. For wires other than HID.
 bool isThere (const Json& description);
 
 /// Some systems list a device once per HID collection. Keeps one entry per device: the one that a profile fits best.
@@ -35,7 +35,7 @@ struct FoundDevice
 /// needed only if several devices fit. The profile "pid" means any device with force feedback according to the USB
 /// standard, with a "calibration" (readCalibration); so does "auto" if no profile fits.
 ///
-/// Over a serial line or UDP, nothing tells which device is at the other end, so the description names both the profile and the place:
+/// Nothing on a serial line or UDP identifies the device at the other end, so the description names both the profile and the port or address:
 /// `{"driver": "serial", "profile": "tactus_board", "port": "/dev/ttyACM0"}`, `{"driver": "udp", "profile": "tactus_board", "port":
 /// "192.168.4.1:9750"}`. [main thread]
 ///

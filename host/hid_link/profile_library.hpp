@@ -16,9 +16,9 @@ std::filesystem::path profileFolder();
 std::filesystem::path ownProfileFolder();
 
 /// The user's profiles and those that come with Tactus. A user's profile may exceed the limits of a shipped one only if its `replaces`
-/// names that one, which is then not used; this gives a warning. Otherwise, a user's profile with the id of a shipped one is not used,
-/// and one that can fit the same device is used only if it sends nothing or is the same but for names and limits (differenceOf); it
-/// has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces and profile/competes.
+/// names the shipped one, which is then not used; this gives a warning. Otherwise, a user's profile with the id of a shipped one is not
+/// used. A profile that can fit the same device is used only if it sends nothing, or is the same except for names and limits
+/// (differenceOf); it then has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces and profile/competes.
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
 
 /// The profiles of a user's folder, unless another user can change them. Ids: profile/foreign, and those of loadProfiles. [main thread]

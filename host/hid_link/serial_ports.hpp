@@ -17,7 +17,7 @@ struct SerialPort
     bool may_open = true;         ///< by this user
 };
 
-/// The serial ports that are there, sorted by name; empty on systems other than Linux. Nothing is opened. [main thread]
+/// The serial ports of this computer, sorted by name; empty on systems other than Linux. Nothing is opened. [main thread]
 std::vector<SerialPort> serialPorts (const std::filesystem::path& system = "/sys/class/tty", const std::filesystem::path& files = "/dev");
 
 }   // namespace tactus::host::hid

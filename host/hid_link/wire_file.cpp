@@ -141,7 +141,7 @@ WireFile::Outcome WireFile::read (std::span<std::uint8_t> into, Clock::time_poin
         if (errno != EAGAIN) return { .what = Outcome::Kind::failure, .error = errno };
         const int waited = waitForInput (file, until);
         if (waited == ETIMEDOUT) return {};
-        if (waited == EIO && kind != Kind::line) continue;   // the next call says what is wrong with the socket
+        if (waited == EIO && kind != Kind::line) continue;   // the next call returns the error of the socket
         if (waited != 0) return { .what = Outcome::Kind::failure, .error = waited };
     }
 }
@@ -156,7 +156,7 @@ WireFile::Sent WireFile::write (std::span<const std::uint8_t> bytes) noexcept
         else if (kind == Kind::socket)
             put = ::send (file, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         else if (peer_size == 0)
-            return { .size = bytes.size() };   // nobody has spoken yet
+            return { .size = bytes.size() };   // no datagram has come yet, so there is no address
         else
             put = ::sendto (file, bytes.data(), bytes.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*> (peer.data()), peer_size);
         if (put >= 0) return { .size = static_cast<std::size_t> (put) };

@@ -26,13 +26,13 @@ public:
     /// A serial line that passes all bytes unchanged: 8 bits, no parity, no flow control. Also works on a pseudo-terminal.
     static Result<WireFile> openSerial (const std::string& path, int baud);
 
-    /// A socket that exchanges datagrams with one address, such as "192.168.4.1:9750" or "[fe80::1]:9750", and takes none from any other.
+    /// A socket that exchanges datagrams with one address, such as "192.168.4.1:9750" or "[fe80::1]:9750", and takes none from other addresses.
     static Result<WireFile> connectUdp (const std::string& address);
 
     /// The far end of a serial line: a new pseudo-terminal. `path` becomes the name of the end that a program opens.
     static Result<WireFile> makeTerminal (std::string& path);
 
-    /// The far end of a UDP wire, on this computer: answers whoever spoke last. A port of 0 becomes a free one.
+    /// The far end of a UDP wire, on this computer. Datagrams go to the sender of the last one. A port of 0 becomes a free one.
     static Result<WireFile> listenUdp (int& port);
 
     WireFile (WireFile&& other) noexcept { swap (other); }
@@ -43,22 +43,21 @@ public:
     }
     ~WireFile();
 
-    /// Takes the bytes that have come, or one datagram, or waits for them; does not wait if `until` has passed. Datagrams without content are
-    /// passed over.
+    /// Takes the bytes that have come, or one datagram, or waits for them; does not wait if `until` has passed. Skips empty datagrams.
     Outcome read (std::span<std::uint8_t> into, Clock::time_point until) noexcept;
 
     struct Sent
     {
         std::size_t size = 0;   ///< the bytes that the system took
-        int error = 0;          ///< 0 if it took any; EAGAIN: it has no room now
+        int error = 0;          ///< 0 if it took any; EAGAIN: no room now
     };
 
     Sent write (std::span<const std::uint8_t> bytes) noexcept;
 
-    /// The bytes that the system still has to send. 0 if it does not say.
+    /// The number of bytes that the system still has to send. 0 if it is not known.
     std::size_t unsent() const noexcept;
 
-    /// Drops what has come so far.
+    /// Drops the bytes that have come so far.
     void dropInput() noexcept;
 
     int descriptor() const noexcept { return file; }
@@ -83,7 +82,7 @@ private:
 
     int file = -1, kept_open = -1;   // kept_open: the near end of a terminal, so that the far end lives while no program has it open
     Kind kind = Kind::line;
-    alignas (8) std::array<std::uint8_t, 128> peer {};   // a sockaddr: who spoke last
+    alignas (8) std::array<std::uint8_t, 128> peer {};   // a sockaddr: the sender of the last datagram
     std::uint32_t peer_size = 0;
 };
 

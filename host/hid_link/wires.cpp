@@ -31,12 +31,12 @@ constexpr auto until_gone = 1s;
 constexpr auto until_late = 20ms;                               // without an answer: the device has missed a byte, or its answer was lost
 constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
 constexpr int most_unanswered = 50, most_without_filler = 10;   // reports, after which a device that only answers counts as gone: about a second
-constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and nobody sends it again when this program is dead
+constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and a dead program cannot send it again
 constexpr std::size_t line_keeps = 4095;                        // bytes that Linux keeps of a serial line
 
 Message systemError (int error) { return transferError (std::generic_category().message (error)); }
 
-/// What serial lines and UDP have in common: the failsafe, and that there are no feature reports.
+/// The common part of serial lines and UDP: the failsafe, and no feature reports.
 class WireTransport : public Transport
 {
 public:
@@ -113,7 +113,7 @@ protected:
         if (const int error = finish(); error != 0) return error;
         const auto size = writeFrame (framing, report, room);
         if (size == 0) return EMSGSIZE;
-        if (file.unsent() > size) return EAGAIN;   // another one still waits
+        if (file.unsent() > size) return EAGAIN;   // the previous report still waits
         const auto sent = file.write (std::span (room).first (size));
         if (sent.error != 0) return sent.error;
         unsent.assign (room.begin() + static_cast<std::ptrdiff_t> (sent.size), room.begin() + static_cast<std::ptrdiff_t> (size));
@@ -137,16 +137,17 @@ protected:
     }
 
 private:
-    FileLock lock;   // only one driver uses the line
+    FileLock lock;   // so that only one driver uses the line
     const Framing framing;
     LineReader lines;   // [reader]
     const std::size_t kept;
     Bytes room, unsent;   // [writer]
 };
 
-/// A line whose device speaks only when it is spoken to: it answers each report with one, in order. Nothing tells where one begins, and which report an
-/// answer belongs to. So a report that pushes waits for the answer to the one before, and what nobody has asked for is dropped. One that brings to rest does
-/// not wait: fillers go before it, which end whatever the device may have missed a part of. While nothing is sent, the neutral report asks.
+/// A line whose device only answers: each report with one report, in order. The bytes do not show where an answer begins, nor to which report it belongs.
+/// So a report with a force waits for the answer to the previous report, and bytes that come without a request are dropped. A report that brings the device
+/// to rest does not wait: fillers go first, and end a report of which the device may have missed a part. While there is nothing to send, the neutral report
+/// is sent as a request.
 class AskedTransport final : public SerialTransport
 {
 public:
@@ -161,7 +162,7 @@ public:
         afresh.insert (afresh.end(), neutral.begin(), neutral.end());
     }
 
-    bool canReadUntil() const noexcept override { return false; }   // whoever reads also writes, and may wait for the writing thread
+    bool canReadUntil() const noexcept override { return false; }   // the reading thread also writes, and may wait for the writing thread
 
     bool awaitsAnswer() const noexcept override
     {
@@ -179,7 +180,7 @@ public:
             const auto now = system.now();
             if (got.what == Kind::report)
             {
-                if (due == 0) continue;   // the answer has come too late, or is none
+                if (due == 0) continue;   // the answer has come too late, or was not requested
                 if (--due == 0 && std::exchange (is_afresh, false)) settled = now + until_settled;
                 unanswered = 0;
                 is_pausing = false;
@@ -192,7 +193,7 @@ public:
     }
 
 private:
-    /// For the guardian, who does not know what the device waits for.
+    /// For the guardian, which does not know the state of the device.
     Bytes onTheWire (std::span<const std::uint8_t> report) const override
     {
         return SerialTransport::onTheWire (std::ranges::equal (report, neutral) ? std::span<const std::uint8_t> (afresh) : report);
@@ -218,11 +219,11 @@ private:
         return error;
     }
 
-    /// Says the neutral report to a device that may have missed a part of the last one. It may answer both. [with `speaking` held]
+    /// Sends the neutral report to a device that may have missed a part of the last report. The device may answer both. [with `speaking` held]
     int sayAfresh()
     {
         const int error = SerialTransport::put (afresh);
-        last_word = system.now();   // if the line takes nothing, that is tried again when the answer is late
+        last_word = system.now();   // if the line has no room, this is tried again when the answer is late
         if (error != 0) return error;
         due = 1;
         is_afresh = true;
@@ -230,13 +231,13 @@ private:
         return 0;
     }
 
-    /// Nothing has been said for a while. [with `speaking` held]
+    /// Called when nothing has been sent for a while. [with `speaking` held]
     void speak (Clock::time_point now)
     {
         last_word = now;
         if (due == 0)
         {
-            static_cast<void> (say (neutral));   // if the line takes nothing, it is said later
+            static_cast<void> (say (neutral));   // if the line has no room, it is sent later
             return;
         }
         if (! has_filler && ! std::exchange (is_pausing, true)) return;
@@ -262,7 +263,7 @@ private:
     int due = 0;                   // answers
     int unanswered = 0;            // reports in a row
     bool is_afresh = false;        // the last report followed fillers
-    bool is_pausing = false;       // without a filler, only a pause makes the device forget what it has missed a part of
+    bool is_pausing = false;       // without a filler, only a pause ends a report of which the device has missed a part
     Clock::time_point last_word, settled {};
 };
 
