@@ -35,7 +35,7 @@ int main (int argc, char** argv)
     std::string file;
     int seed = static_cast<int> (options.seed);
     bool json = false;
-    const host::Command app { "Load a plugin in separate processes, and check that its nodes or its device driver keep what they promise",
+    const host::Command app { "Load a plugin in separate processes, and check that its nodes or its device driver meet all requirements",
                               "tactus check-plugin" };
     app.addOption ("plugin", file, "The file of the plugin").required();
     app.addOption ("--strict", options.level, "How thoroughly, from 1 to 10; default: 5").check (host::within (1, 10));

@@ -9,7 +9,7 @@ namespace tactus::host
 
 void addCheckPlugin (const Command& app)
 {
-    const auto command = app.add ("check-plugin", "Check that the nodes or the device driver of a plugin keep what they promise");
+    const auto command = app.add ("check-plugin", "Check that the nodes or the device driver of a plugin meet all requirements");
     command.passOn ([] (const std::vector<std::string>& arguments) {
         const auto program = besideThisProgram ("tactus-check-plugin");
         const auto why = becomeProgram (program, arguments);

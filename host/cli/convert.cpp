@@ -183,7 +183,7 @@ void addConvert (const Command& app)
     addPenAmount ("--lift", "m", "5 mm", &EvemuOptions::lift, "Pen: height above the surface while the pen is up; default 5 mm");
     addPenAmount ("--full-pressure", "", "2047", &EvemuOptions::full_pressure, "Pen: units at full pressure; default: as recorded, else 2047");
     addLimits (command);
-    command.footer ("What a format cannot carry is printed, with the rms difference of the rendered envelope. The page docs/clips.md says more.\n\n"
+    command.footer ("Prints the parts that the format cannot hold, and the rms difference of the rendered envelope. See docs/clips.md.\n\n"
                     "Examples:\n"
                     "  tactus convert effect.haptic effect.ahap\n"
                     "  tactus convert effect.haptic effect.json --calibration MetaQuest.acf\n"

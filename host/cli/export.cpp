@@ -92,10 +92,10 @@ void addExport (const Command& app)
     command.addOption ("--set", options->sets, "Set a parameter: NODE.PARAM=VALUE").oneValueEach();
     command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's").check (finiteWithin (1.0, 1e6));
     command.addFlag ("--float", options->is_single,
-                     "Compute with float instead of double, for boards without a unit for doubles; positions keep more digits. With --to cpp or arduino");
+                     "Compute with float instead of double, for boards without hardware for doubles; positions keep more digits. With --to cpp or arduino");
     addLimits (command);
     addPlugins (command);
-    command.footer ("The folder needs Eigen and the standard library, and nothing of Tactus. Its README.md says how to use it.\n\n"
+    command.footer ("The folder needs Eigen and the standard library, but not Tactus. Its README.md says how to use it.\n\n"
                     "Examples:\n"
                     "  tactus export graphs/dry_wood.json -o dry_wood\n"
                     "  tactus export dry_wood -o dry_wood --record drag.force,drag.state\n"

@@ -90,7 +90,7 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
 #if defined(TACTUS_FAKE_SERVICES)
 [[noreturn]] void cannot (const std::string& fault, const char* what)
 {
-    fail (Message::error ("fake/fault", fault, "this service cannot do that", std::string ("choose ") + what));
+    fail (Message::error ("fake/fault", fault, "this service does not have this fault", std::string ("choose ") + what));
 }
 
 FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeInverse3&)
@@ -199,7 +199,7 @@ void run (const FakeOptions& o)
     for (const auto& text : o.faults)
     {
         options.faults.push_back (orFail (readFault (text)));
-        if (isOfService (options.faults.back().kind)) fail (Message::error ("fake/fault", text, "only a service can do this", "choose another fault"));
+        if (isOfService (options.faults.back().kind)) fail (Message::error ("fake/fault", text, "only a service has this fault", "choose another fault"));
     }
     auto fake = orFail (FakeDevice::make (profile, handOf (o.hand), options));
 
@@ -225,7 +225,7 @@ void run (const FakeOptions& o)
 void addFakeDevice (const Command& app)
 {
     const auto options = std::make_shared<FakeOptions>();
-    const auto command = app.add ("fake-device", "Play a device from the outside, to test programs without hardware");
+    const auto command = app.add ("fake-device", "Simulate a device at the far end of a wire, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
                     "The id of a profile that names a wire, such as tactus_board; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
@@ -238,7 +238,7 @@ void addFakeDevice (const Command& app)
                        "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, missed_byte, late, lie, "
                        "reset, away, and of a service push and rename; may be given more than once")
         .oneValueEach();
-    command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if heard, and its bytes").type ("FILE");
+    command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if received, and its bytes").type ("FILE");
     command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
     command.footer ("Examples:\n"
                     "  tactus fake-device tactus_board --link board --log heard.txt\n"

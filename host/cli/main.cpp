@@ -25,14 +25,14 @@ constexpr auto examples =
     "  tactus check-preset my_preset.json             can it be shared as a preset?\n"
     "  tactus limits granite_wall -o wall.png         how stiff, damped and slow may its contact be?\n"
     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
-    "  tactus spectrogram dry_wood -o wood.png        its frequencies against time\n"
-    "  tactus sweep dry_wood --speed 0.02..0.3 -o wood.png   its frequencies against the speed of a stroke\n"
+    "  tactus spectrogram dry_wood -o wood.png        a map of its frequencies over time\n"
+    "  tactus sweep dry_wood --speed 0.02..0.3 -o wood.png   a map of its frequencies over the speed of a stroke\n"
     "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
     "  tactus set roughness=0.7                       while it plays\n"
     "  tactus hit ring.hit=0.4                        while it plays\n"
     "  tactus probe drag.force                        while it plays\n"
     "  tactus devices                                 connected devices and their profiles\n"
-    "  tactus fake-device tactus_board                  a device that is not there, for tests\n"
+    "  tactus fake-device tactus_board                a simulated board, for tests\n"
     "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
     "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
     "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
@@ -42,7 +42,7 @@ constexpr auto examples =
     "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
     "  tactus capture run.jsonl --test run_test.jsonl   make a clip, gesture or test from a logged run\n"
     "  tactus test run_test.jsonl                       does it still give the same bits?\n"
-    "  tactus report                                    what a report of a problem needs\n"
+    "  tactus report                                    details for a problem report\n"
     "\n`tactus COMMAND --help` shows the options and more examples.";
 }   // namespace
 

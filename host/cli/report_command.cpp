@@ -95,8 +95,8 @@ void run()
 
 void addReport (const Command& app)
 {
-    const auto command = app.add ("report", "Print what a report of a problem needs: versions, devices, limits and rights of this computer");
-    command.footer ("It contains no names of users, computers, files or devices, and no serial numbers.\n\n"
+    const auto command = app.add ("report", "Print the details for a problem report: versions, devices, limits and permissions of this computer");
+    command.footer ("The report contains no names of users, computers, files or devices, and no serial numbers.\n\n"
                     "Examples:\n"
                     "  tactus report\n"
                     "  tactus report > report.txt");

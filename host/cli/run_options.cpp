@@ -36,7 +36,7 @@ void addLimits (const Command& app)
                if (! limits) throw UsageError ("--limits", limits.error().text + "; " + limits.error().remedy);
                setBudgets (*limits);
            },
-           "What files may cost, as in nodes=20000,memory=2GB (docs/graph_file.md); budgets: " + names)
+           "Limits on the cost of files, as in nodes=20000,memory=2GB (docs/graph_file.md); budgets: " + names)
         .type ("BUDGET=AMOUNT,…");
 }
 

@@ -284,7 +284,7 @@ void addSession (const Command& app)
                                          "ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=DRIVER:PORT; "
                                          "may be given more than once");
     bind.oneValueEach();
-    command.addOption ("--unbind", options->unbind, "A role to unbind: it gets the device that each graph describes again; may be given more than once")
+    command.addOption ("--unbind", options->unbind, "A role to unbind; it then gets the device that each graph describes; may be given more than once")
         .oneValueEach();
     const auto clock = command.addOption ("--clock", options->clock,
                                           "The clock of runs: a role, timer, audio, or first (the first device that can tick the run)");

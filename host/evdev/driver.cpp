@@ -127,7 +127,7 @@ std::string findPath (const std::string& port, std::string& why)
     {
         if (const auto path = onlyOne ([&] (const EventDeviceInfo& info) { return info.isSameAs (*before); }, quote (before->name), why); ! path.empty())
             return path;
-        why = "the device " + quote (before->name) + " that was there is away";
+        why = "the device " + quote (before->name) + ", which was at this port, is gone";
         return {};
     }
     if (port[0] == '/') return port;

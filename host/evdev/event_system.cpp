@@ -284,10 +284,10 @@ public:
         auto info = look (path);
         const int file = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0 && errno == EACCES) return cannotOpen (path, "this user may not open it: " + howToPermit (info), "");
-        if (file < 0) return cannotOpen (path, std::strerror (errno), "check that it is plugged in; `tactus devices` lists the devices that there are");
+        if (file < 0) return cannotOpen (path, std::strerror (errno), "check that it is plugged in; `tactus devices` lists the available devices");
         const auto refuse = [&] (std::string why) {
             ::close (file);
-            return cannotOpen (path, std::move (why), "`tactus devices` lists the devices that there are");
+            return cannotOpen (path, std::move (why), "`tactus devices` lists the available devices");
         };
         if (::flock (file, LOCK_EX | LOCK_NB) != 0) return refuse ("another role or another instance of Tactus is using it");
         libevdev* device = nullptr;

@@ -99,7 +99,7 @@ void checkWire (const DeviceRequest& wanted, const Profile& profile, Messages& m
     if ((wanted.wire != Wire::serial || profile.wires.serial) && (wanted.wire != Wire::udp || profile.wires.udp)) return;
     const std::string name = wanted.wire == Wire::serial ? "serial" : "udp";
     messages.push_back (Message::error ("hid/wire", "/driver", "the profile " + quote (profile.id) + " is not for this wire",
-                                        "add \"wires\": {\"" + name + "\": …} to the profile, if the device really speaks so"));
+                                        "add \"wires\": {\"" + name + "\": …} to the profile, if the device really has this wire"));
 }
 
 std::string namesOf (const std::vector<ConnectedDevice>& devices)

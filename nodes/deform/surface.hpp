@@ -162,7 +162,7 @@ struct ElasticSurface
         input (&Inputs::turn, "turn", Unit { Quantity::any, { 0, 0, 0 }, "1/rad" },
                "gradient of tool when the tool turns, from deform.tool; only for blend follows"),
         choice (&Params::friction, "friction", friction_names, "the contact point sticks within a bound, or follows freely"),
-        choice (&Params::blend, "blend", blend_names, "the tool stays the one of the first touch, or follows its number; the hand then pays with torque"),
+        choice (&Params::blend, "blend", blend_names, "the tool is fixed at the first touch, or follows its number; a change then acts as a torque"),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact point yields within the bound, Fig. 2; only for friction bound"),
         param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max, d_max = mu_c w; above 1: stick-slip",
                { .hard = { 1, inf }, .usual = { 1, 5 } }),

@@ -176,8 +176,8 @@ Result<> OscServer::transport (const Transport& to)
 Result<> OscServer::start()
 {
     if (live_run.isHeld() || live_run.isStoppedForGood() || ! live_run.canRearm())
-        return Message::error ("osc/stopped", {}, "the forces are stopped until somebody rearms", "press REARM or START in the window");
-    if (is_asking && is_asking()) return Message::error ("osc/question", {}, "the window asks something", "answer the question in the window first");
+        return Message::error ("osc/stopped", {}, "the forces are stopped until someone rearms", "press REARM or START in the window");
+    if (is_asking && is_asking()) return Message::error ("osc/question", {}, "the window shows a question", "answer the question in the window first");
     playback.startAgain();
     const auto& messages = live_run.messages();
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);

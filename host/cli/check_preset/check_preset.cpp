@@ -113,7 +113,7 @@ catch (const Stop&)
 void addCheckPreset (const Command& app)
 {
     const auto options = std::make_shared<CheckPresetOptions>();
-    const auto command = app.add ("check-preset", "Check whether graphs can be shared as presets: what they say about themselves, and their forces");
+    const auto command = app.add ("check-preset", "Check whether graphs can be shared as presets: their descriptions, sources and licences, and their forces");
     command.addOption ("graphs", options->files, "Graph files, or names of presets").required();
     command.addFlag ("--format", options->format, "First save each file as Tactus formats it");
     addLimits (command);

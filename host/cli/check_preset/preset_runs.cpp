@@ -145,7 +145,7 @@ Messages examine (const Played& p, const std::string& where, const std::string& 
                         "give the `hand` a path of at most 30 s, such as \"stroke\"; a large graph needs a shorter one") };
     if (p.stop.why != Guard::Stop::none)
         return { fault ("stopped", where, when + "the guard of " + quote (p.role) + " stops: " + describe (p.stop),
-                        "calm the preset; the gesture of a preset may use half of what its guard allows for speed, impulse and energy") };
+                        "make the preset weaker or slower; its gesture may use half of the limits of its guard on speed, impulse and energy") };
     Messages messages;
     if (p.largest > strongest || p.clipped_at > 0.0)
         messages.push_back (fault ("strong", where,
@@ -153,7 +153,7 @@ Messages examine (const Played& p, const std::string& where, const std::string& 
                                    "make the preset weaker, or, up to 10 N, its guard wider"));
     if (p.last >= faintest)
         messages.push_back (fault ("lasting", where, when + "the force is still " + newtons (p.last) + " when the gesture has ended",
-                                   "let the tool leave what it touches, and end what plays by itself"));
+                                   "let the tool leave the surface, and let clips and oscillators end"));
     return messages;
 }
 }   // namespace
@@ -208,7 +208,7 @@ Messages judgePreset (const check::Subject& subject, const fs::path& folder, std
         if (c.isBroken())
             messages.push_back (Message::warning ("preset/condition", c.node.empty() ? "/devices/" + pointerPart (c.role) : "/nodes/" + pointerPart (c.node),
                                                   "on its own device, the preset breaks the condition `" + std::string (c.id) + "`: " + c.text,
-                                                  (c.remedy.empty() ? "" : c.remedy + "; ") + "or say in your message why it must be so"));
+                                                  (c.remedy.empty() ? "" : c.remedy + "; ") + "or give the reason when you send the preset"));
     return messages;
 }
 

@@ -179,7 +179,7 @@ Messages examineParts (const graph::Graph& g, const Plan& plan, const std::set<s
                                        "describe one under `devices`, with \"driver\": \"sim\""));
     if (plan.delays().empty() || std::ranges::any_of (plan.delays(), [] (const plan::PathDelay& d) { return d.shortest > 0; }))
         messages.push_back (wrong ("late", "/wires",
-                                   plan.delays().empty() ? "no path leads from a hand to a motor" : "the force answers the hand a tick late or more",
+                                   plan.delays().empty() ? "no path leads from a hand to a motor" : "the force responds to the hand one or more ticks late",
                                    "lead a wire without a delay from the hand to each motor"));
     auto files = assets;
     listIncluded (g, files);

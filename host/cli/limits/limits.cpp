@@ -187,7 +187,7 @@ void addLimitsOf (const Command& app)
 {
     const auto options = std::make_shared<LimitsOptions>();
     const auto command =
-        app.add ("limits", "How stiff, how damped and how slow the steepest contact of a graph may be, passive and stable; and a picture of it");
+        app.add ("limits", "Find how stiff, damped and slow the steepest contact of a graph may be to stay passive or stable, and plot it");
     command
         .addOption (
             "graph", [options] (const std::string& given) { options->graph = graphArgument (given); }, "The graph file, or the name of a preset")
@@ -205,7 +205,8 @@ void addLimitsOf (const Command& app)
     command.addOption ("--set", options->sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     addLimits (command);
     addPlugins (command);
-    command.footer ("passive: (2d + 1) sigma T/2 + |b| <= B (Colgate). stable: the sampled loop rests without a hand and with usual ones (docs/check.md).\n\n"
+    command.footer ("passive: (2d + 1) sigma T/2 + |b| <= B (Colgate). "
+                    "stable: the sampled loop comes to rest without a hand and with the usual hands (docs/check.md).\n\n"
                     "Examples:\n"
                     "  tactus limits granite_wall\n"
                     "  tactus limits granite_wall -o wall.pdf\n"

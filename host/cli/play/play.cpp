@@ -307,7 +307,7 @@ void addPlay (const Command& app)
                        "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
         .oneValueEach();
     command.addFlag ("--fuse", options->fuse,
-                     "While the graph plays, compile it to code that computes the same in less time, and let that take over (docs/fusion.md)");
+                     "Compile the graph while it plays, and switch to the compiled code, which computes the same in less time (docs/fusion.md)");
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");
     command.addOption ("--log", options->log, "Log all inputs, for `tactus render --replay`: see docs/replay.md");
     command.addOption ("--core", options->core, "Pin the tick thread to this CPU core").check (within (0, 1023));

@@ -303,7 +303,7 @@ TEST_CASE ("a write that never returns stops the force, and the guardian takes t
         CHECK_FALSE (run.reading.valid);
         CHECK (run.device->trouble().starts_with ("the driver has not returned from `write`"));
         CHECK (FakeDriver::until ([&] { return contentOf (fake.rest_file).starts_with ("rest!"); }));
-        CHECK (host::Failsafe::alarms() > alarms);   // all forces of the run go to zero until somebody rearms
+        CHECK (host::Failsafe::alarms() > alarms);   // all forces of the run go to zero until someone rearms
         CHECK (host::Failsafe::alarm().id == "run/frozen");
 
         fake.letGo();   // then it is opened again, because the guardian has it

@@ -191,7 +191,7 @@ TEST_CASE ("a wheel that is unplugged is found again under another number, and n
     auto other = FakeEvents::wheel();
     other.name = "Another wheel";
     auto& stranger = w.events.add (other);
-    REQUIRE (eventually ([&] { return w.opened->trouble().find ("that was there is away") != std::string::npos; }));
+    REQUIRE (eventually ([&] { return w.opened->trouble().find ("which was at this port, is gone") != std::string::npos; }));
     CHECK (w.events.told (stranger).empty());
 
     auto moved = FakeEvents::wheel();
