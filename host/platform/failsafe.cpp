@@ -273,7 +273,7 @@ std::string needGuardian()
     return is_watched ? std::string() : watched.error().text;
 }
 
-/// Sets the handlers of faults while anything is armed, and then those of before again, unless somebody has replaced ours. [with `changing` held]
+/// Sets the handlers of faults while anything is armed. Then restores the previous ones, unless ours have been replaced. [with `changing` held]
 void handleFaults (bool on) noexcept
 {
     if (std::exchange (handles_faults, on) == on) return;

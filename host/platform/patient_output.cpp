@@ -120,7 +120,7 @@ private:
     OutletBuffer buffer;
 };
 
-/// Waits until somebody reads the pipe, or a stop is requested.
+/// Waits until another program reads the pipe, or a stop is requested.
 std::unique_ptr<std::ostream> openPatiently (const std::filesystem::path& path)
 {
     for (;;)

@@ -44,7 +44,7 @@ def should_be(root, path):
 
 
 def included(root, path):
-    """What a file includes: a path in the sources, or the name of a header of somebody else."""
+    """What a file includes: a path in the sources, or the name of a foreign header."""
     for quoted, bracketed in INCLUDE.findall((root / path).read_text(encoding="utf-8", errors="replace")):
         name = quoted or bracketed
         for candidate in ([path.parent / quoted] if quoted else []) + [pathlib.PurePath(name)]:

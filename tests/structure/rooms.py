@@ -123,7 +123,7 @@ def wrong_doors(root, files, all_includes):
     for room, (line, doors) in rooms.items():
         used = {target.relative_to(room).as_posix() for file, _, target in all_includes if room in target.parents and room not in file.parents}
         problems += [f"{PAGE}:{line}: {room} has another door: {name}" for name in sorted(used - doors)]
-        problems += [f"{PAGE}:{line}: nobody outside of {room} includes {name}" for name in sorted(doors - used)]
+        problems += [f"{PAGE}:{line}: no file outside of {room} includes {name}" for name in sorted(doors - used)]
     with_rooms = {room.parent for room in rooms}
     problems += [f"{PAGE}: the room {folder} is not listed" for folder in sorted(folders)
                  if folder.parent in with_rooms and folder not in rooms]

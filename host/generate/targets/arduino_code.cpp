@@ -138,11 +138,11 @@ inline Asked askedBy (const Report& r) noexcept
     return all;
 }
 
-/// A button that counts when it is pressed, not while it is held. One that is held at a reset, is stuck or only bounces does not count.
+/// A button of which only presses count. A button that is held at a reset, is stuck or only bounces does not count.
 class Button
 {
 public:
-    /// True once for each press: it was up for 20 ms, may have bounced, and is down for 20 ms. Of a late tick, in which nobody looked, 2 ms count.
+    /// True once for each press: the button was up for 20 ms, may have bounced, and is down for 20 ms. Of the time of a late tick, only 2 ms count.
     bool isPressed (std::uint32_t now_us, bool is_down) noexcept
     {
         const auto passed = now_us - seen_us;
@@ -167,10 +167,10 @@ private:
     std::uint32_t seen_us = 0, steady_us = settles_us;
 };
 
-/// Decides who drives the motors. It is the board's own graph until a host has sent its first valid report, whatever that asks for. From then
-/// on it is the host alone: when it lets go or falls silent, the board rests. The board's own graph returns only when the arm input is pressed
-/// while no host speaks, or after a reset. Whoever drives passes the guard of the role, and each change goes through zero: the guard brings
-/// the force there as in every stop, and the next one rises along the ramp.
+/// Decides who drives the motors. The board's own graph drives until a host has sent its first valid report, whatever that asks for. From then
+/// on, only the host drives: when it stops driving or falls silent, the board rests. The board's own graph returns only when the arm input is
+/// pressed while no host sends reports, or after a reset. All forces pass the guard of the role, and each change goes through zero: the guard
+/// brings the force there as in every stop, and the next force rises along the ramp.
 ///
 /// Times are compared by their differences, so a clock that wraps does no harm, and a host that is silent stays so until its next report.
 class Authority
