@@ -29,7 +29,7 @@ PAGES = {"README.md": "start", "CONTRIBUTING.md": "contributing", "SECURITY.md":
 
 NOTEBOOK = "docs/examples/python/fig4.ipynb"
 
-# The index: each section with a sentence, and its pages in the order in which one reads them.
+# The index: each section with a sentence, and its pages in the order of reading.
 SECTIONS = {
     "Start": ("What Tactus is, and a first feel: in the browser, or on your computer.", ["start", "playground", "gallery/index"]),
     "Tutorials": ("A quarter of an hour each, from nothing to something that you feel.",
@@ -41,7 +41,7 @@ SECTIONS = {
                  ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "lanes", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
                   ["nodes/index", "graph_file", "commands", "c_api", "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
-    "Decisions": ("Why things are as they are, and what was measured.", ["decisions/index"]),
+    "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
 
 # Words of the glossary that have other meanings, too. They become links only where a page links them to the glossary, or has them in bold.

@@ -3,8 +3,8 @@
 """Looks at a site that docs/build.sh has built: site_test.py TACTUS SITE
 
 Every link leads to a file and a place in it; nothing is loaded from elsewhere; every node has its page with law, ports and source; every preset has its card, its
-page with plot, sound and file, and a link to the playground; long pages have a table of contents; laws are typeset; the notebook has run; and the
-search knows all pages."""
+page with plot, sound and file, and a link to the playground; long pages have a table of contents; laws are typeset; the notebook has run; pages link
+the words of the glossary; and the search knows all pages."""
 
 import html.parser
 import json
@@ -124,7 +124,7 @@ class Site(unittest.TestCase):
                 self.assertTrue(any("../nodes/" in link for link in page.links))
 
     def test_a_long_page_has_a_table_of_contents(self):
-        long_pages = [page for page in self.pages.values() if page.words > 1500 and page.path.stem not in ("genindex", "search")]
+        long_pages = [page for page in self.pages.values() if page.words > 1500 and page.path.stem not in ("genindex", "glossary", "search")]
         self.assertGreater(len(long_pages), 5)
         self.assertEqual([page.path.name for page in long_pages if not page.has_toc], [])
 
@@ -136,6 +136,14 @@ class Site(unittest.TestCase):
         for name in ("devices", "tutorials/first_graph", "tutorials/notebook", "concepts", "nodes/friction.elasto_plastic", "gallery/dry_wood",
                      "decisions/one_walk"):
             self.assertIn(f'"{name}"', index)
+
+    def test_a_page_links_the_first_use_of_a_word_of_the_glossary(self):
+        for page, word in (("devices", "profile"), ("devices", "guard"), ("tutorials/first_node", "plugin"), ("tutorials/first_graph", "role"),
+                           ("graph_file", "section"), ("decisions/flat_plan", "record"), ("live", "live-session")):
+            with self.subTest(page=page, word=word):
+                here = self.pages[self.site / f"{page}.html"]
+                links = [link for link in here.links if link.endswith(f"#term-{word}")]
+                self.assertEqual([self.target(here, link)[0].name for link in links], ["glossary.html"])
 
 
 if __name__ == "__main__":
