@@ -59,7 +59,7 @@ private:
     bool has_frame = false;
 };
 
-class App final : public juce::JUCEApplication, private juce::Timer
+class App final : public juce::JUCEApplication
 {
 public:
     const juce::String getApplicationName() override { return "tactus-host"; }
@@ -80,7 +80,6 @@ public:
 
     void shutdown() override
     {
-        stopTimer();
         window.reset();
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
         look.reset();
@@ -105,7 +104,7 @@ private:
         window = std::make_unique<Window> (*look, how);
         watchForStop();
         giveUpBlockedOutputs();
-        startTimerHz (10);
+        window->view().onRefresh = [this] { refresh(); };
     }
 
     void giveUp (const Message& why)
@@ -150,12 +149,12 @@ private:
         return true;
     }
 
-    void timerCallback() override
+    void refresh()
     {
         window->makeRoomForFrame();
         if (! places_file.empty()) writePlaces();
-        if (! stopRequested()) return;
-        stopTimer();
+        if (! stopRequested() || has_stopped) return;
+        has_stopped = true;
         window->view().closeSuddenly();   // a signal cannot wait for an answer
         quit();
     }
@@ -174,6 +173,7 @@ private:
     std::string places_file, places;
     std::unique_ptr<Look> look;
     std::unique_ptr<Window> window;
+    bool has_stopped = false;
 };
 }   // namespace
 

@@ -60,7 +60,7 @@ def whole_tick_lines(program):
 def compiled(build):
     """Returns the compiler and the flags that affect the generated code; nodes and everything else use the same."""
     entries = json.loads((build / "compile_commands.json").read_text())
-    command = next(shlex.split(e["command"]) for e in entries if "nodes_friction_elasto_plastic_hpp" in e["file"])
+    command = next(shlex.split(e["command"]) for e in entries if "nodes_friction_elasto_plastic" in e["file"])
     command = command[next(i for i, word in enumerate(command) if word.endswith("++")):]   # drops ccache
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     flags = [f for f in command[1:] if re.match(r"-(O|m|f|std=)|-DNDEBUG", f)]

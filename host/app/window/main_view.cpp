@@ -249,6 +249,7 @@ void MainView::timerCallback()
     takes.refresh();
     layers.refresh();
     devices.refresh();
+    if (onRefresh) onRefresh();
 }
 
 void MainView::attendLiveNodes()

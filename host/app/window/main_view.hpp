@@ -105,6 +105,7 @@ public:
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
     std::function<void (const juce::String&)> onTitle;
+    std::function<void()> onRefresh;   ///< Called a few times a second, also while nothing changes.
 
     void paint (juce::Graphics&) override;
     void resized() override;
