@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "look.hpp"
 
+#include "caret.hpp"
+
 #include <host/io/typeface.hpp>
 
 namespace tactus::host
@@ -84,6 +86,8 @@ void Look::fillTextEditorBackground (juce::Graphics& g, int width, int height, j
     const juce::Rectangle<int> area (editor.getLeftIndent(), editor.getTopIndent(), width - editor.getLeftIndent(), height - editor.getTopIndent());
     g.drawText (editor.getTextToShowWhenEmpty(), area, editor.getJustificationType(), true);
 }
+
+juce::CaretComponent* Look::createCaretComponent (juce::Component* field) { return new Caret (field); }
 
 void Look::drawTextEditorOutline (juce::Graphics& g, int width, int height, juce::TextEditor& editor)
 {
