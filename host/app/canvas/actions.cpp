@@ -149,7 +149,7 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
     // A device node needs a device role. If the graph has none, also adds one: a simulated stylus, moved by a
     // simulated hand that strokes.
-    graph::Batch all { NEEDS_TRANS ("add node"), {} };
+    graph::Batch all { "add '" + node.name + "'", {} };
     if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
     node.role = g.devices.empty() ? "stylus" : g.devices.front().first;
     all.commands.push_back (graph::AddNode { patch, std::move (node) });
@@ -237,16 +237,35 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
     return std::nullopt;
 }
 
+namespace
+{
+/// What covers a part of an area: a node or a note. Empty if nothing does.
+juce::Rectangle<float> coverOf (const Scene& scene, juce::Rectangle<float> area)
+{
+    for (const auto& n : scene.nodes())
+        if (n.bounds().intersects (area)) return n.bounds();
+    for (const auto& n : scene.notes())
+        if (! n.isRegion() && n.area.intersects (area)) return n.area;
+    return {};
+}
+
+juce::Rectangle<float> usualBox (juce::Point<float> at) { return { at.x, at.y, 160.0f, 96.0f }; }
+}   // namespace
+
 juce::Point<float> freePlace (const Scene& scene, juce::Point<float> at)
 {
-    const juce::Point<float> usual_size { 160.0f, 96.0f };
-    const auto isTaken = [&] {
-        const juce::Rectangle<float> box { at, at + usual_size };
-        return std::ranges::any_of (scene.nodes(), [&] (const SceneNode& n) { return n.bounds().intersects (box); })
-               || std::ranges::any_of (scene.notes(), [&] (const Note& n) { return ! n.isRegion() && n.area.intersects (box); });
-    };
-    while (isTaken())
+    while (! coverOf (scene, usualBox (at)).isEmpty())
         at.y += 2 * Box::grid;
+    return at;
+}
+
+juce::Point<float> placeInRow (const Scene& scene, juce::Point<float> at, bool to_the_left)
+{
+    constexpr float gap = 4 * Box::grid, high = 240.0f;   // of a node with many ports
+    auto cover = coverOf (scene, usualBox (at));
+    if (! cover.isEmpty()) at.y = cover.getY();
+    for (; ! cover.isEmpty(); cover = coverOf (scene, usualBox (at).withHeight (high)))
+        at.x = to_the_left ? cover.getX() - gap - usualBox (at).getWidth() : cover.getRight() + gap;
     return at;
 }
 

@@ -21,6 +21,9 @@ graph::Command placeNodes (const graph::Graph&, const std::string& patch, const 
 /// This point, or the next one below where a node does not cover another one.
 juce::Point<float> freePlace (const Scene&, juce::Point<float>);
 
+/// This point; if a node covers it, the next place in the row of that node, at its right or at its left.
+juce::Point<float> placeInRow (const Scene&, juce::Point<float>, bool to_the_left);
+
 /// Deletes the selection. If a deleted node had exactly one incoming wire, that wire is reconnected to each of the node's
 /// destinations that it fits ("healed").
 graph::Command removeSelected (const graph::Graph&, const std::string& patch, const Scene&, const Selection&);

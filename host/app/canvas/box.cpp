@@ -5,6 +5,7 @@
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,15 @@ namespace
 constexpr float glyph_width = 22.0f, gap = 20.0f;
 
 float toGrid (float x) { return std::ceil (x / Box::grid) * Box::grid; }
+
+/// A quantity whose number has at most six digits: a node has no room for all of 569.343065693 mN, which its field shows.
+std::string briefly (const std::string& text)
+{
+    constexpr std::size_t usual_length = 8;
+    const auto end = std::min (text.find (' '), text.size());
+    const auto number = end > usual_length ? wholeNumber (text.substr (0, end)) : std::nullopt;
+    return number ? roundedText (*number) + text.substr (end) : text;
+}
 }   // namespace
 
 std::string valueText (const Json& value, const FacePort& port)
@@ -25,12 +35,13 @@ std::string valueText (const Json& value, const FacePort& port)
     {
         const auto text = value.get<std::string>();
         const auto space = text.rfind (' ');
-        return space == text.npos ? text : text.substr (0, space + 1) + unitShown (text.substr (space + 1));
+        return briefly (space == text.npos ? text : text.substr (0, space + 1) + unitShown (text.substr (space + 1)));
     }
-    if (value.is_number()) return shownQuantity (value.get<double>(), port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {});
+    if (value.is_number())
+        return briefly (shownQuantity (value.get<double>(), port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {}));
     if (! value.is_array()) return {};
     const auto partText = [] (const Json& part) {
-        if (part.is_number()) return numberText (part.get<double>());
+        if (part.is_number()) return briefly (numberText (part.get<double>()));
         return part.is_string() ? part.get<std::string>() : "?";
     };
     std::string text;

@@ -29,9 +29,11 @@ void Canvas::documentChanged()
     if (! document.isStepping()) beginEdit();
     const auto previous = shown;
     const auto patch_before = patch();
+    const auto depth_before = entered.size();
     updateBreadcrumbs();
     rebuild();
     patch() == patch_before ? repaintEdit (*previous) : repaint();
+    if (entered.size() != depth_before) frameStart();   // the patch that was shown is gone
     if (document.isStepping()) followStep (*previous);
     // A view that the user has not moved stays fitted when a node appears outside of it, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {
@@ -39,7 +41,7 @@ void Canvas::documentChanged()
         return ! before.contains (n.id)
                && ! getLocalBounds().toFloat().contains (juce::Rectangle<float> (window.toPixels (b.getTopLeft()), window.toPixels (b.getBottomRight())));
     };
-    if (framed && *framed == window && ! drag && ! document.isStepping())
+    if (isFitted() && ! drag && ! document.isStepping())
     {
         juce::Rectangle<float> out;
         for (const auto& n : shown->nodes())
@@ -143,7 +145,7 @@ void Canvas::resized()
     if (now.getWidth() < 50.0f || now.getHeight() < 50.0f) return;
     if (! framed)
         frameStart();
-    else if (*framed == window)
+    else if (isFitted())
         framed_around.isEmpty() ? frameAll() : frameAround (framed_around);
     else
         window.origin += now.getCentre() - laid_out.getCentre();

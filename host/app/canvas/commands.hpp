@@ -88,6 +88,7 @@ public:
     void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
 private:
+    juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
     std::vector<PaletteEntry> newBehind (graph::Id, const std::string& query) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     const graph::Patch& patchShown() const;

@@ -159,12 +159,23 @@ void CanvasCommands::exposeFromSelection()
     });
 }
 
+/// Wires run from left to right, so what is not wired yet gets into a row, as far as the view shows it: a hand at the left.
+juce::Point<float> CanvasCommands::placeFor (const std::string& type, const NodeRequest& request) const
+{
+    if (request.wire != 0) return request.at;
+    const auto below = freePlace (canvas.scene(), request.at);
+    if (request.start) return below;
+    const auto beside = placeInRow (canvas.scene(), request.at, type == "device.position");
+    return canvas.isFitted() || canvas.getLocalBounds().toFloat().contains (canvas.view().toPixels (beside)) ? beside : below;
+}
+
 void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& request)
 {
     graph::Id made = 0;
-    const auto at = request.wire != 0 ? request.at : freePlace (canvas.scene(), request.at);
+    const auto at = placeFor (type, request);
     if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
-    canvas.select ({ made });
+    canvas.show (canvas.patch(), made);
+    canvas.endEdit();   // undoing the edit brings back the view from before
     if (request.wire != 0)
     {
         if (auto command = insertInto (document.graph(), canvas.patch(), canvas.scene(), request.wire, made))

@@ -268,9 +268,10 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
     const auto* sheet = socket.port->sheet;
     if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
     const PortId id { node.id, Role::param, socket.port->id };
-    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id] (const juce::String& text) {
+    const juce::String before (socket.value);
+    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, [this, id, before] (const juce::String& text) {
         const auto param = canvas.scene().findPort (id);
-        if (! param || param.port->sheet == nullptr) return;
+        if (text == before || ! param || param.port->sheet == nullptr) return;   // what is shown may be rounded
         const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
         if (! read) return canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (read.error().text));
         setParam (*param.node, *param.port, read->toJson());

@@ -18,4 +18,13 @@ inline void letGoOfFocus (const juce::Component& c)
     if (c.hasKeyboardFocus (true)) juce::Component::unfocusAllComponents();
 }
 
+/// Applies what is being typed into a field, as Return does. JUCE tells a field only later that it has lost the focus, when the graph may have been
+/// saved, replaced or started without it.
+inline void endTyping()
+{
+    const auto* field = dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent());
+    if (field == nullptr) return;
+    if (const auto apply = field->onFocusLost) apply();   // a copy, because what is applied may delete the field
+}
+
 }   // namespace tactus::host

@@ -82,6 +82,20 @@ std::optional<graph::Endpoint> touchGain (const graph::Graph& g, const std::stri
     return endOf (name, "gain");
 }
 
+/// Wires the resistance of a surface into a node that lacks its load. With its usual load, friction would be felt in the air.
+void load (const graph::Node& node, const graph::Graph& g, const std::string& in, const Catalogue& catalogue, graph::Batch& batch)
+{
+    const auto& patch = *findPatch (g, in);
+    const auto* type = catalogue.find (node.type);
+    if (type == nullptr) return;
+    for (const auto& input : type->inputs)
+    {
+        if (input.id != "normal_force" || hasWireInto (patch, node.name, input.id)) continue;
+        auto from = sourceFor (input, g, patch, downstreamOf (patch, node.name), catalogue);
+        if (from && from->port == "resistance") batch.commands.push_back (graph::AddWire { in, wire (std::move (*from), endOf (node.name, input.id)) });
+    }
+}
+
 /// Wires the force of a node to a motor, unless it goes somewhere else already.
 void drive (const graph::Node& motor, const graph::Node& node, const graph::Graph& g, const std::string& in, const Catalogue& catalogue, graph::Batch& batch)
 {
@@ -94,16 +108,20 @@ void drive (const graph::Node& motor, const graph::Node& node, const graph::Grap
     batch.commands.push_back (graph::AddWire { in, wire (std::move (from), endOf (motor.name, "force", -1, out->is_vector ? -1 : z_component)) });
 }
 
-/// Wires the position and the rotation of a hand to all that lacks them.
+/// Wires the position and the rotation of a hand to all that lacks them, and what rubs to a surface.
 void guide (const graph::Node& hand, const graph::Graph& g, const std::string& in, const Catalogue& catalogue, graph::Batch& batch)
 {
     const auto& patch = *findPatch (g, in);
     const auto own = faceOf (g, patch, hand, catalogue);
     for (const auto& n : patch.nodes)
+    {
+        const auto before = batch.commands.size();
         for (const auto& input : faceOf (g, patch, n, catalogue).inputs)
             if (const auto* out = own.find (Role::output, input.id); out != nullptr && out->width == input.width && out->quantity() == input.quantity()
                                                                      && ! hasWireInto (patch, n.name, input.id))
                 batch.commands.push_back (graph::AddWire { in, wire (endOf (hand.name, out->id), endOf (n.name, input.id)) });
+        if (batch.commands.size() > before) load (n, g, in, catalogue, batch);
+    }
 }
 }   // namespace
 
@@ -235,6 +253,7 @@ graph::Batch obviousWires (const graph::Graph& g, const std::string& in, const s
         {
             graph::Batch its { batch.name, {} };
             drive (*node, n, so_far, in, catalogue, its);
+            if (! its.commands.empty()) load (n, so_far, in, catalogue, its);
             if (its.commands.empty() || ! graph::apply (so_far, its)) continue;
             std::ranges::move (its.commands, std::back_inserter (batch.commands));
         }

@@ -33,14 +33,15 @@ Palette::Palette()
 }
 
 void Palette::open (juce::Point<int> at, std::function<std::vector<PaletteEntry> (const std::string&)> s, const juce::String& p,
-                    std::function<void (const std::string&)> c)
+                    std::function<void (const std::string&)> c, Finds what)
 {
     setTopLeftPosition (at);
     search = std::move (s);
     purpose = p;
     on_chosen = std::move (c);
+    finds = what;
     query.setText ({}, false);
-    query.setTextToShowWhenEmpty (TRANS ("Search by name, unit or description"), themeOf (*this).dim);
+    query.setTextToShowWhenEmpty (finds == Finds::nodes ? TRANS ("Search by name, unit or description") : TRANS ("Search by name"), themeOf (*this).dim);
     update();
     setVisible (true);
     toFront (false);
@@ -141,8 +142,10 @@ void Palette::paint (juce::Graphics& g)
     g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
     if (! found.empty()) return;
     const auto area_below = getLocalBounds().withTrimmedTop (margin + purpose_height + query_height + gap).reduced (12, 10);
-    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N. G groups nodes into a subgraph."), area_below,
-                      juce::Justification::centredTop, 2, 1.0f);
+    const auto advice = finds == Finds::nodes ? TRANS ("No match. Try a family such as friction or vibration, or a unit such as N. "
+                                                       "G groups nodes into a subgraph.")
+                                              : TRANS ("No match. Try fewer letters or another word.");
+    g.drawFittedText (advice, area_below, juce::Justification::centredTop, 2, 1.0f);
 }
 
 void Palette::resized()
@@ -177,7 +180,7 @@ void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool s
     const auto family = entry.type.substr (0, entry.type.find_first_of (".:"));
     g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f), juce::AffineTransform::translation (10.0f, static_cast<float> (h) / 2 - 7.0f));
     area = area.withTrimmedLeft (34).reduced (0, 3);
-    auto first = area.removeFromTop (area.getHeight() / 2);
+    auto first = entry.summary.empty() ? area : area.removeFromTop (area.getHeight() / 2);
     const bool has_name = ! entry.name.empty() && entry.name != entry.type;
     const auto title = juce::String::fromUTF8 ((has_name ? entry.name : entry.type).c_str());
     first.removeFromRight (10);

@@ -18,10 +18,16 @@ public:
 
     Palette();
 
+    enum class Finds
+    {
+        nodes,
+        others   ///< such as commands or ports
+    };
+
     /// Opens the palette at a point of its parent, with an empty query. `search` returns the entries for a query, and titles between them. The
     /// palette is as high as what it lists, up to `highest`.
-    void open (juce::Point<int> at, PaletteSearch search, const juce::String& purpose,
-               std::function<void (const std::string& type)> chosen);
+    void open (juce::Point<int> at, PaletteSearch search, const juce::String& purpose, std::function<void (const std::string& type)> chosen,
+               Finds = Finds::nodes);
     void close();
 
     const std::vector<PaletteEntry>& entries() const noexcept { return found; }
@@ -52,6 +58,7 @@ private:
     std::function<void (const std::string&)> on_chosen;
     std::vector<PaletteEntry> found;
     juce::String purpose;
+    Finds finds = Finds::nodes;
     juce::TextEditor query;
     juce::ListBox list { {}, this };
 };

@@ -88,6 +88,22 @@ std::optional<Fix> wireUp (const graph::Graph& g, const ProblemLocation& at, con
     if (wires.commands.empty()) return std::nullopt;
     return Fix { label.toStdString(), std::move (wires) };
 }
+
+/// The wires that a node without effect lacks. Empty if they would not lead to a motor.
+std::optional<Fix> leadToMotor (const graph::Graph& g, const ProblemLocation& at)
+{
+    constexpr std::size_t most_nodes = 100;   // among more, it is not clear where, and looking for each of many such nodes would be slow
+    const auto* patch = findPatch (g, at.patch);
+    if (patch == nullptr || patch->nodes.size() > most_nodes) return std::nullopt;
+    auto fix = wireUp (g, at, filled (TRANS ("Wire %1"), at.node));
+    const auto isToMotor = [&] (const graph::Command& c) {
+        const auto* added = std::get_if<graph::AddWire> (&c.edit);
+        const auto* end = added == nullptr ? nullptr : patch->find (added->wire.to.node);
+        return end != nullptr && end->type == "device.force";
+    };
+    if (! fix || std::ranges::none_of (std::get<graph::Batch> (fix->command.edit).commands, isToMotor)) return std::nullopt;
+    return fix;
+}
 }   // namespace
 
 ProblemLocation locationOf (const graph::Graph& g, const Message& m)
@@ -130,6 +146,7 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     }
     if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"), true);
     if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"), false);
+    if (m.id == "node/no_effect") return leadToMotor (g, location);
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));
     if (m.severity != Message::Severity::error) return std::nullopt;

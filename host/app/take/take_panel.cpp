@@ -276,16 +276,17 @@ void TakePanel::showMark()
     repaint();
 }
 
-juce::String TakePanel::statusText() const
+std::array<juce::String, 2> TakePanel::statusTexts() const
 {
     switch (recording.state())
     {
     case Take::State::recording:
-        return filled (TRANS ("Recording: %1 s of at most %2 s"), juce::String (recording.seconds(), 1), juce::roundToInt (Take::longest_s));
+        return { filled (TRANS ("Recording: %1 s of at most %2 s"), juce::String (recording.seconds(), 1), juce::roundToInt (Take::longest_s)),
+                 juce::String (recording.seconds(), 1) + " s" };
     case Take::State::reading:
-        return TRANS ("Playing the recording again ...");
+        return { TRANS ("Playing the recording again ..."), "..." };
     case Take::State::ready:
-        return filled (TRANS ("%1 s marked"), juce::String (curve.until() - curve.from(), 3));
+        return { filled (TRANS ("%1 s marked"), juce::String (curve.until() - curve.from(), 3)), juce::String (curve.until() - curve.from(), 3) + " s" };
     default:
         return {};
     }
@@ -317,8 +318,10 @@ void TakePanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setColour (look.theme().dim);
     g.setFont (look.font (12.0f));
-    g.drawText (statusText(), record.getRight() + 12, record.getY(), std::max (0, ports.getX() - record.getRight() - 20), record.getHeight(),
-                juce::Justification::centredLeft, true);
+    const auto place = juce::Rectangle<int>::leftTopRightBottom (record.getRight() + 12, record.getY(), ports.getX() - 8, record.getBottom());
+    const auto fits = [&] (const juce::String& text) { return g.getCurrentFont().getStringWidthFloat (text) <= static_cast<float> (place.getWidth()); };
+    const auto texts = statusTexts();
+    if (const auto text = std::ranges::find_if (texts, fits); text != texts.end()) g.drawText (*text, place, juce::Justification::centredLeft, false);
     const auto label = [&] (const juce::String& text, const juce::Component& field) {
         g.drawText (text, field.getX() - 44, field.getY(), 40, field.getHeight(), juce::Justification::centredRight, false);
     };
@@ -327,12 +330,20 @@ void TakePanel::paint (juce::Graphics& g)
     g.drawText ("s", until.getRight() + 4, until.getY(), 12, until.getHeight(), juce::Justification::centredLeft, false);
 }
 
+void TakePanel::nameButtons (bool briefly)
+{
+    clip.setButtonText (briefly ? TRANS ("Clip...") : TRANS ("Make a clip..."));
+    gesture.setButtonText (briefly ? TRANS ("Gesture...") : TRANS ("Make a gesture..."));
+    test.setButtonText (briefly ? TRANS ("Test...") : TRANS ("Make a test..."));
+}
+
 void TakePanel::resized()
 {
     auto rest = getLocalBounds().reduced (12, 6);
     auto head = rest.removeFromTop (26);
     record.setBounds (head.removeFromLeft (84));
-    ports.setBounds (head.removeFromRight (std::min (220, head.getWidth() / 2)));
+    constexpr int least_port = 132;
+    ports.setBounds (head.removeFromRight (std::min (220, std::max (head.getWidth() / 2, std::min (least_port, head.getWidth() - 8)))));
     auto foot = rest.removeFromBottom (28).withTrimmedTop (2);
     foot.removeFromLeft (36);
     from.setBounds (foot.removeFromLeft (60));
@@ -340,12 +351,14 @@ void TakePanel::resized()
     until.setBounds (foot.removeFromLeft (60));
     foot.removeFromLeft (20);   // the unit
     constexpr int gap = 6;
-    const int wanted = test.bestWidth() + gesture.bestWidth() + clip.bestWidth();
-    if (wanted + 2 * gap > foot.getWidth()) foot = rest.removeFromBottom (28).withTrimmedTop (2);   // in a narrow panel, a line of their own
+    const auto wanted = [this] { return test.bestWidth() + gesture.bestWidth() + clip.bestWidth(); };
+    nameButtons (false);
+    if (wanted() + 2 * gap > foot.getWidth()) foot = rest.removeFromBottom (28).withTrimmedTop (2);   // in a narrow panel, a line of their own
     const int room = std::max (0, foot.getWidth() - 2 * gap);
-    for (auto* b : { &test, &gesture, &clip })
+    if (wanted() > room) nameButtons (true);
+    for (const int all = wanted(); auto* b : { &test, &gesture, &clip })
     {
-        b->setBounds (foot.removeFromRight (b->bestWidth() * std::min (wanted, room) / std::max (1, wanted)));
+        b->setBounds (foot.removeFromRight (b->bestWidth() * std::min (all, room) / std::max (1, all)));
         foot.removeFromRight (gap);
     }
     curve.setBounds (rest.withTrimmedTop (6).withTrimmedBottom (4));

@@ -9,6 +9,8 @@
 #include <host/app/text/filled.hpp>
 #include <tactus/kit/signal/clip.hpp>
 
+#include <array>
+
 namespace tactus::host
 {
 
@@ -68,7 +70,8 @@ private:
     void showMark();
     void applyFields();
     void refuse (const Message&);
-    juce::String statusText() const;
+    std::array<juce::String, 2> statusTexts() const;   ///< the same in short, for a narrow panel
+    void nameButtons (bool briefly);
     StretchReader::Options marked() const;
 
     Document& document;

@@ -5,7 +5,6 @@
 #include <host/app/look/focus.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -44,7 +43,6 @@ void Tour::go (int by)
     if (onStep) onStep (steps[now]);
     setDescription (steps[now].title + ". " + steps[now].text);
     next.setButtonText (now + 1 < steps.size() ? TRANS ("Next") : TRANS ("Done"));
-    back.setVisible (now > 0);
     skip.setVisible (now + 1 < steps.size());
     resized();
     repaint();
@@ -77,30 +75,49 @@ juce::Rectangle<int> Tour::framed() const
     return getLocalArea (part, part->getLocalBounds()).getIntersection (getLocalBounds()).reduced (2);
 }
 
-juce::TextLayout Tour::layout() const
+juce::TextLayout Tour::layout (int card_width) const
 {
     const auto& look = lookOf (*this);
-    return wrapText (now < steps.size() ? steps[now].text : juce::String(), look.font (13.0f), look.theme().text, static_cast<float> (width - 2 * margin));
+    const auto text = now < steps.size() ? steps[now].text : juce::String();
+    return wrapText (text, look.font (13.0f), look.theme().text, static_cast<float> (card_width - 2 * margin));
 }
 
-/// The card is beside the part, or else in a corner of it.
+int Tour::heightFor (int card_width) const { return 3 * margin + 24 + 4 + 32 + static_cast<int> (std::ceil (layout (card_width).getHeight())); }
+
+/// A card of this width beside the part, which it leaves free: the part is there to be tried. Empty if there is no room.
+juce::Rectangle<int> Tour::besidePart (int card_width) const
+{
+    const auto part = framed();
+    const auto all = getLocalBounds().reduced (gap);
+    const juce::Rectangle<int> size (card_width, heightFor (card_width));
+    const int x = std::max (all.getX(), part.getX()), y = std::max (all.getY(), part.getY());
+    const int lowest = std::max (all.getY(), std::min (y, all.getBottom() - size.getHeight()));
+    for (const auto& place : { size.withPosition (part.getRight() + gap, lowest), size.withPosition (part.getX() - gap - card_width, lowest),
+                               size.withPosition (x, part.getY() - gap - size.getHeight()), size.withPosition (x, part.getBottom() + gap) })
+        if (all.contains (place)) return place;
+    return {};
+}
+
+/// The card is beside the part, narrower in a small window, or else in a corner of the part.
 void Tour::resized()
 {
-    const int height = margin + 24 + 4 + static_cast<int> (std::ceil (layout().getHeight())) + 16 + 32 + margin;
+    if (! isOpen()) return;
     const auto part = framed();
-    constexpr int gap = 12;
     const auto all = getLocalBounds().reduced (gap);
-    const juce::Rectangle<int> size (std::min (width, all.getWidth()), std::min (height, all.getHeight()));
-    card = size.withCentre (all.getCentre());
+    card = {};
     if (! part.isEmpty())
+        for (int w = width; card.isEmpty() && w >= least_width; w -= 8)
+            card = besidePart (w);
+    if (card.isEmpty())
     {
-        const int x = std::max (all.getX(), part.getX()), y = std::max (all.getY(), part.getY());
-        const std::array places { size.withPosition (part.getRight() + gap, y), size.withPosition (part.getX() - gap - size.getWidth(), y),
-                                  size.withPosition (x, part.getY() - gap - size.getHeight()), size.withPosition (x, part.getBottom() + gap) };
-        const auto free = std::ranges::find_if (places, [&] (const auto& p) { return all.contains (p); });
-        card = (free != places.end() ? *free : size.withPosition (part.getRight() - gap - size.getWidth(), part.getY() + gap)).constrainedWithin (all);
+        const int w = std::min (width, all.getWidth());
+        const juce::Rectangle<int> size (w, std::min (heightFor (w), all.getHeight()));
+        card = part.isEmpty() ? size.withCentre (all.getCentre())
+                              : size.withPosition (part.getRight() - gap - w, part.getY() + gap).constrainedWithin (all);
     }
     auto row = card.reduced (margin).removeFromBottom (32);
+    const int others = next.widthFor() + (skip.isVisible() ? skip.widthFor() + 8 : 0);
+    back.setVisible (now > 0 && others + 8 + back.widthFor() <= row.getWidth());   // the left arrow goes back, too
     for (auto* b : { &next, &back })
     {
         b->setBounds (row.removeFromRight (b->widthFor()));
@@ -128,7 +145,7 @@ void Tour::paint (juce::Graphics& g)
     g.setFont (look.font (15.0f, true));
     g.drawText (steps[now].title, first, juce::Justification::centredLeft, true);
     area.removeFromTop (4);
-    layout().draw (g, area.toFloat());
+    layout (card.getWidth()).draw (g, area.toFloat());
 }
 
 }   // namespace tactus::host

@@ -39,9 +39,11 @@ public:
 
 private:
     juce::Rectangle<int> framed() const;
-    juce::TextLayout layout() const;
+    juce::TextLayout layout (int card_width) const;
+    int heightFor (int card_width) const;
+    juce::Rectangle<int> besidePart (int card_width) const;
 
-    static constexpr int width = 360, margin = 16;
+    static constexpr int width = 360, least_width = 232, margin = 16, gap = 12;
     std::vector<Step> steps;
     std::size_t now = 0;
     juce::Rectangle<int> card;

@@ -2,6 +2,7 @@
 #include "files.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
@@ -79,6 +80,7 @@ std::string Files::name() const
 //==============================================================================
 void Files::whenSaved (const juce::String& asked, std::function<void()> act)
 {
+    endTyping();
     while (question.isOpen())
         question.cancel();
     if (! document.isChanged()) return act();
@@ -176,12 +178,14 @@ void Files::openCopy (const fs::path& preset, bool by_pointer)
 //==============================================================================
 void Files::save (std::function<void()> then)
 {
+    endTyping();
     if (document.file().empty()) return saveAs (std::move (then));
     saveTo (document.file(), then);
 }
 
 void Files::saveAs (std::function<void()> then)
 {
+    endTyping();
     const auto& now = document.file();
     const auto called = stemFor (document.graph().name);
     const auto folder = now.empty() ? ownFolder() : now.parent_path();
@@ -338,6 +342,7 @@ void Files::end()
 void Files::endSuddenly()
 {
     if (! session) return;
+    endTyping();
     if (! document.isChanged()) return end();
     autosave();
     autosaver.reset();

@@ -66,7 +66,7 @@ void MainView::addPanels()
     addPages();
     for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, &left, &bottom, &top, &patching, &inspector, &status })
         addAndMakeVisible (c);
-    for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
+    for (const auto& [name, edge] : edges())
         addAndMakeVisible (*edge);
     for (auto* over : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour, &fitting, &question, &shade })
         addChildComponent (over);
@@ -111,9 +111,16 @@ void MainView::begin (const StartOptions& how)
     }
 }
 
-std::array<std::pair<const char*, Splitter*>, 3> MainView::edges()
+std::array<std::pair<const char*, Splitter*>, 5> MainView::edges()
 {
-    return { { { "left", &left_edge }, { "right", &right_edge }, { "bottom", &bottom_edge } } };
+    return { { { "left", &left_edge }, { "right", &right_edge }, { "bottom", &bottom_edge }, { "hand", &hand_edge }, { "page", &page_edge } } };
+}
+
+MainView::Shares MainView::shares()
+{
+    Shares all;
+    std::ranges::transform (edges(), all.begin(), [] (const auto& e) { return e.second->share(); });
+    return all;
 }
 
 void MainView::rememberPanels()
@@ -130,7 +137,7 @@ void MainView::edgeMoved()
     resized();
 }
 
-void MainView::restorePanels (std::array<std::optional<double>, 3> to)
+void MainView::restorePanels (const Shares& to)
 {
     shares_before = to;
     for (std::size_t i = 0; const auto& [name, edge] : edges())
@@ -142,7 +149,7 @@ void MainView::panelsMoved()
 {
     const auto before = std::exchange (shares_before, shares()), now = shares_before;
     if (before == now) return;
-    const auto restored = [safe = SafePointer (this)] (std::array<std::optional<double>, 3> to) {
+    const auto restored = [safe = SafePointer (this)] (const Shares& to) {
         return [safe, to] {
             if (safe != nullptr) safe->restorePanels (to);
         };
@@ -153,10 +160,10 @@ void MainView::panelsMoved()
 /// Leaves the window to the canvas, or brings back the panels that were open before.
 void MainView::foldPanels()
 {
-    const auto isFolded = [] (const auto& e) { return e.second->isFolded(); };
-    const bool is_any_open = ! std::ranges::all_of (edges(), isFolded);
-    if (is_any_open) folded_before = { left_edge.isFolded(), right_edge.isFolded(), bottom_edge.isFolded() };
-    for (std::size_t i = 0; const auto& [name, edge] : edges())
+    const std::array folding { &left_edge, &right_edge, &bottom_edge };
+    const bool is_any_open = ! std::ranges::all_of (folding, &Splitter::isFolded);
+    if (is_any_open) std::ranges::transform (folding, folded_before.begin(), &Splitter::isFolded);
+    for (std::size_t i = 0; auto* edge : folding)
         edge->fold (is_any_open || folded_before[i++]);
     edgeMoved();
     panelsMoved();

@@ -205,7 +205,9 @@ private:
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
-    std::array<std::pair<const char*, Splitter*>, 3> edges();   ///< of the panels, by the names that the settings give them
+    using Shares = std::array<std::optional<double>, 5>;
+    std::array<std::pair<const char*, Splitter*>, 5> edges();   ///< of the panels, by the names that the settings give them; only the first three fold
+    Shares shares();
     void rememberPanels();
     void foldPanels();
     void saveSettingsSoon();
@@ -230,10 +232,11 @@ private:
     HandPanel hand { playback, sound };
     Tabs left, bottom, pages;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
-    std::array<std::optional<double>, 3> shares() const { return { left_edge.share(), right_edge.share(), bottom_edge.share() }; }
-    void restorePanels (std::array<std::optional<double>, 3>);
-    std::array<std::optional<double>, 3> shares_before {};   // at the last step of the history
-    std::array<bool, 3> folded_before {};                    // by panel, before foldPanels() folded them all
+    Splitter hand_edge { Splitter::Edge::right, 420, 280, Splitter::Folds::no };
+    Splitter page_edge { Splitter::Edge::right, 320, 224, Splitter::Folds::no };   // of the pages of a small window
+    void restorePanels (const Shares&);
+    Shares shares_before {};                // at the last step of the history
+    std::array<bool, 3> folded_before {};   // by panel, before foldPanels() folded them all
     TopBar top { edited };
     Canvas patching;
     Inspector inspector;

@@ -121,7 +121,8 @@ void MainView::findAction()
         const auto found = std::ranges::find (all, fromUtf8 (chosen), &Action::name);
         if (found != all.end()) found->act();
     };
-    palette.open ({ (getWidth() - Palette::width) / 2, top.getBottom() }, search, TRANS ("Find a command, a button or a panel"), choose);
+    palette.open ({ (getWidth() - Palette::width) / 2, top.getBottom() }, search, TRANS ("Find a command, a button or a panel"), choose,
+                  Palette::Finds::others);
 }
 
 }   // namespace tactus::host

@@ -70,6 +70,7 @@ bool MainView::panelKey (const juce::KeyPress& key)
         findAction();
     else if (key.isKeyCode (juce::KeyPress::F5Key))
     {
+        endTyping();
         if (! playback.current().isRunning()) playback.restart();   // as START does
     }
     else

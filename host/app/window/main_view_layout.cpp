@@ -13,6 +13,7 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420;
+constexpr int least_column = 216, least_scopes_width = 320;
 constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in units of the window
 constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
 constexpr int least_width = 680, least_height = 420;                  // of a window whose panels are side by side
@@ -56,13 +57,15 @@ void MainView::turnTo (const juce::Component& part)
 /// The page at the left, and the lower panels at the right of it.
 void MainView::layOutPages (juce::Rectangle<int> area)
 {
-    for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
+    for (auto* edge : { &left_edge, &right_edge, &bottom_edge, &hand_edge })
         edge->setVisible (false);
-    const bool is_alone = bottom_edge.isFolded();
     if (hand.isEnlarged()) turnTo (hand);
-    auto column = is_alone || hand.isEnlarged() ? area : area.removeFromLeft (area.getWidth() / 2);
+    const bool is_alone = bottom_edge.isFolded() || hand.isEnlarged();
+    page_edge.setVisible (! is_alone);
+    page_edge.beginAt (area.getWidth() / 2);
+    auto column = is_alone ? area : page_edge.take (area, least_column);
     bottom.setBounds (area);
-    bottom.setVisible (! is_alone && ! hand.isEnlarged());
+    bottom.setVisible (! is_alone);
     pages.setBounds (column);
     pages.setVisible (true);
     column.removeFromTop (Tabs::row_height);
@@ -76,12 +79,15 @@ void MainView::layOutPages (juce::Rectangle<int> area)
 void MainView::layOutPanels (juce::Rectangle<int>& area)
 {
     pages.setVisible (false);
+    page_edge.setVisible (false);
     for (auto* c : std::initializer_list<juce::Component*> { &left_edge, &right_edge, &bottom_edge, &left, &inspector, &hand, &bottom })
         c->setVisible (true);
     auto low = bottom_edge.take (area, std::clamp (area.getHeight() - least_bottom_height, lowest_canvas_height, least_canvas_height));
     left.setBounds (left_edge.take (area, least_canvas_width));
     inspector.setBounds (right_edge.take (area, least_canvas_width));
-    if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
+    hand_edge.setVisible (! hand.isEnlarged());
+    hand_edge.beginAt (std::min (hand_width, low.getWidth() / 2));
+    if (! hand.isEnlarged()) hand.setBounds (hand_edge.take (low, least_scopes_width));
     bottom.setBounds (low);
     patching.setBounds (area);
     patching.setVisible (! hand.isEnlarged());

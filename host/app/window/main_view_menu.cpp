@@ -253,6 +253,7 @@ void MainView::launchChooser (const juce::String& title, const juce::String& pat
     auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (getCurrentlyModalComponent());
     auto* name = dialog == nullptr ? nullptr : nameField (*dialog);
     if (name == nullptr) return;
+    dialog->setBounds (dialog->getBounds().constrainedWithin (getLocalBounds().withTrimmedTop (SafetyStrip::height)));   // STOP stays within reach
     if (auto* browser = browserIn (*dialog))
     {
         path_keys = std::make_unique<PathKeys> (*browser);

@@ -74,8 +74,11 @@ void MainView::connectSides()
     top.onHelp = [this] { helpOnSelection(); };
     top.onMenu = [this] (juce::Component& at) { openMenu (at); };
 
-    left_edge.onMove = right_edge.onMove = bottom_edge.onMove = [this] { edgeMoved(); };
-    left_edge.onMoved = right_edge.onMoved = bottom_edge.onMoved = [this] { panelsMoved(); };
+    for (const auto& [name, edge] : edges())
+    {
+        edge->onMove = [this] { edgeMoved(); };
+        edge->onMoved = [this] { panelsMoved(); };
+    }
 }
 
 void MainView::connectRun()

@@ -81,10 +81,11 @@ void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose,
                   std::function<void (const std::string&)> chosen)
 {
     const auto at = palette.getParentComponent()->getMouseXYRelative();
-    palette.open (at, std::move (search), purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+    const auto choose = [&canvas, chosen = std::move (chosen)] (const std::string& type) {
         takeFocus (canvas);   // first: what is chosen may open the palette again
         chosen (type);
-    });
+    };
+    palette.open (at, std::move (search), purpose, choose, Palette::Finds::others);
 }
 
 }   // namespace tactus::host

@@ -10,8 +10,9 @@
 namespace tactus::host
 {
 
-/// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel. A panel has
-/// its initial size until it is dragged, at the bottom of a high window a larger one; from then on, it keeps its share of the window.
+/// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel; if it cannot be folded,
+/// it gets its initial size again. A panel has its initial size until it is dragged, at the bottom of a high window a larger one; from then on, it
+/// keeps its share of the window.
 class Splitter final : public juce::Component
 {
 public:
@@ -24,7 +25,13 @@ public:
         top      ///< the top edge of a panel at the bottom
     };
 
-    Splitter (Edge e, int initial, int least) : edge (e), initial_extent (initial), least_extent (least)
+    enum class Folds
+    {
+        yes,
+        no
+    };
+
+    Splitter (Edge e, int initial, int least, Folds f = Folds::yes) : edge (e), folds (f == Folds::yes), initial_extent (initial), least_extent (least)
     {
         setMouseCursor (edge == Edge::top ? juce::MouseCursor::UpDownResizeCursor : juce::MouseCursor::LeftRightResizeCursor);
         setTitle (TRANS ("Panel edge"));
@@ -32,21 +39,18 @@ public:
 
     /// The panel's share of the width or height of the window; 0 if it is folded, nothing if it has its initial size.
     std::optional<double> share() const { return is_folded ? 0.0 : dragged; }
-    void setShare (double s)
-    {
-        is_folded = s <= 0.0;
-        if (! is_folded) dragged = s;
-    }
+    void setShare (double s) { restore (s <= 0.0 ? 0.0 : s); }
 
     /// The panel as it was when share() returned this.
     void restore (std::optional<double> s)
     {
-        is_folded = s == 0.0;
-        if (! is_folded) dragged = s;
+        is_folded = folds && s == 0.0;
+        if (s != 0.0) dragged = s;
     }
 
     bool isFolded() const noexcept { return is_folded; }
     void fold (bool folded) { is_folded = folded; }
+    void beginAt (int extent) { initial_extent = extent; }   ///< another initial size
 
     std::function<void()> onMove;
     std::function<void()> onMoved;   ///< called when a drag has ended, and after a double click
@@ -94,7 +98,7 @@ public:
         const auto way = e.getEventRelativeTo (getParentComponent()).getOffsetFromDragStart();
         const int grown = edge == Edge::top ? -way.y : way.x;
         const int wanted = grabbed + (edge == Edge::left ? -grown : grown);
-        setShare (wanted < least_extent / 2 ? 0.0 : static_cast<double> (std::max (wanted, least_extent)) / whole());
+        setShare (folds && wanted < least_extent / 2 ? 0.0 : static_cast<double> (std::max (wanted, least_extent)) / whole());
         if (onMove) onMove();
     }
 
@@ -105,7 +109,10 @@ public:
 
     void mouseDoubleClick (const juce::MouseEvent&) override
     {
-        is_folded = ! is_folded;
+        if (folds)
+            is_folded = ! is_folded;
+        else
+            dragged.reset();
         if (onMove) onMove();
         if (onMoved) onMoved();
     }
@@ -122,7 +129,9 @@ private:
     }
 
     const Edge edge;
-    const int initial_extent, least_extent;
+    const bool folds;
+    int initial_extent;
+    const int least_extent;
     std::optional<double> dragged;   // the share of the window
     bool is_folded = false;
     int grabbed = 0;

@@ -123,7 +123,7 @@ void Tabs::paint (juce::Graphics& g)
         g.drawText (name, place, juce::Justification::centred, false);
         if (! is_current) continue;
         g.setColour (theme.accent);
-        g.fillRect (place.reduced (12.0f, 0.0f).removeFromBottom (2.0f));
+        g.fillRect (place.withSizeKeepingCentre (g.getCurrentFont().getStringWidthFloat (name), place.getHeight()).removeFromBottom (2.0f));
         if (hasKeyboardFocus (false)) g.drawRoundedRectangle (place.reduced (4.0f), 4.0f, 1.0f);
     }
     const auto more = placeOfMenu();

@@ -255,3 +255,61 @@ TEST_CASE ("a subgraph is where its nodes were, and grouping is one step", "[app
         CHECK (rig.text() == before);
     }
 }
+
+TEST_CASE ("nodes that are added without a wire make a row that can be read, with the hand at its left", "[app][canvas]")
+{
+    CanvasRig rig;
+    rig.canvas->setSize (744, 346);
+    rig.canvas->frameStart();
+    const auto add = [&] (const char* type) {
+        rig.canvas->commands().addNodeAt (type, { rig.canvas->view().toCanvas ({ 320.0f, 230.0f }) });   // the pointer stays where it is
+    };
+    for (const auto* type : { "deform.plane", "friction.elasto_plastic", "device.position", "device.force", "texture.grating" })
+        add (type);
+    const auto& nodes = rig.canvas->scene().nodes();
+    REQUIRE (nodes.size() == 5);
+    CHECK (rig.canvas->view().zoom >= View::readable);
+    const auto window = rig.canvas->getLocalBounds().toFloat();
+    for (const auto& n : nodes)
+    {
+        INFO (n.name);
+        CHECK (window.contains (rig.canvas->view().toPixels (n.bounds().getTopLeft())));
+        CHECK (window.contains (rig.canvas->view().toPixels (n.bounds().getBottomRight())));
+        for (const auto& other : nodes)
+            CHECK ((other.id == n.id || ! other.bounds().intersects (n.bounds())));
+        if (n.name != "hand") CHECK (rig.node ("hand").at.x < n.at.x);
+    }
+}
+
+TEST_CASE ("in a view that the user has moved, a new node is still where it can be seen", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.canvas->setSize (424, 400);
+    rig.canvas->frameStart();
+    const auto& board = rig.node ("board");
+    rig.canvas->view().zoom = 1.0f;
+    rig.canvas->view().centreOn (board.bounds().getCentre(), rig.canvas->getLocalBounds().toFloat());
+    const auto before = rig.canvas->view();
+    rig.canvas->commands().addNodeAt ("signal.lfo", { rig.node ("board").bounds().getCentre() });
+    CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.node ("lfo").bounds().getCentre())));
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.canvas->view() == before);
+}
+
+TEST_CASE ("an undo that removes the subgraph on the screen shows the graph around it", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.canvas->setSize (744, 346);
+    rig.canvas->frameStart();
+    const auto before = rig.canvas->view();
+    rig.canvas->select ({ rig.node ("board").id });
+    rig.hand().key ("g");
+    rig.hand().key ("return");
+    REQUIRE (rig.canvas->breadcrumbs().size() == 1);
+    REQUIRE_FALSE (rig.canvas->view() == before);
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.canvas->breadcrumbs().empty());
+    CHECK (rig.canvas->view() == before);
+    rig.hand().key ("ctrl + y");
+    CHECK (rig.canvas->view() == before);
+}

@@ -7,6 +7,7 @@
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/plan/rules/unheard.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -164,6 +165,47 @@ TEST_CASE ("what is there but cannot be felt is a problem\\, and a click wires i
             REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
         CHECK (hasWire (g, "hand.position -> wall.position"));
         CHECK (hasWire (g, "wall.force -> motor.force"));
+    }
+    SECTION ("friction gets the load of the surface with its position, or else with its way to the motor")
+    {
+        const auto motor_first = GENERATE (false, true);
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"rub":{"type":"friction.elasto_plastic"}},"wires":[])");
+        for (const auto* id : { motor_first ? "graph/motor_unwired" : "graph/hand_unwired", motor_first ? "graph/hand_unwired" : "graph/motor_unwired" })
+        {
+            const auto missing = unfeltIn (g);
+            const auto m = std::ranges::find (missing, id, &Message::id);
+            REQUIRE (m != missing.end());
+            REQUIRE (graph::apply (g, fixOf (g, *m)->command).has_value());
+        }
+        CHECK (hasWire (g, "wall.resistance -> rub.normal_force"));   // not felt in the air
+        CHECK (g.root.wires.size() == 5);
+    }
+    SECTION ("a load that is wired, or that no surface gives, stays as it is")
+    {
+        auto g = graphOf (R"("nodes":{"hand":{"type":"device.position"},"motor":{"type":"device.force"},"rub":{"type":"friction.elasto_plastic"}},"wires":[])");
+        while (! unfeltIn (g).empty())
+            REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
+        CHECK (g.root.wires.size() == 2);
+    }
+    SECTION ("a node without effect")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"ridges":{"type":"texture.grating"},
+            "rub":{"type":"friction.elasto_plastic"},"sway":{"type":"signal.lfo"}},
+            "wires":["hand.position -> wall.position","wall.force -> motor.force"])");
+        for (const auto& m : plan::unheardNodes (g, catalogue()))
+        {
+            INFO (m.where);
+            REQUIRE (m.id == "node/no_effect");
+            const auto fix = fixOf (g, m);
+            REQUIRE (fix.has_value() == ! m.where.ends_with ("sway"));   // only the user knows what it is for
+            if (! fix) continue;
+            CHECK (fix->label == "Wire " + locationOf (g, m).node);
+            REQUIRE (graph::apply (g, fix->command).has_value());
+        }
+        for (const auto* w : { "hand.position -> ridges.position", "ridges_felt.out -> motor.force", "hand.position -> rub.position",
+                               "wall.resistance -> rub.normal_force", "rub.force -> motor.force" })
+            CHECK (hasWire (g, w));
+        CHECK (plan::unheardNodes (g, catalogue()).size() == 1);
     }
     SECTION ("an effect that does not know where the tool is")
     {

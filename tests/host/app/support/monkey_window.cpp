@@ -46,7 +46,7 @@ std::string Monkey::typeSomewhere()
     const bool replaces = upTo (4) != 0;
     if (replaces) stage->key (juce::String ("ctrl + a"));
     stage->type (text);
-    static const char* const ends[] { "return", "return", "escape", "tab", "" };
+    static const char* const ends[] { "return", "return", "escape", "tab", "ctrl + s", "" };
     const juce::String end = oneOf (ends);
     if (end.isNotEmpty()) stage->key (end);
     auto* focus = juce::Component::getCurrentlyFocusedComponent();
@@ -62,7 +62,8 @@ std::string Monkey::wait()
 
 std::string Monkey::resize()
 {
-    stage->setSize (960 + upTo (1000), 600 + upTo (500));
+    const bool is_small = upTo (4) == 0;   // too small for all panels side by side
+    is_small ? stage->setSize (512 + upTo (170), 350 + upTo (100)) : stage->setSize (960 + upTo (1000), 600 + upTo (500));
     return "resize to " + std::to_string (stage->getWidth()) + " x " + std::to_string (stage->getHeight());
 }
 

@@ -4,6 +4,9 @@
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/scopes/scope_view.hpp>
+#include <host/app/storage/settings.hpp>
+
+#include <array>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -153,6 +156,159 @@ TEST_CASE ("in a small window\\, every panel can be opened\\, and no button is o
     CHECK (w.titled ("Search presets")->hasKeyboardFocus (true));
 }
 
+TEST_CASE ("the columns of a small window are resized by a drag\\, halved again by a double click\\, undone and remembered", "[app][small]")
+{
+    WindowRig w ("dry_wood.json", small_width, small_height);
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    const auto edge = [&]() -> juce::Component& {
+        juce::Component* found = nullptr;
+        for (auto* s : shown<Splitter> (*w.view))
+            if (s->getHeight() > 100) found = s;
+        REQUIRE (found != nullptr);
+        return *found;
+    };
+    CHECK (shown<Splitter> (*w.view).size() == 1);
+    const int half = canvas.getWidth();
+    CHECK (half == small_width / 2);
+    w.stage->drag (w.middleOf (edge()), w.middleOf (edge()).translated (30.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (std::abs (canvas.getWidth() - (half + 30)) <= 1);
+    CHECK (w.titled ("Scopes")->getWidth() == small_width - canvas.getWidth());
+    CHECK (outOfReach (w).isEmpty());
+    w.key ("ctrl + z");
+    CHECK (canvas.getWidth() == half);
+    w.key ("ctrl + y");
+    CHECK (std::abs (canvas.getWidth() - (half + 30)) <= 1);
+    for (const float way : { 2000.0f, -2000.0f })   // neither column goes away
+    {
+        w.stage->drag (w.middleOf (edge()), w.middleOf (edge()).translated (way, 0.0f));
+        WindowRig::settle();
+        CHECK (canvas.getWidth() >= 210);
+        CHECK (w.titled ("Scopes")->getWidth() >= 210);
+    }
+    w.stage->doubleClick (w.middleOf (edge()));
+    WindowRig::settle();
+    CHECK (canvas.getWidth() == half);
+    w.stage->drag (w.middleOf (edge()), w.middleOf (edge()).translated (30.0f, 0.0f));
+    WindowRig::settle (1500);   // the settings are saved a little later
+    const auto panels = loadSettings (w.home.path()).settings.panels;
+    REQUIRE (panels.contains ("page"));
+    CHECK (panels.at ("page") == Approx (static_cast<double> (canvas.getWidth()) / small_width).margin (0.01));
+    w.key ("z");   // leaves the window to the page
+    CHECK (shown<Splitter> (*w.view).empty());
+    w.key ("z");
+    w.stage->doubleClick (w.middleOf (edge()));
+    WindowRig::settle();
+    CHECK (canvas.getWidth() == half);
+}
+
+TEST_CASE ("the hand and the scopes share the width as one drags the edge between them", "[app][small]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720);
+    auto& surface = *w.titled ("Surface");
+    const int before = surface.getWidth(), scopes = w.titled ("Scopes")->getWidth();
+    juce::Component* edge = nullptr;
+    for (auto* s : shown<Splitter> (*w.view))
+        if (s->getHeight() > s->getWidth() && s->getY() > 400) edge = s;
+    REQUIRE (edge != nullptr);
+    w.stage->drag (w.middleOf (*edge), w.middleOf (*edge).translated (-80.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (std::abs (surface.getWidth() - (before - 80)) <= 1);
+    CHECK (std::abs (w.titled ("Scopes")->getWidth() - (scopes + 80)) <= 1);
+    CHECK (outOfReach (w).joinIntoString ("; ") == "");
+}
+
+TEST_CASE ("the labels of a take are whole in a small window", "[app][small][take]")
+{
+    const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360), std::pair (1280, 720));
+    INFO (width << " x " << height);
+    WindowRig w ("dry_wood.json", width, height, false);
+    auto& panel = w.view->takePanel();
+    w.click ("Take");
+    const auto checkLabels = [&] (std::vector<std::array<juce::String, 2>> wanted) {
+        const auto texts = host::test::readTexts (panel);
+        CHECK (host::test::cutOff (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        CHECK (host::test::overlaps (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        for (const auto& either : wanted)
+        {
+            INFO (either[0]);
+            CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == either[0] || t.text == either[1]; }));
+        }
+        for (const auto& t : texts)
+            CHECK_FALSE ((t.text.endsWith ("...") && ! t.text.startsWithIgnoreCase ("make a") && ! t.text.startsWith ("Clip") && ! t.text.startsWith ("Gesture")
+                          && ! t.text.startsWith ("Test")));   // shortened, because it does not fit
+    };
+    w.click ("Record");
+    for (int i = 0; i < 3000 && ! (panel.take().state() == Take::State::recording && panel.plot().length() > 0.05); ++i)
+        WindowRig::settle (10);
+    checkLabels ({ { "Stop", "Stop" }, { "motor.force", "motor.force" } });
+    w.click ("Stop");
+    for (int i = 0; i < 3000 && panel.take().state() != Take::State::ready; ++i)
+        WindowRig::settle (10);
+    REQUIRE (panel.take().state() == Take::State::ready);
+    WindowRig::settle (100);
+    std::vector<std::array<juce::String, 2>> all { { "Record", "Record" }, { "motor.force", "motor.force" }, { "from", "from" }, { "until", "until" } };
+    for (const auto* what : { "clip", "gesture", "test" })
+    {
+        const juce::String name (what);
+        all.push_back ({ "Make a " + name + "...", name.substring (0, 1).toUpperCase() + name.substring (1) + "..." });
+    }
+    checkLabels (all);
+    w.view->run().letGo();
+}
+
+TEST_CASE ("in a small window\\, the tour leaves free what one is to try\\, and a dialog for files leaves STOP free", "[app][small]")
+{
+    const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360));
+    INFO (width << " x " << height);
+    WindowRig w ("dry_wood.json", width, height);
+    w.key ("shift + F1");
+    auto& tour = w.view->guidedTour();
+    REQUIRE (tour.isOpen());
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto middle = w.middleOf (*surface).toInt();
+    const auto* hit = w.stage->getComponentAt (middle);
+    CHECK ((hit == surface || surface->isParentOf (hit)));
+    for (int i = 0; i < 4; ++i)
+    {
+        for (auto* b : shown<juce::Button> (tour))
+            CHECK (w.view->getLocalBounds().contains (w.view->getLocalArea (b, b->getLocalBounds())));
+        const auto texts = host::test::readTexts (tour);
+        CHECK (host::test::overlaps (texts, tour.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        CHECK (host::test::cutOff (texts, tour.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        w.click ("Next");
+    }
+    w.click ("Done");
+
+    setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
+    w.key ("ctrl + shift + s");
+    unsetenv ("TACTUS_GRAPHS");
+    auto* dialog = juce::Component::getCurrentlyModalComponent();
+    REQUIRE (dialog != nullptr);
+    CHECK (dialog->getY() >= SafetyStrip::height);
+    CHECK (w.view->getLocalBounds().contains (dialog->getBounds()));
+    for (auto* b : shown<juce::Button> (*dialog))
+        CHECK (dialog->getLocalBounds().contains (dialog->getLocalArea (b, b->getLocalBounds())));
+    w.key ("escape");
+}
+
+TEST_CASE ("a search for commands says nothing about nodes", "[app][small][palette]")
+{
+    WindowRig w ("dry_wood.json", 640, 360);
+    w.key ("ctrl + k");
+    const auto isSaid = [&] (const juce::String& text) {
+        return std::ranges::any_of (host::test::readTexts (*w.titled ("Palette")), [&] (const auto& t) { return t.text.contains (text); });
+    };
+    CHECK (isSaid ("Search by name"));
+    CHECK_FALSE (isSaid ("unit"));
+    w.stage->type ("zzqq");
+    WindowRig::settle();
+    CHECK (isSaid ("No match"));
+    CHECK_FALSE (isSaid ("friction"));
+}
+
 TEST_CASE ("the titles of tabs are all in the row or in its menu\\, whatever the width", "[app][small]")
 {
     juce::ScopedJuceInitialiser_GUI gui;
@@ -160,6 +316,14 @@ TEST_CASE ("the titles of tabs are all in the row or in its menu\\, whatever the
     juce::LookAndFeel::setDefaultLookAndFeel (&look);
     {
         Tabs tabs;
+        const auto widthOf = [&] (const juce::String& title) { return look.font (13.0f, true).getStringWidthFloat (title); };
+        const auto underlined = [&] (Tabs& row) {
+            const auto picture = row.createComponentSnapshot (row.getLocalBounds().withHeight (Tabs::row_height));
+            float count = 0.0f;
+            for (int x = 0; x < picture.getWidth(); ++x)
+                if (picture.getPixelAt (x, Tabs::row_height - 2) == look.theme().accent) ++count;
+            return count;
+        };
         for (const char* name : { "Scopes", "Take", "Layers", "Devices", "Problems 12" })
             tabs.add<juce::Component> (name);
         for (int width = 120; width < 600; width += 13)
@@ -177,6 +341,7 @@ TEST_CASE ("the titles of tabs are all in the row or in its menu\\, whatever the
                     right = place.getRight();
                 }
                 INFO (width << ", tab " << current);
+                CHECK (std::abs (underlined (tabs) - widthOf (tabs.titles()[static_cast<std::size_t> (current)].first)) <= 2.0f);
                 CHECK_FALSE (tabs.titles()[static_cast<std::size_t> (current)].second.isEmpty());
                 CHECK (right <= static_cast<float> (width) - (is_any_hidden ? 28.0f : 0.0f));
                 if (width >= 420) CHECK_FALSE (is_any_hidden);

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is typed into a field counts as soon as a key does something with the graph, without Return.
+#include "host/app/support/window_rig.hpp"
+
+#include <tactus/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+/// A window with a graph that may be saved.
+struct Desk
+{
+    TemporaryFolder folder;
+    std::filesystem::path file = folder / "mine.json";
+    std::unique_ptr<WindowRig> w;
+
+    Desk()
+    {
+        std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
+        w = std::make_unique<WindowRig> (file.string(), 1280, 1000);   // the row of a parameter is in view
+        w->stage->grabKeyboardFocus();                                 // as the window system does when it shows the window
+    }
+
+    void select (const std::string& node) { w->view->canvas().select ({ w->graph().root.find (node)->id }); }
+    graph::Graph saved() const { return loadGraph (file).graph; }
+
+    /// Begins to type into the field with this title, and does not end it.
+    void type (const juce::String& field, const juce::String& text)
+    {
+        w->clickTitled (field);
+        w->key ("ctrl + a");
+        w->stage->type (text);
+    }
+
+    static NumberField* numberIn (juce::Component& c, const juce::String& title)
+    {
+        if (auto* field = dynamic_cast<NumberField*> (&c); field != nullptr && field->isShowing() && field->getTitle() == title) return field;
+        for (auto* child : c.getChildren())
+            if (auto* found = numberIn (*child, title)) return found;
+        return nullptr;
+    }
+
+    /// The same for a number, which a double click opens.
+    void typeNumber (const juce::String& field, const juce::String& text)
+    {
+        auto* c = numberIn (*w->view, field);
+        REQUIRE (c != nullptr);
+        w->stage->doubleClick (w->middleOf (*c));
+        WindowRig::settle();
+        REQUIRE (dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr);
+        w->key ("ctrl + a");
+        w->stage->type (text);
+    }
+};
+}   // namespace
+
+TEST_CASE ("Ctrl+S saves what is being typed into a field", "[app][keyboard][files]")
+{
+    Desk d;
+    auto& w = *d.w;
+    SECTION ("the words about the graph, and one goes on to type")
+    {
+        d.type ("about", "It squeaks");
+        w.key ("ctrl + s");
+        CHECK (d.saved().about == "It squeaks");
+        CHECK_FALSE (w.view->document().isChanged());
+        w.key ("end");
+        w.stage->type (" a lot");
+        w.key ("ctrl + s");
+        CHECK (d.saved().about == "It squeaks a lot");
+        w.key ("escape");   // it does not take back what is saved
+        CHECK (w.graph().about == "It squeaks a lot");
+    }
+    SECTION ("the name of a node")
+    {
+        d.select ("drag");
+        WindowRig::settle();
+        d.type ("Name of the node", "scrub");
+        w.key ("ctrl + s");
+        CHECK (d.saved().root.find ("scrub") != nullptr);
+        CHECK (d.saved().root.find ("drag") == nullptr);
+    }
+    SECTION ("a number")
+    {
+        d.select ("board");
+        WindowRig::settle();
+        d.typeNumber ("Stiffness", "777 N/m");
+        w.key ("ctrl + s");
+        CHECK (d.saved().root.find ("board")->params.at ("stiffness") == "777 N/m");
+        CHECK_FALSE (w.view->document().isChanged());
+        WindowRig::settle();
+        w.key ("escape");
+        CHECK (w.graph().root.find ("board")->params.at ("stiffness") == "777 N/m");
+    }
+    SECTION ("a number that is refused stays as it was, in the field and in the file")
+    {
+        d.select ("board");
+        WindowRig::settle();
+        const auto before = d.saved().root.find ("board")->params;
+        d.typeNumber ("Stiffness", "-3");
+        w.key ("ctrl + s");
+        CHECK (d.saved().root.find ("board")->params == before);
+    }
+}
+
+TEST_CASE ("what is being typed into a field is an unsaved change\\, and never gets into the next graph", "[app][keyboard][files]")
+{
+    Desk d;
+    auto& w = *d.w;
+    REQUIRE_FALSE (w.view->document().isChanged());
+    d.type ("about", "It squeaks");
+    w.key ("ctrl + n");
+    REQUIRE (w.view->asked().isOpen());   // whether to save it
+    SECTION ("saved")
+    {
+        w.key ("return");
+        CHECK (d.saved().about == "It squeaks");
+    }
+    SECTION ("not saved")
+    {
+        w.key ("cursor right");
+        w.key ("return");
+        CHECK (d.saved().about != "It squeaks");
+    }
+    WindowRig::settle();
+    CHECK (w.graph().root.nodes.empty());
+    CHECK (w.graph().about.empty());
+    CHECK_FALSE (w.view->document().isChanged());
+}
+
+TEST_CASE ("F5 starts the graph with what is being typed into a field", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    d.select ("board");
+    WindowRig::settle();
+    d.typeNumber ("Stiffness", "777 N/m");
+    w.key ("F5");
+    CHECK (w.graph().root.find ("board")->params.at ("stiffness") == "777 N/m");
+    for (int i = 0; i < 1000 && ! w.view->run().isRunning(); ++i)
+        WindowRig::settle (10);
+    CHECK (w.view->run().isRunning());
+    w.view->run().letGo();
+}
