@@ -329,6 +329,7 @@ enum class Framing
     none,
     cobs,
     length,
+    dualpanto,
     answer   ///< as none, from a device that only answers: with one report to each that it gets
 };
 
