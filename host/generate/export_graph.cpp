@@ -62,7 +62,7 @@ PluginSources pluginSources (const Plan& plan, Messages& messages)
 void refuseSingle (const ExportOptions& options, Messages& messages)
 {
     if (! options.is_single || options.target == ExportTarget::cpp || options.target == ExportTarget::arduino) return;
-    messages.push_back (Message::error ("export/float", "", "C, FMU and WebAssembly interfaces have doubles, so they cannot be exported in single precision",
+    messages.push_back (Message::error ("export/float", "", "only the class and the Arduino library can be exported in single precision",
                                         "write --to cpp or --to arduino, or leave out --float"));
 }
 
@@ -262,6 +262,18 @@ void addFiles (ExportedFolder& folder, const Exported& e, const PluginSources& p
     addTarget (folder, e, target);
 }
 
+ExportedFolder knobFolder (const graph::Graph& graph, const ExportOptions& options, ExportedFolder folder)
+{
+    folder.stem = stemOf (options.file);
+    const auto made = compile (graph, catalogue(), options.compile);   // as before, so it has the same messages
+    const auto fit = fitKnob (made.plan, options.knob);
+    if (fit)
+        folder.files = knobFiles (folder.stem, *fit, options.knob, folder.messages);
+    else
+        folder.messages.push_back (fit.error());
+    return folder;
+}
+
 constexpr const char* manifest = "tactus_export.txt";
 }   // namespace
 
@@ -272,6 +284,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
     refuseSingle (options, folder.messages);
+    if (options.target == ExportTarget::smartknob) return hasErrors (folder.messages) ? folder : knobFolder (graph, options, std::move (folder));
     const auto plugins = pluginSources (tried.engine().plan(), folder.messages);
     if (options.target == ExportTarget::arduino && tried.engine().plan().roles().empty())
         folder.messages.push_back (Message::error ("export/role", "", "an Arduino library drives a device, but the graph has none", "write --to cpp"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <host/generate/targets/smartknob.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/run.hpp>
 
@@ -19,7 +20,8 @@ enum class ExportTarget
     c_api,
     arduino,
     fmu,
-    wasm
+    wasm,
+    smartknob   ///< no code: a configuration
 };
 
 struct ExportOptions
@@ -29,6 +31,7 @@ struct ExportOptions
     CompileOptions compile;   ///< feeds become inputs, and records outputs
     ExportTarget target = ExportTarget::cpp;
     bool is_single = false;   ///< with float instead of double, and positions with more digits (kit/fine.hpp)
+    KnobOptions knob {};      ///< of the target smartknob
     Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
 };
 
@@ -36,12 +39,13 @@ struct ExportOptions
 struct ExportedFolder
 {
     std::vector<std::pair<std::string, std::string>> files;   ///< path and text; empty if there are errors
-    std::string stem, class_name;
+    std::string stem, class_name;                             ///< the second is empty if there is no code
     Messages messages;
 };
 
 /// Turns a graph into C++ code that computes the same bits, with a self-test. Its own ids: export/plugin (a node whose code is not part of
-/// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export). [main thread]
+/// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export), and those of fitKnob().
+/// [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 
 /// Writes the files as a new folder, or in place of an earlier export: its other files stay. The folder changes in one step: see AtomicFolder.

@@ -34,12 +34,9 @@ PidCalibration assumed()
     return { .full_force = assumed_force, .usable = assumed_usable, .travel = { { "x", assumed_travel }, { "y", assumed_travel }, { "z", assumed_travel } } };
 }
 
-/// Gives the driven axis a travel if the calibration has none: without it, neither speed nor energy could be limited.
-void assumeTravel (PidCalibration& c, const std::vector<std::string>& axes, const std::string& product, Messages& messages)
+/// Gives a driven axis a travel if the calibration has none: without it, neither speed nor energy could be limited.
+void assumeTravel (PidCalibration& c, const std::string& driven, const std::string& product, Messages& messages)
 {
-    const auto has = [&] (std::string_view axis) { return std::ranges::count (axes, axis) > 0; };
-    const std::string driven = c.turns && has ("steering") && ! c.travel.contains ("x") ? "steering" : "x";
-    if (! has (driven) || c.travel.contains (driven) || c.travel.contains (drivenAxis (c))) return;
     const double travel = c.turns ? assumed_turn : assumed_travel;
     const std::string example = "\"" + driven + "\": \"" + (c.turns ? "900 deg" : "12 cm") + '"';
     c.travel[driven] = travel;
@@ -70,6 +67,11 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
     if (needs_force) in.require ("full_force", "write the device's largest force: \"full_force\": \"4 N\", or \"2.5 N*m\" for a wheel");
     c.turns = in.has ("full_force") && isTorque (written->at ("full_force"));
     c.full_force = in.number ("full_force", c.turns ? unit::torque : unit::newton, Bounds::positive(), needs_force ? 1.0 : 0.0);
+    if (needs_force && in.has ("full_force_y"))
+    {
+        c.full_force_y = in.number ("full_force_y", unit::newton, Bounds::positive(), 1.0);
+        if (c.turns) in.error ("full_force_y", "device/kind", "a wheel is driven about one axis", "leave it out, or write both forces in N");
+    }
     in.ignore ("reversed");
     if (in.has ("reversed"))
     {
@@ -109,7 +111,10 @@ PidCalibration calibrationOf (const std::string& product, const std::vector<std:
                                               "\"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}"));
     }
     auto used = calibration.value_or (assumed());
-    assumeTravel (used, axes, product, messages);
+    const auto lacksTravel = [&] (const std::string& axis) { return std::ranges::count (axes, axis) > 0 && ! used.travel.contains (axis); };
+    const std::string driven = used.turns && std::ranges::count (axes, "steering") > 0 && ! used.travel.contains ("x") ? "steering" : "x";
+    if (lacksTravel (driven) && ! used.travel.contains (drivenAxis (used))) assumeTravel (used, driven, product, messages);
+    if (used.full_force_y > 0.0 && lacksTravel ("y")) assumeTravel (used, "y", product, messages);
     return used;
 }
 

@@ -18,6 +18,7 @@ namespace tactus::host::hid
 struct PidCalibration
 {
     double full_force = 0.0;                                ///< force at the largest magnitude, in N, or in N m for a wheel; 0: unknown
+    double full_force_y = 0.0;                              ///< the same along y, in N, of a stick with two motors; 0: it is not driven
     bool turns = false;                                     ///< true for a wheel: full_force is a torque, and travels are angles
     bool is_reversed = false;                               ///< true if the device pushes left where the standard says right
     double usable = 1.0;                                    ///< the fraction of the full force that may be used
@@ -35,9 +36,10 @@ std::string drivenAxis (const PidCalibration&);
 /// full_force may be missing. [any thread]
 ///
 ///     "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm"}, "reversed": false}
+///     "calibration": {"full_force": "4 N", "full_force_y": "3 N", "travel": {"x": "12 cm", "y": "12 cm"}}
 ///     "calibration": {"full_force": "2.5 N*m", "travel": {"steering": "900 deg"}}
 ///
-/// Ids: those of ObjectReader.
+/// A device that may have no force has no `full_force_y` either. Ids: those of ObjectReader.
 std::optional<PidCalibration> readCalibration (const Json& description, Messages&, bool needs_force = true);
 
 /// The calibration of a device that takes a force and has these axes. Without one, the device's strength is unknown: it is treated as a stick with

@@ -32,7 +32,7 @@ std::uint32_t wrapped (const Bits& bits, double number)
 }
 }   // namespace
 
-DeviceSide::DeviceSide (std::shared_ptr<const Profile> p) : profile (std::move (p)), kinematics (profile->kinematics)
+DeviceSide::DeviceSide (std::shared_ptr<const Profile> p) : profile (std::move (p)), shapes (outputShapes (*profile)), kinematics (profile->kinematics)
 {
     joints = kinematics.joints (counts);
 }
@@ -100,10 +100,17 @@ Bytes DeviceSide::input (std::size_t report, const Reading& reading, double time
     return bytes;
 }
 
+bool DeviceSide::tellsSomething (std::size_t report) const
+{
+    return std::ranges::any_of (profile->inputs[report].fields, [] (const auto& f) { return ! f.expect; });
+}
+
 std::optional<DeviceSide::Heard> DeviceSide::output (std::span<const std::uint8_t> report) const
 {
     const auto fits = [&] (const OutputReport& r) {
         if (report.size() != r.neutral.size() || (r.id && report.front() != *r.id)) return false;
+        const auto& marks = shapes[static_cast<std::size_t> (&r - profile->outputs.data())].marks;
+        if (std::ranges::any_of (marks, [&] (const auto& mark) { return bitsAt (mark.first, report) != mark.second; })) return false;
         if (! r.checksum) return true;
         const auto sum = crc32 (report.first (r.checksum->at), crc32 (r.checksum->prefix));
         return bitsAt ({ .at = 8 * r.checksum->at, .size = 32 }, report) == sum;
@@ -119,8 +126,10 @@ std::optional<DeviceSide::Heard> DeviceSide::output (std::span<const std::uint8_
         if (field.source == OutputField::Source::enable) heard.enabled = heard.enabled && raw != 0;
         if (field.source != OutputField::Source::effort) continue;
         const double value = decoded (field.encoding, numberOf (field.bits, raw));
-        if (const auto i = placeOf (profile->force, field.name)) motors[*i] = value;
-        if (const auto i = placeOf (profile->torque, field.name)) turn[*i] = value;
+        const auto along = placeOf (profile->force, field.name), about = placeOf (profile->torque, field.name);
+        if (along) motors[*along] = value;
+        if (about) turn[*about] = value;
+        heard.pushes = heard.pushes || along || about;
     }
     if (! heard.enabled) return heard;
 

@@ -3,6 +3,8 @@
 
 #include "hid_model.hpp"
 
+#include <host/hid/report/framing.hpp>
+
 #include <tactus/node/device.hpp>
 
 #include <cstdint>
@@ -31,11 +33,15 @@ public:
     struct Heard
     {
         std::size_t report = 0;
+        bool pushes = false;   ///< true if the report has fields for the force or the torque on the tool
         bool enabled = true;   ///< false if an enable bit of the report is 0
         Effort effort;         ///< force and torque on the tool, in Tactus axes; 0 unless enabled
     };
 
-    /// Reads an output report, without the leading 0 of a report without an id. Empty if its id, its length or its CRC is wrong.
+    /// True if the n-th input report has a value or a button.
+    bool tellsSomething (std::size_t report) const;
+
+    /// Reads an output report, without the leading 0 of a report without an id. Empty if its id, its length, its CRC or a constant byte is wrong.
     std::optional<Heard> output (std::span<const std::uint8_t> report) const;
 
     /// From now on, the first of the values from which the position is computed, such as the count of an encoder, stays what it is, or moves
@@ -51,6 +57,7 @@ private:
     std::uint32_t rawOf (const InputReport&, const InputField&, const Reading&, double time_s) const;
 
     std::shared_ptr<const Profile> profile;
+    std::vector<FrameReader::Shape> shapes;   // of the output reports
     Kinematics kinematics;
     Vec3 joints = Vec3::Zero();   // of the latest position
     Vec3 counts = Vec3::Zero();

@@ -93,11 +93,24 @@ ReadingFault HidModel::fault (double driven_s) const noexcept
     for (std::size_t i = 0; i < alarms.size(); ++i)
     {
         const auto& alarm = description->alarms[i];
-        if (alarms[i] < 0 || driven_s < alarm.while_driven) continue;
-        const auto raw = decoder.raw (static_cast<std::size_t> (alarms[i]));
-        if (alarm.is ? raw == *alarm.is : raw != 0) return alarm.means;
+        if (driven_s >= alarm.while_driven && isOn (i)) return alarm.means;
     }
     return ReadingFault::none;
+}
+
+bool HidModel::isOn (std::size_t alarm) const noexcept
+{
+    if (alarms[alarm] < 0) return false;
+    const auto raw = decoder.raw (static_cast<std::size_t> (alarms[alarm]));
+    const auto& is = description->alarms[alarm].is;
+    return is ? raw == *is : raw != 0;
+}
+
+bool HidModel::isStopped() const noexcept
+{
+    for (std::size_t i = 0; i < alarms.size(); ++i)
+        if (description->alarms[i].means == ReadingFault::stopped && isOn (i)) return true;
+    return false;
 }
 
 Reading HidModel::reading (double driven_s) const noexcept

@@ -59,6 +59,9 @@ public:
     /// arrived. driven_s: for how long the motors have been driven; alarms with a longer `while_driven` are ignored.
     Reading reading (double driven_s = 0.0) const noexcept;
 
+    /// True while the device says that its own emergency stop is on, by an alarm `stopped`.
+    bool isStopped() const noexcept;
+
     /// The efforts that neither the force nor the torque drives. A graph can drive only these by name: if a motor could be
     /// driven both by the force and by name, the guard would limit the two separately, but not their sum.
     const std::vector<std::string>& ownEffortNames() const noexcept { return own_names; }
@@ -134,6 +137,7 @@ private:
     EffortValues asked (const HidEffort&) const noexcept;
     Vec3 outOfReach (const Vec3& force) const noexcept;
     ReadingFault fault (double driven_s) const noexcept;
+    bool isOn (std::size_t alarm) const noexcept;
 
     std::shared_ptr<const Profile> description;
     ReportDecoder decoder;

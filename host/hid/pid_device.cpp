@@ -22,7 +22,8 @@ constexpr Usage pid (unsigned id) noexcept { return usageOf (0x0f, id); }
 constexpr Usage set_effect = pid (0x21), set_constant_force = pid (0x73), effect_operation = pid (0x77), device_gain_report = pid (0x7d),
                 device_control = pid (0x96), create_new_effect = pid (0xab), block_load = pid (0x89), block_free = pid (0x90);
 constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration = pid (0x50), gain = pid (0x52), direction_enable = pid (0x56),
-                direction = pid (0x57), magnitude = pid (0x70), start = pid (0x79), stop = pid (0x7b), loop_count = pid (0x7c), device_gain = pid (0x7e),
+                axes_enable = pid (0x55), direction = pid (0x57), magnitude = pid (0x70), start = pid (0x79), stop = pid (0x7b), loop_count = pid (0x7c),
+                device_gain = pid (0x7e),
                 load_success = pid (0x8c), load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99),
                 device_reset = pid (0x9a);
 
@@ -224,7 +225,13 @@ void calibrate (Profile& p, const PidCalibration& calibration)
     if (calibration.full_force <= 0.0) return;
     (calibration.turns ? p.torque[1] : p.force[0]) = "force";
     const double travel = known (driven).empty() ? 0.0 : calibration.travel.find (driven)->second;
-    limitForce (p.limits.guard, calibration, travel, quantum);
+    auto weaker = calibration;   // within its force, neither motor is cut off, so the direction of the force is kept
+    if (calibration.full_force_y > 0.0)
+    {
+        p.force[1] = "force_y";
+        weaker.full_force = std::min (calibration.full_force, calibration.full_force_y);
+    }
+    limitForce (p.limits.guard, weaker, travel, quantum);
 }
 
 /// The place of the block index in a report of this kind.
@@ -237,87 +244,104 @@ std::optional<Bits> blockOf (const ReportDescriptor& d, Usage report)
     return bits;
 }
 
-Step step (const char* about, Bytes bytes, std::optional<Bits> given = {})
+Step step (const char* about, Bytes bytes, std::optional<Bits> given = {}, std::size_t block = 0)
 {
     Step s { .bytes = std::move (bytes), .about = about };
     s.given = given;
+    s.block = block;
     return s;
 }
 
-Step zeroForce (const ReportDescriptor& d)
+Step zeroForce (const ReportDescriptor& d, std::size_t block)
 {
     return step ("the report that sets zero force", Writer (d, Kind::output, set_constant_force).put (block_index, any_block).take(),
-                 blockOf (d, set_constant_force));
+                 blockOf (d, set_constant_force), block);
 }
 
-std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d)
+/// The directions that the effects come from, in turns from "away". A quarter turn is along x: wheels have no other direction, and the drivers of
+/// other devices use this one too (linux, hid-pidff.c). With the direction 0, nothing is along x.
+constexpr double directions[most_blocks] { 0.25, 0.0 };
+
+std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d, std::size_t effects)
 {
     const auto output = [&] (Usage report) { return Writer (d, Kind::output, report); };
-
-    // Full gain, no trigger button, and a direction a quarter turn from "away". Wheels have no other direction, and
-    // the drivers of other devices use this one too (linux, hid-pidff.c).
-    auto effect = output (set_effect);
-    effect.put (block_index, any_block).choose (constant_force).time (duration, effect_lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
-
     std::vector<Step> init;
     if (find (d, Kind::output, device_control, device_reset))
     {
         init.push_back (step ("the report that clears all effects", output (device_control).choose (device_reset).take()));
         init.back().delay = reset_takes;
     }
-    init.push_back (step ("the report that creates a constant force", device.createEffect()));
-    init.back().kind = Step::Kind::feature;
-    init.push_back (step ("the report with the block of the constant force", device.blockLoad()));
-    init.back().kind = Step::Kind::get_feature;
-    init.back().answer = device.answer();
+    for (std::size_t block = 0; block < effects; ++block)
+    {
+        init.push_back (step ("the report that creates a constant force", device.createEffect()));
+        init.back().kind = Step::Kind::feature;
+        init.push_back (step ("the report with the block of the constant force", device.blockLoad(), {}, block));
+        init.back().kind = Step::Kind::get_feature;
+        init.back().answer = device.answer();
+    }
     init.push_back (step ("the report that switches the motors on", output (device_control).choose (enable_actuators).take()));
     if (find (d, Kind::output, device_gain_report, device_gain))
         init.push_back (step ("the report that sets full gain", output (device_gain_report).most (device_gain).take()));
-    init.push_back (step ("the report that sets up the effect", effect.take(), blockOf (d, set_effect)));
-    init.push_back (zeroForce (d));   // the `start` report then starts the effect
+    for (std::size_t block = 0; block < effects; ++block)
+    {
+        // Full gain, and no trigger button.
+        auto effect = output (set_effect);
+        effect.put (block_index, any_block).choose (constant_force).time (duration, effect_lasts).most (gain).put (direction_enable, 1);
+        effect.first (direction, directions[block]);
+        init.push_back (step ("the report that sets up the effect", effect.take(), blockOf (d, set_effect), block));
+        init.push_back (zeroForce (d, block));   // the `start` report then starts the effect
+    }
     return init;
 }
 
-std::vector<Step> exitSteps (const ReportDescriptor& d)
+std::vector<Step> exitSteps (const ReportDescriptor& d, std::size_t effects)
 {
-    std::vector<Step> exit { zeroForce (d), step ("the report that stops all effects", Writer (d, Kind::output, device_control).choose (stop_all).take()) };
+    std::vector<Step> exit;
+    for (std::size_t block = 0; block < effects; ++block)
+        exit.push_back (zeroForce (d, block));
+    exit.push_back (step ("the report that stops all effects", Writer (d, Kind::output, device_control).choose (stop_all).take()));
     if (const auto freed = blockOf (d, block_free))
-        exit.push_back (step ("the report that frees the effect", Writer (d, Kind::output, block_free).put (block_index, any_block).take(), freed));
+        for (std::size_t block = 0; block < effects; ++block)
+            exit.push_back (step ("the report that frees the effect", Writer (d, Kind::output, block_free).put (block_index, any_block).take(), freed, block));
     return exit;
 }
 
-OutputReport forceReport (const ReportDescriptor& d, const PidCalibration& calibration, double full_force)
+OutputReport forceReport (const ReportDescriptor& d, const PidCalibration& calibration, double full_force, std::size_t block)
 {
-    // The direction of an effect is where it comes from (DirectX, Effect Direction): from the right means a push to the left.
+    // The direction of an effect is where it comes from (DirectX, Effect Direction): from the right means a push to the left, from "away" one
+    // towards the user, which is where the y of a stick increases.
+    const double side = block == 0 ? -1.0 : 1.0;
     const auto force = find (d, Kind::output, set_constant_force, magnitude);
     const double counts = static_cast<double> (std::min (force->field->logical_max, -force->field->logical_min));
     OutputField field;
-    field.name = "force";
+    field.name = block == 0 ? "force" : "force_y";
     field.bits = force->bits (d.has_ids);
-    field.encoding.scale = (calibration.is_reversed ? 1.0 : -1.0) * full_force / counts;
+    field.encoding.scale = (calibration.is_reversed ? -side : side) * full_force / counts;
     field.min = -full_force * calibration.usable;
     field.max = full_force * calibration.usable;
     if (calibration.full_force > 0.0) field.unit = calibration.turns ? "N*m" : "N";
 
     OutputReport report;
-    report.name = "constant_force";
+    report.name = block == 0 ? "constant_force" : "constant_force_y";
     if (d.has_ids) report.id = force->field->report;
     report.body = report.neutral = Writer (d, Kind::output, set_constant_force).put (block_index, any_block).take();
     report.fields = { std::move (field) };
     report.given = blockOf (d, set_constant_force);
+    report.block = block;
     report.why_not = from_descriptor;
     return report;
 }
 
-OutputReport startReport (const ReportDescriptor& d)
+OutputReport startReport (const ReportDescriptor& d, std::size_t block)
 {
     const auto operation = [&] { return Writer (d, Kind::output, effect_operation).put (block_index, any_block); };
     OutputReport report;
-    report.name = "start";
+    report.name = block == 0 ? "start" : "start_y";
     if (d.has_ids) report.id = find (d, Kind::output, effect_operation, start)->field->report;
     report.body = operation().choose (start).put (loop_count, 1).take();
     report.neutral = operation().choose (stop).take();
     report.given = blockOf (d, effect_operation);
+    report.block = block;
     report.max_rate = 1.0 / effect_restarts;
     report.keepalive = effect_restarts;
     report.why_not = from_descriptor;
@@ -360,6 +384,13 @@ std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& m
     }
     if (! whole) return {};
     return PidDevice (d);
+}
+
+bool PidDevice::hasForceAlongY() const noexcept
+{
+    return std::ranges::any_of (descriptor.fields, [&] (const DescribedField& f) {
+        return f.kind == Kind::output && descriptor.lies (f.collection, axes_enable) && f.placeOf (usageOf (0x01, 0x31));
+    });
 }
 
 bool PidDevice::isMeantBy (const ReportDescriptor& d) noexcept
@@ -421,9 +452,13 @@ Profile PidDevice::profile (const PidCalibration& calibration) const
     p.sources = { "the device's own report descriptor", "Device Class Definition for Physical Interface Devices 1.0" };
     for (const auto& f : d.fields)
         if (f.kind == Kind::input && ! f.constant && f.variable && f.size <= 32) addInput (p.inputs, d, f);
-    p.init = initSteps (*this, d);
-    p.exit = exitSteps (d);
-    p.outputs = { forceReport (d, calibration, full_force), startReport (d) };
+    const std::size_t effects = calibration.full_force_y > 0.0 ? 2 : 1;
+    p.init = initSteps (*this, d, effects);
+    p.exit = exitSteps (d, effects);
+    for (std::size_t block = 0; block < effects; ++block)
+        p.outputs.push_back (forceReport (d, calibration, block == 0 ? full_force : calibration.full_force_y, block));
+    for (std::size_t block = 0; block < effects; ++block)
+        p.outputs.push_back (startReport (d, block));
     p.limits.device_watchdog = find (d, Kind::output, set_effect, duration) ? effect_lasts : 0.0;
     p.limits.guard.watchdog = 0.05;
     p.limits.guard.ramp = 0.2;

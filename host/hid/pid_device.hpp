@@ -23,7 +23,8 @@ namespace tactus::host::hid
 /// restarts the effect every 0.2 s. The effect lasts 0.5 s, so the force ends on its own if the host dies.
 ///
 /// There is one effort, `force`, to the right, and axes named after their usages: x, y, z, rx … With a calibration, x, y
-/// and z are the position of the tool and `force` is the force on it along x. For a wheel, `steering` (else x) is its
+/// and z are the position of the tool and `force` is the force on it along x. With a full force along y, a second effect renders
+/// `force_y`, towards the user. For a wheel, `steering` (else x) is its
 /// rotation about y, clockwise positive as the user sees it, and `force` is the torque. [main thread]
 ///
 /// With a calibration, the profile limits force and slew, and, if the travel of the driven axis is known, speed, energy and how long the
@@ -50,6 +51,9 @@ public:
 
     /// The axes that the device reports.
     std::vector<std::string> axisNames() const;
+
+    /// True if its effects may act along y, too.
+    bool hasForceAlongY() const noexcept;
 
 private:
     explicit PidDevice (const ReportDescriptor& d) : descriptor (d) {}

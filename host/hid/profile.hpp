@@ -26,6 +26,7 @@ inline constexpr std::size_t most_axes = 32;      ///< input values of a device,
 inline constexpr std::size_t most_efforts = 16;   ///< output values of a device
 inline constexpr std::size_t most_channels = 4;   ///< channels of a stream of samples
 inline constexpr std::size_t longest_report = 1024;
+inline constexpr std::size_t most_blocks = 2;   ///< numbers that a device may return in its init steps
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -100,6 +101,7 @@ struct Step
     std::string about {};              ///< its purpose, as in "the report that creates an effect"; may be empty
     std::optional<Answer> answer {};   ///< expected answer to a get_feature; empty: any answer. Its number is inserted at `given` of later reports
     std::optional<Bits> given {};
+    std::size_t block = 0;   ///< which of the numbers, if the device returns several
 
     bool operator== (const Step&) const = default;
 };
@@ -220,6 +222,8 @@ struct OutputReport
     std::vector<SequenceNibble> sequences;   ///< each one counts the reports sent
     std::optional<Checksum> checksum;
     std::optional<Bits> given;   ///< place of the number that the device returned (Answer); not allowed together with a checksum
+    std::size_t block = 0;       ///< which of the numbers
+    Bytes stop, rearm;           ///< sent instead: see BoardStop; empty: never
     std::optional<Stream> stream;
     double max_rate = 1000.0;   ///< Hz
     double keepalive = 0.0;     ///< time after which an unchanged report is sent again, in s; 0: sent on each tick
@@ -325,6 +329,7 @@ enum class Framing
     none,
     cobs,
     length,
+    dualpanto,
     answer   ///< as none, from a device that only answers: with one report to each that it gets
 };
 

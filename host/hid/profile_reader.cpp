@@ -54,13 +54,13 @@ SerialWire readSerial (ProfileFields& in)
     serial.baud = in.whole ("baud", 300, 20'000'000, serial.baud);
     const auto framing = in.text ("framing");
     constexpr std::pair<std::string_view, Framing> all[] {
-        { "none", Framing::none }, { "cobs", Framing::cobs }, { "length", Framing::length }, { "answer", Framing::answer }
+        { "none", Framing::none }, { "cobs", Framing::cobs }, { "length", Framing::length }, { "dualpanto", Framing::dualpanto }, { "answer", Framing::answer }
     };
     const auto* it = std::ranges::find (all, framing, [] (const auto& f) { return f.first; });
     if (! in.has ("framing"))
-        in.require ("framing", "write none, cobs, length or answer");
+        in.require ("framing", "write none, cobs, length, dualpanto or answer");
     else if (it == std::end (all))
-        in.error ("framing", "profile/kind", quote (framing) + " is not a framing", "write none, cobs, length or answer");
+        in.error ("framing", "profile/kind", quote (framing) + " is not a framing", "write none, cobs, length, dualpanto or answer");
     else
         serial.framing = it->second;
     if (const auto filler = in.id ("filler", 255)) serial.filler = static_cast<std::uint8_t> (*filler);

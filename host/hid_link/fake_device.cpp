@@ -192,7 +192,7 @@ void FakeDevice::step()
     if (! wire || answers || is (FaultKind::stall) || is (FaultKind::reset)) return;
     std::vector<Bytes> reports;
     for (std::size_t i = 0; i < side.inputs(); ++i)
-        reports.push_back (side.input (i, hand_reading, time()));
+        if (side.tellsSomething (i)) reports.push_back (side.input (i, hand_reading, time()));
     for (const auto& report : reports)
         send (report);
     if (is (FaultKind::late))
@@ -238,7 +238,7 @@ void FakeDevice::take (std::span<const std::uint8_t> report)
     last_valid = steps;
     const bool is_set_up = set_up == init.size();
     is_driven = is_set_up && heard->enabled;
-    applied = is_set_up ? heard->effort : Effort {};
+    if (heard->pushes || ! is_set_up) applied = is_set_up ? heard->effort : Effort {};
     if (! answers) return;
     auto answer = side.input (0, hand_reading, time());
     if (! is_set_up) answer.resize (1);

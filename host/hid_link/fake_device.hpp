@@ -54,6 +54,8 @@ Result<DeviceFault> readFault (std::string_view);
 /// force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
 /// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0.
 ///
+/// It sends only reports with values or buttons: no signs of life and the like, which some devices send, too.
+///
 /// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, has no watchdog, and
 /// until it has heard all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
 class FakeDevice

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "force_feedback.hpp"
+#include <host/hid/open_ffboard.hpp>
 #include <host/hid/report_descriptor.hpp>
 #include <tactus/text/message.hpp>
 
@@ -29,8 +30,11 @@ std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevi
     if (! pid) return nullptr;
 
     const auto used = calibrationOf (device.product, pid->axisNames(), calibration, messages);
+    if (used.full_force_y > 0.0 && ! pid->hasForceAlongY())
+        messages.push_back (Message::error ("pid/no_axis", "/calibration/full_force_y", device.product + " has no force along y", "leave full_force_y out"));
     if (hasErrors (messages)) return nullptr;
     auto profile = pid->profile (used);
+    if (isOpenFFBoard (device.vid, device.pid)) addOpenFFBoard (profile, read.descriptor, pid->hasForceAlongY());
     MatchRule rule;
     rule.vid = { device.vid };
     rule.pid = { device.pid };

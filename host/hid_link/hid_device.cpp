@@ -119,11 +119,11 @@ void HidDevice::take (const ArrivedReport& report) noexcept
     }
     ++tally.taken;
     refused = false;
-    has_one = true;
+    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
+    has_one = has_one || std::ranges::any_of (heard, [id] (const auto& each) { return ! each.id || *each.id == id; });
     latest = report.at;
     judge (report, gap - without_room);
     if (standing != ReadingFault::none) return;
-    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
     if (came_now.test (id)) ++tally.skipped;
     came_now.set (id);
 }
@@ -252,6 +252,15 @@ void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
     }
 }
 
+/// A report without samples, for the efforts of this tick.
+std::span<const std::uint8_t> HidDevice::bytesOf (std::size_t report, BoardStop::Says says) noexcept
+{
+    const auto& how = values.profile().outputs[report];
+    if (says == BoardStop::Says::stop && ! how.stop.empty()) return how.stop;
+    if (says == BoardStop::Says::rearm && ! how.rearm.empty()) return how.rearm;
+    return has_to_rest ? values.neutral (report) : values.encodeValues (report, driven);
+}
+
 void HidDevice::write (const Effort& guarded) noexcept
 {
     const auto isZero = [] (double v) { return v == 0.0; };
@@ -272,9 +281,10 @@ void HidDevice::write (const Effort& guarded) noexcept
     written = now;
     unrendered_force = guarded.force - values.renderedForce();
     unrendered_torque = guarded.torque - values.renderedTorque();
+    const bool emergency = is_emergency != nullptr && is_emergency->load (std::memory_order_relaxed);
+    const auto says = board_stop (emergency, rests, values.isStopped(), dt);
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        if (values.channelNames (i).empty())
-            link->offer (i, has_to_rest ? values.neutral (i) : values.encodeValues (i, driven), episode, latest, has_to_rest || values.rests (i, driven));
+        if (values.channelNames (i).empty()) link->offer (i, bytesOf (i, says), episode, latest, has_to_rest || values.rests (i, driven));
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
             const auto& bytes = has_to_rest ? values.neutral (i) : values.encodeValues (i, driven, samples);

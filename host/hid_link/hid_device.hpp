@@ -4,6 +4,7 @@
 #include "hid_port.hpp"
 #include "stream_feed.hpp"
 
+#include <host/hid/board_stop.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid/report_record.hpp>
 #include <host/hid/vibration_tracker.hpp>
@@ -57,6 +58,8 @@ DeviceLayout layoutOf (const HidModel&);
 /// A signal for a stream is collected into blocks of samples at the stream's rate, each sent when it is full. A signal for
 /// a motor that takes an amplitude is converted to an amplitude.
 ///
+/// A device with an emergency stop of its own is told of that of the run (BoardStop).
+///
 /// After the device was disconnected, or the ticks paused for so long that the port sent the neutral reports, only neutral reports
 /// are sent until the guard has been at zero once. Then efforts rise along the guard's ramp.
 class HidDevice final : public Device
@@ -75,6 +78,9 @@ public:
     void limitSlews (double force, double torque, double axis) override { values.limitSlews (force, torque, axis); }   // [main thread]
 
     DeviceLayout layout() const override { return layoutOf (values); }
+
+    /// Says where to look whether the emergency stop of the run is latched; null: nowhere. It must outlive the device. [main thread, before the ticks]
+    void heed (const std::atomic<bool>* emergency) noexcept { is_emergency = emergency; }
 
     HidPort& port() noexcept { return *link; }
     const HidPort& port() const noexcept { return *link; }
@@ -95,6 +101,7 @@ private:
     void publish() noexcept;
     double limitOfVibration() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
+    std::span<const std::uint8_t> bytesOf (std::size_t report, BoardStop::Says) noexcept;
 
     /// When a report came last.
     struct ReportArrival
@@ -135,7 +142,7 @@ private:
     std::uint64_t owed = 0;             // reports that did not fit and have not shown up as a gap in the sequence numbers yet
     Nanoseconds latest = 0;             // arrival of the report that this tick answers; 0: none
     Nanoseconds written = 0;            // time of the last write(); 0: none
-    bool has_one = false;               // true once a report has been decoded since the device was connected
+    bool has_one = false;               // true once a report that says where the tool is has been decoded since the device was connected
     bool refused = false;               // true if the newest report was refused
     bool has_to_rest = true;            // true until the guard has been at zero once
 
@@ -153,6 +160,8 @@ private:
     std::atomic<double> asked_max_signal = GuardLimits::none;   // of each amplitude   [main thread writes, tick thread reads]
     FallingLimit max_signal;
     EffortValues driven {};
+    const std::atomic<bool>* is_emergency = nullptr;
+    BoardStop board_stop;
 
     Snapshot<ReadingCounts> published;
 };

@@ -117,12 +117,12 @@ HidPort::~HidPort()
 //==============================================================================
 // Both threads
 
-/// The bytes as they are sent, including the number that the device returned.
-Bytes HidPort::addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const
+/// The bytes as they are sent, including a number that the device returned.
+Bytes HidPort::addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place, std::size_t block) const
 {
     Bytes bytes (wire.begin(), wire.end());
     const auto body = std::span (bytes).subspan (has_ids ? 0 : 1);
-    if (place && assigned != 0 && place->end() <= 8 * body.size()) putBits (*place, assigned, body);
+    if (place && assigned[block] != 0 && place->end() <= 8 * body.size()) putBits (*place, assigned[block], body);
     return bytes;
 }
 
@@ -130,7 +130,7 @@ Bytes HidPort::wireOf (const Step& step) const
 {
     auto bytes = step.bytes;
     if (! has_ids) bytes.insert (bytes.begin(), 0);
-    return addressed (bytes, step.given);
+    return addressed (bytes, step.given, step.block);
 }
 
 /// An error if nothing would bring a device with motors to rest if this program died. Where the system has no failsafe at all, it is only noted.
@@ -151,11 +151,11 @@ Result<> HidPort::wake (Transport& t)
 {
     const std::lock_guard lock (writing);
     quiet.reset();
-    assigned = 0;
+    assigned = {};
     if (auto armed = armFailsafe (t); ! armed) return armed;
     for (const auto& step : description->init)
         if (auto done = perform (t, step); ! done) return done;
-    return assigned != 0 ? armFailsafe (t) : Result<> {};
+    return assigned[0] != 0 ? armFailsafe (t) : Result<> {};
 }
 
 Result<> HidPort::perform (Transport& t, const Step& step)
@@ -182,7 +182,7 @@ Result<> HidPort::ask (Transport& t, const Step& step)
         if (! number) return number.error();
         if (*number)
         {
-            assigned = **number;
+            assigned[step.block] = **number;
             return {};
         }
         if (Clock::now() >= end || isStopping()) return refused ("contained no answer");
@@ -365,7 +365,7 @@ Result<> HidPort::send (Transport& t, std::size_t report, std::span<const std::u
 {
     const auto& how = description->outputs[report];
     const auto put = [&] (std::span<const std::uint8_t> b) { return how.is_feature ? t.sendFeature (b) : t.write (b); };
-    auto sent = how.given ? put (addressed (bytes, how.given)) : put (bytes);
+    auto sent = how.given ? put (addressed (bytes, how.given, how.block)) : put (bytes);
     writes.fetch_add (1, std::memory_order_relaxed);
     if (! sent)
     {
@@ -403,19 +403,22 @@ void HidPort::leave (Transport& t)
         if (const auto done = perform (t, step); ! done) note (done.error().text);
 }
 
-/// The neutral reports and exit steps, for the failsafe. Before the device has returned its number, only those that do
-/// not need the number. [with `writing` held]
+/// The neutral reports and exit steps, for the failsafe, without reports that are always the same. Before the device has returned its numbers,
+/// only those that do not need them. [with `writing` held]
 std::vector<OutgoingReport> HidPort::neutralReports()
 {
     std::vector<OutgoingReport> last;
     for (std::size_t i = 0; i < outputs.size(); ++i)
     {
-        if (description->outputs[i].given && assigned == 0) continue;
+        const auto& how = description->outputs[i];
+        const bool only_asks = how.fields.empty() && ! how.stream && how.body == how.neutral;
+        if (only_asks || (how.given && assigned[how.block] == 0)) continue;
         const auto bytes = quiet.neutral (i);
-        last.push_back ({ addressed (bytes, description->outputs[i].given), description->outputs[i].is_feature });
+        last.push_back ({ addressed (bytes, how.given, how.block), how.is_feature });
     }
     for (const auto& step : description->exit)
-        if (step.kind != Step::Kind::get_feature && (! step.given || assigned != 0)) last.push_back ({ wireOf (step), step.kind == Step::Kind::feature });
+        if (step.kind != Step::Kind::get_feature && (! step.given || assigned[step.block] != 0))
+            last.push_back ({ wireOf (step), step.kind == Step::Kind::feature });
     return last;
 }
 

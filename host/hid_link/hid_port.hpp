@@ -193,7 +193,7 @@ private:
     Result<> perform (Transport&, const Step&);
     Result<> ask (Transport&, const Step&);
     Result<> armFailsafe (Transport&);
-    Bytes addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const;
+    Bytes addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place, std::size_t block) const;
     Bytes wireOf (const Step&) const;
     void become (Opened);
     Opened transport() const;
@@ -259,15 +259,15 @@ private:
     std::string last_trouble;
     std::condition_variable stopped;
 
-    std::mutex writing;                     // protects all writing and the members below; never taken on the tick thread
-    HidModel quiet;                         // encodes the neutral reports
-    std::uint32_t assigned = 0;             // the number that the device returned and expects back; 0: none
-    std::vector<Clock::time_point> heard;   // when each of `states` came last; empty before the first report   [reading thread]
-    bool may_ask = true;                    // false after the device did not answer in time   [reading thread]
-    std::uint64_t connections = 0;          // [reading thread, which does not change it while the tick thread reads]
-    bool driven = false;                    // true if the last report sent was not neutral
-    Clock::time_point given;                // time of the latest new offer
-    bool is_silent = false;                 // there has been none for longer than the watchdog
+    std::mutex writing;                                   // protects all writing and the members below; never taken on the tick thread
+    HidModel quiet;                                       // encodes the neutral reports
+    std::array<std::uint32_t, most_blocks> assigned {};   // the numbers that the device returned and expects back; 0: none
+    std::vector<Clock::time_point> heard;                 // when each of `states` came last; empty before the first report   [reading thread]
+    bool may_ask = true;                                  // false after the device did not answer in time   [reading thread]
+    std::uint64_t connections = 0;                        // [reading thread, which does not change it while the tick thread reads]
+    bool driven = false;                                  // true if the last report sent was not neutral
+    Clock::time_point given;                              // time of the latest new offer
+    bool is_silent = false;                               // there has been none for longer than the watchdog
 
     std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, asked_for = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;

@@ -52,7 +52,12 @@ Messages LiveSession::load (const graph::Graph& graph)
     clock_role = choice.role;
     if (! clock_role.empty()) options.compile.rate_hz = choice.rate_hz;
 
-    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) { return devices.open (role, g, plan, m); };
+    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) {
+        auto opened = devices.open (role, g, plan, m);
+        auto* driver = opened.driver != nullptr ? opened.driver : opened.device.get();
+        if (auto* board = dynamic_cast<hid::HidDevice*> (driver)) board->heed (&is_emergency);
+        return opened;
+    };
     running = std::make_unique<Run> (catalogue, options.compile, opener, options.queries);
     std::optional<Messages> compiled;
     if (options.keeps_records)   // before there are listeners: the plan taps the inputs of all sinks only if no ports are named
@@ -141,6 +146,7 @@ void LiveSession::before (Plan&, std::uint64_t) noexcept
     const auto now = stops.presses();
     const auto earlier = std::exchange (obeyed, now);
     if (now.emergencies != earlier.emergencies) engine().emergencyStop();
+    is_emergency.store (engine().isEmergency(), std::memory_order_relaxed);
     if (now.stops != earlier.stops && running->isLive()) running->live().stop();
 }
 

@@ -10,6 +10,7 @@
 #include <host/sessions/run_clock.hpp>
 #include <tactus/run/run.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -187,6 +188,7 @@ private:
     StopSwitch own_stops;   // if the caller has none
     StopSwitch& stops;
     StopSwitch::PressCounts obeyed;                      // by the tick thread
+    std::atomic<bool> is_emergency = false;              // for devices with an emergency stop of their own
     std::uint32_t alarms_told = 0, alarms_stopped = 0;   // alarms of the failsafe; the second is for the tick thread
     HealthWatch watch;
     std::chrono::steady_clock::time_point looked_at {};   // at the devices

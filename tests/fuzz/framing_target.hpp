@@ -49,7 +49,7 @@ inline void tryFraming (std::string_view data)
     using namespace host::hid;
     const std::vector<FrameReader::Shape> one { { {}, 6, 6, { { Bits { .at = 0 }, 0x54 }, { Bits { .at = 8 }, 1 } } } };
     const std::vector<FrameReader::Shape> several { { std::uint8_t { 1 }, 4, 4, { { Bits { .at = 8 }, 7 } } }, { std::uint8_t { 2 }, 9, 20, {} } };
-    for (const auto framing : { Framing::none, Framing::cobs, Framing::length, Framing::answer })
+    for (const auto framing : { Framing::none, Framing::cobs, Framing::length, Framing::dualpanto, Framing::answer })
         for (const auto& shapes : { one, several })
         {
             const auto whole = framed (framing, shapes, data, data.size());

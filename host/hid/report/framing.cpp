@@ -5,6 +5,7 @@
 #include <host/hid/bits.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tactus::host::hid
@@ -12,6 +13,9 @@ namespace tactus::host::hid
 namespace
 {
 constexpr std::size_t crc_size = 4, length_size = 2, longest_run = 254;
+constexpr std::uint8_t panto_mark[] { 0x44, 0x50 };
+constexpr std::size_t panto_head = std::size (panto_mark) + 1 + length_size;   // with the first byte of the report
+constexpr Bits panto_length { .at = 8 * (panto_head - length_size), .size = 16, .big_endian = true };
 constexpr std::size_t most_waiting = 4096;   // what Linux keeps of a serial line
 
 std::size_t longestOf (const std::vector<FrameReader::Shape>& shapes) noexcept
@@ -84,6 +88,7 @@ bool isConstant (const OutputReport& report, std::size_t byte)
 std::size_t longestFrame (Framing framing, std::size_t report) noexcept
 {
     if (framing == Framing::none || framing == Framing::answer) return report;
+    if (framing == Framing::dualpanto) return panto_head - 1 + report;
     const auto summed = report + crc_size;
     return framing == Framing::length ? length_size + summed : 2 + summed + 1 + summed / longest_run;
 }
@@ -97,6 +102,15 @@ std::size_t writeFrame (Framing framing, std::span<const std::uint8_t> report, s
         const auto size = 1 + writeCobs (report, into.subspan (1));
         into[size] = 0;
         return size + 1;
+    }
+    if (framing == Framing::dualpanto)
+    {
+        if (report.empty()) return 0;
+        std::ranges::copy (panto_mark, into.begin());
+        into[std::size (panto_mark)] = report.front();
+        putBits (panto_length, static_cast<std::uint32_t> (report.size() - 1), into);
+        std::ranges::copy (report.subspan (1), into.begin() + panto_head);
+        return panto_head - 1 + report.size();
     }
     const std::size_t before = framing == Framing::length ? length_size : 0;
     std::ranges::copy (report, into.begin() + static_cast<std::ptrdiff_t> (before));
@@ -136,6 +150,8 @@ std::optional<std::span<const std::uint8_t>> FrameReader::next() noexcept
         return nextCobs();
     case Framing::length:
         return nextWithLength();
+    case Framing::dualpanto:
+        return nextOfPanto();
     case Framing::none:
     case Framing::answer:
         break;
@@ -264,6 +280,36 @@ FrameReader::Report FrameReader::nextWithLength() noexcept
             continue;
         }
         return take (length_size, size, summed + crc_size);
+    }
+    return {};
+}
+
+FrameReader::Report FrameReader::nextOfPanto() noexcept
+{
+    while (begin < end)
+    {
+        const auto all = waiting();
+        const auto marked = std::min (all.size(), std::size (panto_mark));
+        if (! std::equal (panto_mark, panto_mark + marked, all.begin()))
+        {
+            drop (1);
+            continue;
+        }
+        if (all.size() < panto_head) return {};
+        const auto id = all[std::size (panto_mark)];
+        const std::size_t size = 1 + bitsAt (panto_length, all);
+        const bool can_be = std::ranges::any_of (shapes, [&] (const Shape& s) { return (! s.id || *s.id == id) && size >= s.length && size <= s.longest; });
+        if (can_be && all.size() < panto_head - 1 + size) return {};
+        if (! can_be)
+        {
+            drop (1);
+            continue;
+        }
+        decoded.front() = id;
+        std::ranges::copy (all.subspan (panto_head, size - 1), decoded.begin() + 1);
+        begin += panto_head - 1 + size;
+        ++tally.frames;
+        return std::span<const std::uint8_t> (decoded).first (size);
     }
     return {};
 }

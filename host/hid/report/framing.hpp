@@ -21,10 +21,12 @@ std::size_t longestFrame (Framing, std::size_t report) noexcept;
 ///  - cobs: 0, the report and its CRC-32 (little-endian) in COBS (Cheshire and Baker, 1999), 0. The first 0 ends what an earlier
 ///    frame may have left unfinished.
 ///  - length: the size of the report (u16, little-endian), the report, and the CRC-32 (little-endian) of both.
+///  - dualpanto: 44 50, the first byte of the report, the number of its other bytes (u16, big-endian), and these. No CRC.
 std::size_t writeFrame (Framing, std::span<const std::uint8_t> report, std::span<std::uint8_t> into) noexcept;
 
-/// Finds the reports in a stream of bytes. Whatever comes, a report is passed on only if its frame is whole: with the right CRC, or
-/// without framing, where every field with a required value has it. Allocates nothing after construction and never throws. [one thread]
+/// Finds the reports in a stream of bytes. Whatever comes, a report is passed on only if its frame is whole: with the right CRC, without framing,
+/// where every field with a required value has it, or from a DualPanto, where its first byte and its length are those of a report.
+/// Allocates nothing after construction and never throws. [one thread]
 class FrameReader
 {
 public:
@@ -76,6 +78,7 @@ private:
     Report nextPlain() noexcept;
     Report nextCobs() noexcept;
     Report nextWithLength() noexcept;
+    Report nextOfPanto() noexcept;
 
     const Framing framing;
     const std::vector<Shape> shapes;

@@ -64,9 +64,21 @@ int ReportDecoder::axis (std::string_view name) const noexcept
 
 ReportDecoder::Report* ReportDecoder::find (std::span<const std::uint8_t> bytes) noexcept
 {
+    Report* last = nullptr;
     for (auto& r : reports)
-        if (! r.report->id || (! bytes.empty() && bytes.front() == *r.report->id)) return &r;
-    return nullptr;
+    {
+        if (r.report->id && (bytes.empty() || bytes.front() != *r.report->id)) continue;
+        last = &r;
+        if (hasMarks (r, bytes)) break;
+    }
+    return last;
+}
+
+bool ReportDecoder::hasMarks (const Report& r, std::span<const std::uint8_t> bytes) noexcept
+{
+    return bytes.size() >= r.report->length && std::ranges::all_of (r.fields, [&] (const Field& f) {
+               return ! f.field->expect || numberOf (f.field->bits, bitsAt (f.field->bits, bytes)) == *f.field->expect;
+           });
 }
 
 Refusal ReportDecoder::check (const Report& r, std::span<const std::uint8_t> bytes) const noexcept

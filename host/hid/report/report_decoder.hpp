@@ -38,7 +38,8 @@ enum class ReportOrder
     back             ///< the number or the time is an earlier one: the device has restarted, or the report is late
 };
 
-/// Decodes bytes into values. Unwraps counters, counts lost reports, and converts device clocks to seconds since the first
+/// Decodes bytes into values. Of several reports with the same id, the first whose required values are there is meant, else the last.
+/// Unwraps counters, counts lost reports, and converts device clocks to seconds since the first
 /// report. A refused report changes no value. Never allocates or throws after construction.
 class ReportDecoder
 {
@@ -103,6 +104,7 @@ private:
     };
 
     Report* find (std::span<const std::uint8_t>) noexcept;
+    static bool hasMarks (const Report&, std::span<const std::uint8_t>) noexcept;
     Refusal check (const Report&, std::span<const std::uint8_t>) const noexcept;
     void takeAxis (Field&, std::uint32_t raw) noexcept;
     void takeButtons (const Field&, std::uint32_t raw) noexcept;

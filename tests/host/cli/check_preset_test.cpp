@@ -63,7 +63,7 @@ TEST_CASE ("`tactus check-preset` passes a good preset, and says how its forces 
     CHECK (ran.out == formatted.out);
     CHECK (ran.out.find ("foam.json: ok\n") != std::string::npos);
     CHECK (ran.out.find ("4 runs of ") != std::string::npos);
-    CHECK (ran.out.find ("haply_2diy, the gentlest device that comes with Tactus, allows 2 N and 0.5 N: ") != std::string::npos);
+    CHECK (ran.out.find ("dualpanto, the gentlest device that comes with Tactus, allows 2 N and 0.5 N: ") != std::string::npos);
 }
 
 TEST_CASE ("`tactus check-preset` says what a preset lacks, what is wrong in it, and where", "[check_preset][cli]")

@@ -86,23 +86,29 @@ TEST_CASE ("a program that is killed while it pushes leaves the device on a wire
     CHECK (ran.out.find (" 0 refused") != std::string::npos);
 }
 
-TEST_CASE ("a program that is killed while it pushes an arm that only answers leaves it at rest", "[cli][wires][safety]")
+TEST_CASE ("a program that is killed while it pushes an arm without a watchdog leaves it at rest", "[cli][wires][safety]")
 {
-    Fake fake { "serial", "haply_2diy" };
+    struct Arm
+    {
+        const char *profile, *force, *zeros;
+    };
+    const auto arm = GENERATE (Arm { "haply_2diy", "< 02 05", " 00 00 00 00 00 00 00 00" },
+                               Arm { "dualpanto", "< 90 01 00", " 00 00 00 00 00 00 00 00 00 00 00 00" });
+    Fake fake { "serial", arm.profile };
     REQUIRE (fake.is_there);
     auto sideways = std::string (pushing);
     sideways.replace (sideways.find ("force.z"), 7, "force.x");
     const auto graph = fake.scratch.write ("push.json", sideways);
     Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    const std::string at_rest = "< 02 05 00 00 00 00 00 00 00 00";
+    const auto at_rest = std::string (arm.force) + arm.zeros;
     const auto isPushed = [&] {
-        const auto heard = linesOf (fake.log, "< 02 05");
+        const auto heard = linesOf (fake.log, arm.force);
         return heard.size() > 100 && heard.back() != at_rest;
     };
     REQUIRE (eventually (isPushed));
     play.signal (SIGKILL);
-    CHECK (eventually ([&] { return linesOf (fake.log, "< 02 05").back() == at_rest; }));
+    CHECK (eventually ([&] { return linesOf (fake.log, arm.force).back() == at_rest; }));
     CHECK (fake.program.stop().status == 0);
 }
 

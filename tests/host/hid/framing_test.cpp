@@ -36,7 +36,7 @@ Bytes anyReport (std::size_t size)
     return report;
 }
 
-const auto all_framings = { Framing::none, Framing::cobs, Framing::length };
+const auto all_framings = { Framing::none, Framing::cobs, Framing::length, Framing::dualpanto };
 }   // namespace
 
 TEST_CASE ("frames have the bytes that the manual describes", "[hid][wires]")
@@ -52,6 +52,11 @@ TEST_CASE ("frames have the bytes that the manual describes", "[hid][wires]")
                                                         "123456789",
                                                         11));
     CHECK (framed_length.size() == 15);
+    CHECK (onTheWire (Framing::dualpanto, digits) == std::string ("DP1\0\x08"
+                                                                  "23456789",
+                                                                  13));
+    CHECK (onTheWire (Framing::dualpanto, Bytes (1, 0x81)) == std::string ("DP\x81\0\0", 5));
+    CHECK (onTheWire (Framing::dualpanto, {}).empty());
 
     // 300 bytes without a zero need a second run after 254 of them.
     const auto long_frame = onTheWire (Framing::cobs, Bytes (300, 1));
@@ -91,7 +96,7 @@ TEST_CASE ("every report arrives as it was sent, however its bytes come", "[hid]
 TEST_CASE ("a fault on the line costs only the reports that it touches", "[hid][wires][property]")
 {
     test::property ("lost, changed and additional bytes", [] {
-        const auto framing = *rc::gen::element (Framing::cobs, Framing::length);
+        const auto framing = *rc::gen::element (Framing::cobs, Framing::length, Framing::dualpanto);
         constexpr std::size_t size = 24;
         const Shapes shapes { { {}, size, size, {} } };
         std::vector<Bytes> untouched;
@@ -149,6 +154,34 @@ TEST_CASE ("without framing, the beginning is found again by the marks, and by a
     CHECK (framed (Framing::none, shapes, report.substr (0, 3) + other, 3, true).empty());   // pauses within reports
     CHECK (framed (Framing::none, shapes, report + other, 6, true).size() == 2);
     CHECK (framed (Framing::none, shapes, report, 6, true).size() == 1);
+}
+
+TEST_CASE ("of a DualPanto, a pause ends what is not whole, and the next message is found by its mark", "[hid][wires]")
+{
+    const Shapes shapes { { std::uint8_t { 0x10 }, 6, 6, {} }, { std::uint8_t { 1 }, 1, 1, {} } };
+    const auto report = onTheWire (Framing::dualpanto, { 0x10, 1, 2, 3, 4, 5 }), life = onTheWire (Framing::dualpanto, { 1 });
+    const auto count = [&] (const std::string& line) { return framed (Framing::dualpanto, shapes, line, 3).size(); };
+    CHECK (count (report + life + report) == 3);
+    CHECK (count ("DDP\x10 noise" + report) == 1);
+    CHECK (count (report.substr (4) + report) == 1);
+    auto longer = report;
+    longer[4] = 6;   // the length of no report
+    CHECK (count (longer + report) == 1);
+    for (std::size_t lost = 0; lost < report.size(); ++lost)
+    {
+        FrameReader reader (Framing::dualpanto, shapes);
+        const auto comes = [&] (std::string_view bytes) {
+            std::ranges::copy (bytes, reader.room().begin());
+            reader.arrived (bytes.size());
+            return reader.next().has_value();
+        };
+        auto less = report;
+        less.erase (lost, 1);
+        CHECK_FALSE (comes (less));
+        reader.pause();
+        CHECK (comes (report));
+    }
+    CHECK (framed (Framing::dualpanto, shapes, report, 3, true).empty());   // pauses within it
 }
 
 TEST_CASE ("every file of the framing corpus is taken apart in the same way, however it comes", "[hid][wires]")
