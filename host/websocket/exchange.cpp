@@ -66,6 +66,7 @@ std::string Exchange::offer (const std::function<void()>& put)
         put();
     }
     socket.post ([this] { talk(); });
+    socket.runOne();   // here, so that it need not wait until the reading thread wakes up
     return {};
 }
 
