@@ -49,7 +49,7 @@ endif ()
 install (TARGETS tactus tactus-bench ${check_plugin} ${fuse_llvm} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
     FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
-foreach (driver haply evdev)
+foreach (driver haply bhaptics evdev)
     if (TARGET ${driver})
         install (TARGETS ${driver} LIBRARY DESTINATION lib/tactus/plugins COMPONENT program)
     endif ()

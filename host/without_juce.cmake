@@ -3,6 +3,6 @@
 # reports, and the threads of runs and devices.
 find_package (PkgConfig REQUIRED)
 pkg_check_modules (hidapi REQUIRED IMPORTED_TARGET GLOBAL hidapi-hidraw)
-foreach (part io assets hid platform guardian plugins device_plugins hid_link sessions generate fuse live)
+foreach (part io assets hid platform guardian plugins device_plugins haply bhaptics hid_link sessions generate fuse live)
     add_subdirectory (host/${part})
 endforeach ()

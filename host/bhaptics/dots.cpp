@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dots.hpp"
-#include "member.hpp"
 
+#include <host/websocket/member.hpp>
 #include <tactus/node/device.hpp>
 
 #include <algorithm>

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "fake_player.hpp"
-#include "member.hpp"
 
-#include <host/websocket/web_server.hpp>
-#include <tactus/text/caught.hpp>
+#include <host/websocket/fake_service.hpp>
+#include <host/websocket/member.hpp>
 #include <tactus/text/json_text.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -22,16 +19,8 @@ namespace tactus::host
 namespace
 {
 using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
 
-constexpr int look_ms = 2;   // how often it looks whether it must end
 constexpr int motors = 20;   // of each side of a vest
-
-std::string textAt (const Json& from, const char* key)
-{
-    const auto* at = member (from, key);
-    return at != nullptr && at->is_string() ? at->asString() : std::string();
-}
 
 /// A whole number from 0 to `most`.
 std::optional<int> wholeAt (const Json& from, const char* key, int most)
@@ -51,25 +40,11 @@ struct Shown
     Clock::time_point until {};
 };
 
-class Player final : public FakePlayer
+class Player final : public FakeService<FakePlayer>
 {
 public:
-    explicit Player (int p) : server (p)
-    {
-        runs = std::jthread ([this] (const std::stop_token& stop) {
-            while (! stop.stop_requested())
-                static_cast<void> (caught ("the fake Player", [&] { serveNext (stop); }));   // a client may do anything
-        });
-    }
-
-    int port() const noexcept override { return server.port(); }
-    void fail (Fault f) noexcept override { fault = f; }
-
-    Counts counts() const override
-    {
-        const std::lock_guard lock (mutex);
-        return tally;
-    }
+    explicit Player (int p) : FakeService (p) { begin ("the fake Player"); }
+    ~Player() override { end(); }
 
     std::vector<std::string> heard() const override
     {
@@ -95,37 +70,23 @@ public:
     }
 
 private:
-    void serveNext (const std::stop_token& stop)
+    void serve (WebServer::Client& client, const std::stop_token& stop) override
     {
-        const auto client = server.next (look_ms);
-        if (client == nullptr) return;
-        count ([&] (Counts& n) {
-            ++n.clients;
-            if (! client->target().starts_with ("/v2/feedbacks?app_id=")) ++n.refused;
-        });
-        bool has_vest = fault != Fault::unworn;
-        client->say (statusOf (has_vest));
-        while (! stop.stop_requested() && fault != Fault::restart)
+        if (! client.target().starts_with ("/v2/feedbacks?app_id=")) count ([&] (Counts& n) { ++n.refused; });
+        bool has_vest = fault() != Fault::unworn;
+        client.say (statusOf (has_vest));
+        while (! mustEnd (stop))
         {
-            if (fault == Fault::silent)
+            if (fault() == Fault::silent)
             {
                 std::this_thread::sleep_for (std::chrono::milliseconds (look_ms));
                 continue;
             }
-            if (fault == Fault::garbage) client->say ("{\"ConnectedDeviceCount\":");
-            if (const bool now = fault != Fault::unworn; now != has_vest) client->say (statusOf (has_vest = now));
-            while (client->says (look_ms))
-                hear (client->hear());
+            if (fault() == Fault::garbage) client.say ("{\"ConnectedDeviceCount\":");
+            if (const bool now = fault() != Fault::unworn; now != has_vest) client.say (statusOf (has_vest = now));
+            while (client.says (look_ms))
+                hear (client.hear());
         }
-        auto restarting = Fault::restart;
-        fault.compare_exchange_strong (restarting, Fault::none);
-    }
-
-    template <typename F>
-    void count (F&& f)
-    {
-        const std::lock_guard lock (mutex);
-        f (tally);
     }
 
     static std::string statusOf (bool has_vest)
@@ -180,22 +141,14 @@ private:
         return true;
     }
 
-    WebServer server;
-    std::atomic<Fault> fault = Fault::none;
-    mutable std::mutex mutex;
-    Counts tally;
     std::vector<std::string> messages;
     std::map<std::string, Shown> shown;   // by key
-    std::jthread runs;                    // last: it uses the other members
 };
 }   // namespace
 
 Result<std::unique_ptr<FakePlayer>> FakePlayer::make (int port)
 {
-    std::unique_ptr<FakePlayer> made;
-    if (auto done = caught ("the fake Player", [&] { made = std::make_unique<Player> (port); }); ! done)
-        return Message::error ("device/wire", "port " + std::to_string (port), done.error().text, "choose another port");
-    return made;
+    return madeService<FakePlayer> (port, [&] { return std::make_unique<Player> (port); });
 }
 
 }   // namespace tactus::host

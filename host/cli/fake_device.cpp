@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#if defined(TACTUS_FAKE_SERVICES)
+#if defined(TACTUS_SERVICES)
 #include <host/bhaptics/fake_player.hpp>
 #include <host/haply/fake_inverse3.hpp>
 #endif
@@ -87,7 +87,7 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     }
 }
 
-#if defined(TACTUS_FAKE_SERVICES)
+#if defined(TACTUS_SERVICES)
 [[noreturn]] void cannot (const std::string& fault, const char* what)
 {
     fail (Message::error ("fake/fault", fault, "this service does not have this fault", std::string ("choose ") + what));
@@ -185,7 +185,7 @@ void runVest (const FakeOptions& o)
 void run (const FakeOptions& o)
 {
     watchForStop();
-#if defined(TACTUS_FAKE_SERVICES)
+#if defined(TACTUS_SERVICES)
     if (o.profile == inverse3 || o.profile == vest)
     {
         if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()) throw UsageError ("--link, --log, --wire", "only the device of a profile has them");

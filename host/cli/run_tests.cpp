@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "check_each.hpp"
 #include "commands.hpp"
-#include "report.hpp"
 #include "run_options.hpp"
 
 #include <host/assets/file_assets.hpp>
@@ -73,9 +73,7 @@ void run (const TestOptions& options)
         if (report (own->messages, *own, options.graph) > 0) throw Stop {};
         how.graph = &own->graph;
     }
-    const auto failed = std::ranges::count_if (options.files, [&] (const std::string& file) { return ! passes (file, how); });
-    if (options.files.size() > 1) std::cout << options.files.size() - static_cast<std::size_t> (failed) << " of " << options.files.size() << " tests pass\n";
-    if (failed > 0) throw Stop {};
+    checkEach (options.files, "tests pass", [&] (const std::string& file) { return passes (file, how); });
 }
 }   // namespace
 

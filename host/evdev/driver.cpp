@@ -2,6 +2,7 @@
 #include "driver.hpp"
 #include "force_device.hpp"
 
+#include <host/device_plugins/driver_answer.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/object_reader.hpp>
 #include <tactus/text/quote.hpp>
@@ -20,26 +21,6 @@ namespace
 EventSystem* in_use = nullptr;
 
 EventSystem& system() { return in_use != nullptr ? *in_use : thisComputer(); }
-
-int32_t fail (const tactus_plugin_report* report, const std::string& why)
-{
-    report->put (report->context, why.data(), why.size());
-    return TACTUS_DEVICE_FAILED;
-}
-
-/// No exception may leave a function of the driver.
-template <typename F>
-int32_t guarded (const tactus_plugin_report* report, F&& f) noexcept
-{
-    try
-    {
-        return f();
-    }
-    catch (const std::exception& e)
-    {
-        return fail (report, e.what());
-    }
-}
 
 //==============================================================================
 /// The description of a device, as read.
@@ -188,22 +169,22 @@ std::unique_ptr<Opened> open (const Wanted& wanted, std::string& why, std::strin
 //==============================================================================
 int32_t checkPort (const tactus_device_description* given, const tactus_plugin_report* report) noexcept
 {
-    return guarded (report, [&] {
+    return answered (report, [&] {
         Wanted wanted;
         const auto wrong = read (*given, wanted);
-        return wrong.empty() ? TACTUS_DEVICE_OK : fail (report, wrong);
+        return wrong.empty() ? TACTUS_DEVICE_OK : failed (report, wrong);
     });
 }
 
 void* openPort (const tactus_device_description* given, tactus_device_about* about, const tactus_plugin_report* report) noexcept
 {
     Opened* made = nullptr;
-    guarded (report, [&] {
+    answered (report, [&] {
         Wanted wanted;
-        if (const auto wrong = read (*given, wanted); ! wrong.empty()) return fail (report, wrong);
+        if (const auto wrong = read (*given, wanted); ! wrong.empty()) return failed (report, wrong);
         std::string why, remark;
         auto opened = open (wanted, why, remark);
-        if (! opened) return fail (report, why);
+        if (! opened) return failed (report, why);
         opened->device->describe (*about);
         if (! remark.empty()) report->put (report->context, remark.data(), remark.size());
         made = opened.release();
@@ -214,13 +195,13 @@ void* openPort (const tactus_device_description* given, tactus_device_about* abo
 
 int32_t readPort (void* device, int32_t timeout_ms, tactus_reading* to, tactus_device_stamp* stamp, const tactus_plugin_report* report) noexcept
 {
-    return guarded (report, [&] {
+    return answered (report, [&] {
         auto& opened = *static_cast<Opened*> (device);
         const auto got = opened.device->read (std::chrono::milliseconds (timeout_ms), *to, *stamp);
         if (got == TACTUS_DEVICE_GONE)
         {
             opened.is_gone = true;
-            fail (report, "it was unplugged");
+            failed (report, "it was unplugged");
         }
         return got;
     });
@@ -229,18 +210,18 @@ int32_t readPort (void* device, int32_t timeout_ms, tactus_reading* to, tactus_d
 int32_t answerOf (int error, const tactus_plugin_report* report)
 {
     if (error == 0) return TACTUS_DEVICE_OK;
-    fail (report, std::strerror (error));
+    failed (report, std::strerror (error));
     return error == ENODEV ? TACTUS_DEVICE_GONE : TACTUS_DEVICE_FAILED;
 }
 
 int32_t writePort (void* device, const tactus_effort* effort, const tactus_plugin_report* report) noexcept
 {
-    return guarded (report, [&] { return answerOf (static_cast<Opened*> (device)->device->write (*effort, ForceDevice::Clock::now()), report); });
+    return answered (report, [&] { return answerOf (static_cast<Opened*> (device)->device->write (*effort, ForceDevice::Clock::now()), report); });
 }
 
 int32_t restPort (void* device, const tactus_plugin_report* report) noexcept
 {
-    return guarded (report, [&] {
+    return answered (report, [&] {
         // A device that is gone is at rest: the kernel has removed its effects.
         const int error = static_cast<Opened*> (device)->device->rest();
         return error == ENODEV ? int32_t { TACTUS_DEVICE_OK } : answerOf (error, report);

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "fake_inverse3.hpp"
 
-#include <host/websocket/web_server.hpp>
-#include <tactus/text/caught.hpp>
+#include <host/websocket/fake_service.hpp>
+#include <host/websocket/member.hpp>
 #include <tactus/text/json_text.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace tactus::host
@@ -22,7 +19,6 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto tick = 1ms;
-constexpr int look_ms = 2;   // how often it looks whether it must end
 
 Json jsonOf (const Vec3& v) { return { { "x", v.x() }, { "y", v.y() }, { "z", v.z() } }; }
 
@@ -52,27 +48,16 @@ std::optional<Vec3> vectorIn (const Json& command)
     return std::nullopt;
 }
 
-class Service final : public FakeInverse3
+class Service final : public FakeService<FakeInverse3>
 {
 public:
-    Service (int p, std::unique_ptr<Device> h, int delay) : server (p), hand (std::move (h)), delay_ms (delay)
+    Service (int p, std::unique_ptr<Device> h, int delay) : FakeService (p), hand (std::move (h)), delay_ms (delay)
     {
         hand->prepare (1e-3);
-        runs = std::jthread ([this] (const std::stop_token& stop) {
-            while (! stop.stop_requested())
-                static_cast<void> (caught ("the fake service", [&] { serveNext (stop); }));   // a client may do anything
-        });
+        begin ("the fake service");
     }
 
-    int port() const noexcept override { return server.port(); }
-
-    void fail (Fault f) noexcept override { fault = f; }
-
-    Counts counts() const override
-    {
-        const std::lock_guard lock (mutex);
-        return tally;
-    }
+    ~Service() override { end(); }
 
     Vec3 force() const override
     {
@@ -81,40 +66,28 @@ public:
     }
 
 private:
-    void serveNext (const std::stop_token& stop)
+    void serve (WebServer::Client& client, const std::stop_token& stop) override
     {
-        const auto client = server.next (look_ms);
-        if (client == nullptr) return;
-        count ([] (Counts& n) { ++n.clients; });
-        send (*client, true);
+        send (client, true);
         auto pushed = Clock::now();
-        while (! stop.stop_requested() && fault != Fault::restart)
+        while (! mustEnd (stop))
         {
-            if (fault == Fault::push && Clock::now() - pushed >= 2ms)
+            if (fault() == Fault::push && Clock::now() - pushed >= 2ms)
             {
                 pushed = Clock::now();
-                send (*client, false);
+                send (client, false);
             }
-            if (! client->says (look_ms)) continue;
-            hear (client->hear());
-            if (fault == Fault::silent || fault == Fault::push) continue;
+            if (! client.says (look_ms)) continue;
+            hear (client.hear());
+            if (fault() == Fault::silent || fault() == Fault::push) continue;
             // What comes before the answer has gone out was sent without waiting for it.
-            if (client->says (delay_ms)) count ([] (Counts& n) { ++n.together; });
-            send (*client, false);
+            if (client.says (delay_ms)) count ([] (Counts& n) { ++n.together; });
+            send (client, false);
             count ([] (Counts& n) { ++n.answered; });
         }
-        auto restarting = Fault::restart;
-        fault.compare_exchange_strong (restarting, Fault::none);
     }
 
-    template <typename F>
-    void count (F&& f)
-    {
-        const std::lock_guard lock (mutex);
-        f (tally);
-    }
-
-    std::string id() const { return fault == Fault::rename ? "1F2E" : "04BA"; }
+    std::string id() const { return fault() == Fault::rename ? "1F2E" : "04BA"; }
 
     void hear (const std::string& text)
     {
@@ -123,16 +96,16 @@ private:
         ++tally.heard;
         is_pushed = false;
         const auto read = readJson (text);
-        const auto arms = read.root.is_object() ? read.root.find ("inverse3") : read.root.end();
-        if (! read.messages.empty() || ! read.root.is_object() || arms == read.root.end() || ! arms->is_array())
+        const auto* arms = member (read.root, "inverse3");
+        if (! read.messages.empty() || arms == nullptr || ! arms->is_array())
         {
             ++tally.refused;
             return;
         }
         for (const auto& arm : *arms)
         {
-            const auto commands = arm.is_object() ? arm.find ("commands") : arm.end();
-            if (! arm.is_object() || arm.value ("device_id", std::string()) != id() || commands == arm.end() || ! commands->is_object())
+            const auto* commands = member (arm, "commands");
+            if (textAt (arm, "device_id") != id() || commands == nullptr || ! commands->is_object())
             {
                 ++tally.refused;
                 continue;
@@ -140,7 +113,7 @@ private:
             if (commands->contains ("probe_position")) ++tally.probes;
             const auto push = commands->find ("set_cursor_force");
             if (push == commands->end()) continue;
-            const auto force = push->is_object() && fault != Fault::deaf ? vectorIn (*push) : std::nullopt;
+            const auto force = push->is_object() && fault() != Fault::deaf ? vectorIn (*push) : std::nullopt;
             if (! force)
             {
                 ++tally.refused;
@@ -173,7 +146,7 @@ private:
 
     void send (WebServer::Client& client, bool is_full)
     {
-        if (fault == Fault::garbage && ! is_full)
+        if (fault() == Fault::garbage && ! is_full)
         {
             client.say ("{\"inverse3\": [");
             return;
@@ -206,26 +179,18 @@ private:
         client.say (message.dump());
     }
 
-    WebServer server;
     const std::unique_ptr<Device> hand;   // moves with `mutex` held
     const int delay_ms;
-    std::atomic<Fault> fault = Fault::none;
-    mutable std::mutex mutex;
-    Counts tally;
     Reading reading;
     Vec3 commanded = Vec3::Zero();
     bool is_pushed = false;   // by the last message   [service thread]
     Clock::time_point commanded_at, moved_to = Clock::now();
-    std::jthread runs;   // last: it uses the other members
 };
 }   // namespace
 
 Result<std::unique_ptr<FakeInverse3>> FakeInverse3::make (int port, std::unique_ptr<Device> hand, int answer_after_ms)
 {
-    std::unique_ptr<FakeInverse3> made;
-    if (auto done = caught ("the fake service", [&] { made = std::make_unique<Service> (port, std::move (hand), answer_after_ms); }); ! done)
-        return Message::error ("device/wire", "port " + std::to_string (port), done.error().text, "choose another port");
-    return made;
+    return madeService<FakeInverse3> (port, [&] { return std::make_unique<Service> (port, std::move (hand), answer_after_ms); });
 }
 
 }   // namespace tactus::host

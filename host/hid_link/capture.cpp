@@ -21,6 +21,7 @@ constexpr std::string_view capture_format = "tactus-capture";
 constexpr int capture_version = 1;
 constexpr std::array<const char*, 5> line_kinds { "in", "out", "feature_in", "feature_out", "gone" };   // in the order of Capture::Line::What
 constexpr std::array<const char*, 3> wire_names { "hid", "serial", "udp" };                             // in the order of Wire
+constexpr const char* service_wire = "websocket";
 
 using LineKind = Capture::Line::What;
 
@@ -57,14 +58,21 @@ Result<Capture> readHead (std::string_view text)
     const auto number = json.find ("version");
     if (number == json.end() || ! number->is_number_integer() || number->get<std::int64_t>() != capture_version)
         return badCapture (1, "capture/version", "this Tactus reads only captures of version " + std::to_string (capture_version), "use a newer Tactus");
-    Capture capture { .profile = textAt (json, "profile"), .lines = {} };
+    Capture capture { .profile = textAt (json, "profile"), .driver = textAt (json, "driver"), .wire = {}, .lines = {} };
+    if (textAt (json, "wire") == service_wire)
+    {
+        if (! capture.driver.empty()) return capture;
+        return badCapture (1, "capture/format", "the capture does not say which driver talks with the service", "make the capture again");
+    }
+    capture.driver.clear();
     const auto wire = std::ranges::find (wire_names, textAt (json, "wire"));
-    if (wire == wire_names.end()) return badCapture (1, "capture/format", "the wire of the capture is none of hid, serial and udp", "make the capture again");
+    if (wire == wire_names.end())
+        return badCapture (1, "capture/format", "the wire of the capture is none of hid, serial, udp and websocket", "make the capture again");
     capture.wire = static_cast<Wire> (wire - wire_names.begin());
     return capture;
 }
 
-Result<Capture::Line> readLine (std::string_view text, std::size_t number)
+Result<Capture::Line> readLine (std::string_view text, std::size_t number, bool is_text)
 {
     const auto refuse = [&] (std::string why) {
         return badCapture (number, "capture/line", std::move (why), R"(a line is written as {"t":0.001,"in":"54 01"}; remove this one)");
@@ -81,8 +89,15 @@ Result<Capture::Line> readLine (std::string_view text, std::size_t number)
     if (what == line_kinds.end()) return refuse ("the line is none of in, out, feature_in, feature_out and gone");
     line.what = static_cast<LineKind> (what - line_kinds.begin());
     if (line.what == LineKind::gone) return line;
-    const auto hex = json.find (*what);
-    auto bytes = hex->is_string() ? bytesOf (hex->asString()) : std::nullopt;
+    const auto written = json.find (*what);
+    if (is_text)
+    {
+        if (! written->is_string()) return refuse ("the message is no text");
+        const auto& message = written->asString();
+        line.bytes.assign (message.begin(), message.end());
+        return line;
+    }
+    auto bytes = written->is_string() ? bytesOf (written->asString()) : std::nullopt;
     if (! bytes) return refuse ("the bytes are not written as 54 01 ff");
     line.bytes = std::move (*bytes);
     return line;
@@ -152,7 +167,7 @@ Result<Capture> readCapture (std::string_view text)
     {
         const auto line = nextLine (text);
         if (line.empty()) continue;
-        auto read = readLine (line, number);
+        auto read = readLine (line, number, ! head->driver.empty());
         if (! read) return std::move (read).error();
         head->lines.push_back (std::move (*read));
     }
@@ -162,7 +177,6 @@ Result<Capture> readCapture (std::string_view text)
 Result<std::unique_ptr<CaptureFile>> CaptureFile::create (const std::string& path, const ConnectedDevice& device, std::string_view profile,
                                                           const Bytes& descriptor)
 {
-    std::ofstream file (path, std::ios::trunc);
     Json head { { "format", capture_format }, { "version", capture_version }, { "wire", wire_names[static_cast<std::size_t> (device.wire)] } };
     if (! profile.empty()) head["profile"] = profile;
     if (device.wire == Wire::hid)
@@ -173,18 +187,30 @@ Result<std::unique_ptr<CaptureFile>> CaptureFile::create (const std::string& pat
                                            { "interface", device.interface_number } })
             head[key] = number;
     if (! descriptor.empty()) head["descriptor"] = hexOf (descriptor);
+    return begin (path, head, false);
+}
+
+Result<std::unique_ptr<CaptureFile>> CaptureFile::createForMessages (const std::string& path, std::string_view driver)
+{
+    return begin (path, { { "format", capture_format }, { "version", capture_version }, { "wire", service_wire }, { "driver", driver } }, true);
+}
+
+Result<std::unique_ptr<CaptureFile>> CaptureFile::begin (const std::string& path, const Json& head, bool is_text)
+{
+    std::ofstream file (path, std::ios::trunc);
     file << head.dump() << '\n'
          << std::flush;
     if (! file) return Message::error ("output/unwritable", path, "the capture cannot be written", "name a file in a folder that you may write to");
-    return std::unique_ptr<CaptureFile> (new CaptureFile (std::move (file)));
+    return std::unique_ptr<CaptureFile> (new CaptureFile (std::move (file), is_text));
 }
 
 void CaptureFile::add (Capture::Line::What what, std::span<const std::uint8_t> bytes) noexcept
 {
     const std::lock_guard lock (mutex);
-    const double t = std::chrono::duration<double> (std::chrono::steady_clock::now() - begin).count();
+    const double t = std::chrono::duration<double> (std::chrono::steady_clock::now() - began).count();
     static_cast<void> (caught ("the capture", [&] {
-        file << R"({"t":)" << numberText (t) << R"(,")" << line_kinds[static_cast<std::size_t> (what)] << R"(":")" << hexOf (bytes) << "\"}\n"
+        const Json written = is_text ? std::string (bytes.begin(), bytes.end()) : hexOf (bytes);
+        file << R"({"t":)" << numberText (t) << R"(,")" << line_kinds[static_cast<std::size_t> (what)] << R"(":)" << written.dump() << "}\n"
              << std::flush;
     }));
     count += file ? 1 : 0;

@@ -4,6 +4,7 @@
 #include "transport.hpp"
 
 #include <host/hid/profile.hpp>
+#include <tactus/text/json.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/result.hpp>
 
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +27,9 @@ namespace tactus::host::hid
 ///     {"t":0.0012,"in":"54 01 01 00"}
 ///
 /// The first line may also have the ids of a HID device and its report descriptor. `t` is in s. Serial numbers and paths are not in the file.
+///
+/// Messages between a driver and a service are recorded as text: {"format":…,"version":1,"wire":"websocket","driver":"haply"} and {"t":0.002,"in":"{}"}.
+/// They are as they were, so they have whatever the service says about its devices.
 struct Capture
 {
     /// One line after the first. `bytes` are as HidPort gets and sends them: a report id comes first if the device uses ids; if not, `in` has
@@ -47,8 +52,9 @@ struct Capture
         bool operator== (const Line&) const = default;
     };
 
-    std::string profile;   ///< the id; empty if none fitted
-    Wire wire = Wire::hid;
+    std::string profile;        ///< the id; empty if none fitted
+    std::string driver;         ///< the one that talks with a service; empty: the lines are reports
+    std::optional<Wire> wire;   ///< none for a service
     std::vector<Line> lines;
 };
 
@@ -63,18 +69,23 @@ public:
     /// Replaces the file. Id: output/unwritable.
     static Result<std::unique_ptr<CaptureFile>> create (const std::string& path, const ConnectedDevice&, std::string_view profile, const Bytes& descriptor);
 
+    /// The same for messages between a driver and a service.
+    static Result<std::unique_ptr<CaptureFile>> createForMessages (const std::string& path, std::string_view driver);
+
     void add (Capture::Line::What, std::span<const std::uint8_t>) noexcept;   ///< now
 
     std::uint64_t lines() const noexcept;   ///< written so far, without the first
     bool isGood() const noexcept;           ///< false after a write has failed
 
 private:
-    CaptureFile (std::ofstream f) : file (std::move (f)) {}
+    CaptureFile (std::ofstream f, bool text) : file (std::move (f)), is_text (text) {}
+    static Result<std::unique_ptr<CaptureFile>> begin (const std::string& path, const Json& head, bool is_text);
 
     mutable std::mutex mutex;
     std::ofstream file;
+    const bool is_text;   // messages, not reports
     std::uint64_t count = 0;
-    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    const std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 };
 
 /// A system that records the reports to and from the devices that are opened with it. The other system and the file must outlive it and all that it

@@ -2,6 +2,7 @@
 #include "preset_runs.hpp"
 #include "preset_text.hpp"
 
+#include <host/cli/check_each.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/graph_argument.hpp>
 #include <host/cli/report.hpp>
@@ -127,10 +128,7 @@ void addCheckPreset (const Command& app)
                     "  tactus check-preset my_preset.json\n"
                     "  tactus check-preset graphs/*.json");
     command.callback ([options] {
-        bool all_fine = true;
-        for (const auto& file : options->files)
-            all_fine = checkArgument (file, options->format) && all_fine;
-        if (! all_fine) throw Stop {};
+        checkEach (options->files, "presets can be shared", [&] (const std::string& file) { return checkArgument (file, options->format); });
     });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "capture_device.hpp"
+#include "capture_service.hpp"
 
 #include <host/cli/report.hpp>
 #include <host/hid_link/capture.hpp>
@@ -38,7 +39,8 @@ struct Chosen
 
 [[noreturn]] void failWithoutDevice (const std::string& text)
 {
-    fail ("capture/device", text, "name it: --device hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or its path; `tactus devices` lists them");
+    fail ("capture/device", text, "name it: --device hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, haply:HOST:PORT, bhaptics:HOST:PORT, or its path; "
+                                  "`tactus devices` lists them");
 }
 
 /// What passes through a device that a profile describes.
@@ -129,6 +131,7 @@ void recordBytes (const ConnectedDevice& device, int baud, CaptureFile& file, do
 void captureDevice (const DeviceCapture& options)
 {
     watchForStop();
+    if (captureService (options)) return;
     const auto profiles = loadProfileLibrary();
     const auto chosen = choose (options.device, profiles);
     const auto descriptor = chosen.device.wire == Wire::hid ? thisComputer().reportDescriptor (chosen.device) : Bytes {};

@@ -10,7 +10,7 @@ namespace tactus::host
 struct DeviceCapture
 {
     std::string file;
-    std::string device;        ///< hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or the path of a device; empty: the only one with a profile
+    std::string device;        ///< as in --device, or the path of a device; empty: the only one with a profile
     int baud = 115200;         ///< of a serial port without a profile
     double duration_s = 0.0;   ///< 0: until Ctrl-C
 };

@@ -440,8 +440,8 @@ void addDevices (const Command& app)
                              .type ("FILE")
                              .excludes (probe);
     command.addOption ("--device", options->capture.device,
-                       "What to record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or the path of a device, which need not have a profile; "
-                       "default: the only HID device with a profile")
+                       "What to record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, the service of haply:HOST:PORT or bhaptics:HOST:PORT, or the "
+                       "path of a device, which need not have a profile; default: the only HID device with a profile")
         .needs (capture);
     command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
         .check (within (300, 20000000))
@@ -452,7 +452,8 @@ void addDevices (const Command& app)
                     "  tactus devices\n"
                     "  tactus devices --probe\n"
                     "  tactus devices --probe --duration 2 --json\n"
-                    "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0");
+                    "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
+                    "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });
 }
 

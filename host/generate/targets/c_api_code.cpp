@@ -7,15 +7,68 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <span>
+#include <string_view>
 
 namespace tactus::host
 {
 
 namespace
 {
-/// The vectors of a reading and of an effort.
-constexpr const char* reading_vectors[] { "position", "rotation", "true_position", "true_velocity", "unrendered_force", "unrendered_torque" };
-constexpr const char* effort_vectors[] { "force", "torque" };
+/// A member of a struct.
+struct Member
+{
+    const char *type, *name;
+    std::size_t count;   // above 1 for an array
+    const char* about;
+};
+
+constexpr Member reading_members[] {
+    { "double", "position", 3, "of the tool, m" },
+    { "double", "rotation", 3, "rotation vector, rad" },
+    { "double", "pressure", 1, "N" },
+    { "double", "age", 1, "time since the device took this reading, s" },
+    { "bool", "valid", 1, "false while the device has nothing to report" },
+    { "uint32_t", "buttons", 1, "bit i: button i is down" },
+    { "double", "true_position", 3, "of a simulated device, m" },
+    { "double", "true_velocity", 3, "of a simulated device, m/s" },
+    { "double", "unrendered_force", 3, "the part of the last force that the motors could not render, N" },
+    { "double", "unrendered_torque", 3, "the same for the torque, N m" },
+};
+
+constexpr Member effort_members[] {
+    { "double", "force", 3, "on the tool, N" },
+    { "double", "torque", 3, "on the tool, N m" },
+    { "double", "brake", 1, "damping of the brake, N s/m" },
+};
+
+/// The fixed members of the effort of a role; most devices have no brake.
+std::span<const Member> effortMembers (const DeviceLayout& layout) { return std::span (effort_members).first (layout.brake > 0.0 ? 3 : 2); }
+
+/// Declares members, with their comments in one column.
+std::string declared (std::span<const Member> members, std::size_t column)
+{
+    std::string text;
+    for (const auto& m : members)
+    {
+        auto line = std::string ("    ") + m.type + " " + m.name + (m.count > 1 ? "[" + std::to_string (m.count) + "]" : std::string()) + ";";
+        line.resize (column, ' ');
+        text += line + "/* " + m.about + " */\n";
+    }
+    return text;
+}
+
+std::size_t bytesOf (std::span<const Member> members)
+{
+    std::size_t bytes = 0;
+    for (const auto& m : members)
+    {
+        const std::size_t each = m.type == std::string_view ("double") ? 8 : m.type == std::string_view ("bool") ? 1
+                                                                                                                 : 4;
+        bytes = (bytes + each - 1) / each * each + each * m.count;
+    }
+    return bytes;
+}
 
 /// "DRY_WOOD" for "dry_wood".
 std::string capitals (std::string text)
@@ -38,21 +91,11 @@ std::string roleStructs (const Exported& e)
         const auto name = e.stem + "_" + e.wiring.role_ports[i];
         const auto& layout = e.roles[i].layout;
         text += "/* What the device in the role " + comment (e.roles[i].name) + " reports. */\ntypedef struct " + name + "_reading\n{\n"
-                + "    double position[3];            /* of the tool, m */\n"
-                  "    double rotation[3];            /* rotation vector, rad */\n"
-                  "    double pressure;               /* N */\n"
-                  "    double age;                    /* time since the device took this reading, s */\n"
-                  "    bool valid;                    /* false while the device has nothing to report */\n"
-                  "    uint32_t buttons;              /* bit i: button i is down */\n"
-                  "    double true_position[3];       /* of a simulated device, m */\n"
-                  "    double true_velocity[3];       /* of a simulated device, m/s */\n"
-                  "    double unrendered_force[3];    /* the part of the last force that the motors could not render, N */\n"
-                  "    double unrendered_torque[3];   /* the same for the torque, N m */\n"
+                + declared (reading_members, 35)
                 + cChannels ("axes", layout.axes.size(), "m, rad or 1")
                 + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
                 + "} " + name + "_reading;\n\n/* What this device should apply. */\ntypedef struct " + name + "_effort\n{\n"
-                + "    double force[3];    /* on the tool, N */\n    double torque[3];   /* on the tool, N m */\n"
-                + (layout.brake > 0.0 ? "    double brake;       /* damping of the brake, N s/m */\n" : "")
+                + declared (effortMembers (layout), 24)
                 + cChannels ("axes", layout.efforts.size(), "N or N m")
                 + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
                 + "} " + name + "_effort;\n\n";
@@ -94,8 +137,8 @@ std::string cEnumOf (const Exported& e, const std::string& kind, const std::vect
 std::string forLimits (const std::function<std::string (const std::string&)>& text)
 {
     std::string all;
-    for (const auto& [key, value] : guard_fields)
-        if (value != &GuardLimits::workspace_scale) all += text (std::string (key));
+    for (const auto& name : limitNames())
+        all += text (name);
     return all;
 }
 
@@ -177,10 +220,8 @@ std::string readInputs (const Exported& e)
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
         const auto from = "inputs->" + e.wiring.role_ports[i] + ".", to = "in." + e.wiring.role_ports[i] + ".";
-        for (const auto* name : reading_vectors)
-            text += "    " + to + name + " = vector (" + from + name + ");\n";
-        for (const auto* name : { "pressure", "age", "valid", "buttons" })
-            text += "    " + to + name + " = " + from + name + ";\n";
+        for (const auto& m : reading_members)
+            text += "    " + to + m.name + " = " + (m.count > 1 ? "vector (" + from + m.name + ")" : from + m.name) + ";\n";
         if (! e.roles[i].layout.axes.empty()) text += "    set (" + to + "axes, " + from + "axes);\n";
         if (e.roles[i].layout.signal_inputs > 0) text += "    set (" + to + "signals, " + from + "signals);\n";
     }
@@ -195,10 +236,12 @@ std::string writeOutputs (const Exported& e)
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
         const auto from = "out." + e.wiring.role_ports[i] + ".", to = "outputs->" + e.wiring.role_ports[i] + ".";
-        for (const auto* name : effort_vectors)
-            for (int c = 0; c < 3; ++c)
-                text += "    " + to + name + "[" + std::to_string (c) + "] = " + from + name + "[" + std::to_string (c) + "];\n";
-        if (e.roles[i].layout.brake > 0.0) text += "    " + to + "brake = " + from + "brake;\n";
+        for (const auto& m : effortMembers (e.roles[i].layout))
+            for (std::size_t c = 0; c < m.count; ++c)
+            {
+                const auto member = m.count > 1 ? m.name + ("[" + std::to_string (c) + "]") : std::string (m.name);
+                text += "    " + to + member + " = " + from + member + ";\n";
+            }
         if (! e.roles[i].layout.efforts.empty()) text += "    get (" + from + "axes, " + to + "axes);\n";
         if (e.roles[i].layout.signal_outputs > 0) text += "    get (" + from + "signals, " + to + "signals);\n";
     }
@@ -371,5 +414,16 @@ int main (void)
 }   // namespace
 
 CFiles cFiles (const Exported& e) { return { cHeader (e), cSource (e), cExample (e) }; }
+
+std::size_t readingBytes (const DeviceLayout& l) { return bytesOf (reading_members) + 8 * (l.axes.size() + static_cast<std::size_t> (l.signal_inputs)); }
+std::size_t effortBytes (const DeviceLayout& l) { return bytesOf (effortMembers (l)) + 8 * (l.efforts.size() + static_cast<std::size_t> (l.signal_outputs)); }
+
+std::vector<std::string> limitNames()
+{
+    std::vector<std::string> all;
+    for (const auto& [key, value] : guard_fields)
+        if (value != &GuardLimits::workspace_scale) all.emplace_back (key);
+    return all;
+}
 
 }   // namespace tactus::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wasm_code.hpp"
+#include "c_api_code.hpp"
 
 #include <host/generate/sources/sources.hpp>
 #include <tactus/run/log/run_head.hpp>
@@ -12,26 +13,22 @@ namespace tactus::host
 
 namespace
 {
-/// The number of doubles in the structs of a role, as tactus_graph.js reads them. `valid` and `buttons` share one.
-std::size_t readingSize (const DeviceLayout& l) { return 21 + l.axes.size() + static_cast<std::size_t> (l.signal_inputs); }
-std::size_t effortSize (const DeviceLayout& l) { return 6 + (l.brake > 0.0 ? 1 : 0) + l.efforts.size() + static_cast<std::size_t> (l.signal_outputs); }
-
 /// Fails to compile if the structs are not what tactus_graph.js takes them for.
 std::string layoutChecks (const Exported& e)
 {
     std::string text;
-    std::size_t inputs = e.wiring.feed_names.size(), outputs = 0;
+    std::size_t inputs = 8 * e.wiring.feed_names.size(), outputs = 0;
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
         const auto reading = e.stem + "_" + e.wiring.role_ports[i] + "_reading";
         text += "static_assert (offsetof (" + reading + ", valid) == 64 && offsetof (" + reading + ", buttons) == 68);\n";
-        inputs += readingSize (e.roles[i].layout);
-        outputs += effortSize (e.roles[i].layout);
+        inputs += readingBytes (e.roles[i].layout);
+        outputs += effortBytes (e.roles[i].layout);
     }
     for (const auto& tap : e.wiring.plan.taps())
-        outputs += tap.samples == nullptr ? 1 : static_cast<std::size_t> (tap.per_tick);
+        outputs += 8 * (tap.samples == nullptr ? 1 : static_cast<std::size_t> (tap.per_tick));
     const auto check = [&] (const char* name, std::size_t size) {
-        if (size > 0) text += "static_assert (sizeof (" + e.stem + "_" + name + ") == " + std::to_string (8 * size) + ");\n";
+        if (size > 0) text += "static_assert (sizeof (" + e.stem + "_" + name + ") == " + std::to_string (size) + ");\n";
     };
     check ("inputs", inputs);
     check ("outputs", outputs);
@@ -168,14 +165,6 @@ Json recordsOf (const Exported& e)
         if (tap.samples != nullptr) record["count"] = tap.per_tick;
         all.push_back (std::move (record));
     }
-    return all;
-}
-
-std::vector<std::string> limitNames()
-{
-    std::vector<std::string> all;
-    for (const auto& [key, value] : guard_fields)
-        if (value != &GuardLimits::workspace_scale) all.emplace_back (key);
     return all;
 }
 

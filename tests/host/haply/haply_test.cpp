@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The driver of Haply's Inverse3 against a fake of the service that it talks to. Both are ours; no device has been tried.
 
-#include "support/sketch.hpp"
+#include "host/websocket/service_bench.hpp"
 
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/device_plugins/plugin_device.hpp>
 #include <host/haply/fake_inverse3.hpp>
-
-#include <tactus/run/device/make_device.hpp>
+#include <host/haply/inverse3.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -22,73 +21,84 @@
 
 using namespace tactus;
 using namespace std::chrono_literals;
+using test::eventually;
+using test::Patience;
 using Fault = host::FakeInverse3::Fault;
 
 namespace
 {
-template <typename F>
-bool eventually (F&& so, std::chrono::seconds within = 30s)
+/// An arm that stands still, and knows what has pushed it. The same effort may act for several of its steps.
+struct StillArm final : Device
 {
-    const auto end = std::chrono::steady_clock::now() + within;
-    while (! so())
+    struct Felt
     {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for (1ms);
+        std::atomic<double> force = 0.0;   // along z, the last that was not 0
+        std::atomic<std::uint64_t> steps = 0;
+    };
+
+    explicit StillArm (std::shared_ptr<Felt> f) : felt (std::move (f)) {}
+    void prepare (double) override {}
+    Reading read() noexcept override { return { .position = { 0.01, 0.02, 0.03 } }; }
+    void write (const Effort& effort) noexcept override
+    {
+        if (effort.force.isZero (0.0)) return;
+        felt->force = effort.force.z();
+        ++felt->steps;
     }
-    return true;
-}
+
+    std::shared_ptr<Felt> felt;
+};
 
 /// A service with an arm that stands still, and the driver on it.
-struct Arm
+struct Arm : test::ServiceBench<host::FakeInverse3>
 {
-    explicit Arm (Json more = Json::object(), int answer_after_ms = 0)
+    explicit Arm (Patience patience, const Json& more = Json::object(), int answer_after_ms = 0, double silence_s = 60.0)
+        : Arm (std::make_shared<StillArm::Felt>(), patience, more, answer_after_ms, silence_s)
     {
-        auto hand = makeDevice ({ { "driver", "sim" }, { "position", Json::array ({ "1 cm", "2 cm", "3 cm" }) }, { "mass", "1000 kg" } }, {});
-        INFO (test::text (hand.messages));
-        REQUIRE (hand.device);
-        auto made = host::FakeInverse3::make (0, std::move (hand.device), answer_after_ms);
-        REQUIRE (made);
-        service = std::move (*made);
-        more["driver"] = "haply";
-        more["port"] = "localhost:" + std::to_string (service->port());
-        description = std::move (more);
-        opened = host::openPluginDevice (description);
-        INFO (test::text (opened.messages));
-        REQUIRE (opened.device);
-        device = dynamic_cast<host::PluginDevice*> (opened.device.get());
-        REQUIRE (device != nullptr);
-        device->prepare (1e-3);
     }
 
-    /// One tick with a force if the reading is valid; true if it is.
     bool tick (double newtons)
     {
-        reading = device->read();
-        Effort effort;
-        if (reading.valid) effort.force.z() = newtons;
-        device->write (effort);
-        return reading.valid;
+        return ServiceBench::tick ([&] (Effort& effort) { effort.force.z() = newtons; });
     }
 
+    /// True as soon as the arm has felt 1 N from now on.
     bool pushes()
     {
+        const auto before = felt->steps.load();
+        felt->force = 0.0;
         return eventually ([&] {
             tick (1.0);
-            return service->force().z() == Approx (1.0);
+            return felt->steps > before && felt->force == 1.0;
         });
     }
 
-    std::unique_ptr<host::FakeInverse3> service;   // ends after the device
-    Json description;
-    MadeDevice opened;
-    host::PluginDevice* device = nullptr;
-    Reading reading;
+    /// True as soon as no force acts any more.
+    bool rests() const
+    {
+        return eventually ([&] { return service->force().isZero (0.0); });
+    }
+
+    std::shared_ptr<StillArm::Felt> felt;
+
+private:
+    static std::unique_ptr<host::FakeInverse3> made (const std::shared_ptr<StillArm::Felt>& f, int answer_after_ms)
+    {
+        auto made = host::FakeInverse3::make (0, std::make_unique<StillArm> (f), answer_after_ms);
+        REQUIRE (made);
+        return std::move (*made);
+    }
+
+    Arm (const std::shared_ptr<StillArm::Felt>& f, Patience patience, const Json& more, int answer_after_ms, double silence_s)
+        : ServiceBench (made (f, answer_after_ms), "haply", host::patient_haply_driver, patience, more, silence_s), felt (f)
+    {
+    }
 };
 }   // namespace
 
 TEST_CASE ("the Inverse3 is read and pushed through its service, with one message in flight", "[haply][wires]")
 {
-    Arm arm { Json { { "grip", "wireless" } }, 3 };   // each answer comes after 3 ms, so that whatever is sent before it is seen
+    Arm arm { Patience::ample, Json { { "grip", "wireless" } }, 3 };   // each answer comes after 3 ms, so that whatever is sent before it is seen
     CHECK (arm.opened.limits.max_force == 2.0);
     CHECK (arm.device->about().rotation);
     CHECK (arm.device->about().layout.buttons == std::vector<std::string> { "a", "b", "c", "home" });
@@ -104,7 +114,7 @@ TEST_CASE ("the Inverse3 is read and pushed through its service, with one messag
     const auto n = arm.service->counts();
     CHECK (n.together == 0);
     CHECK (n.refused == 0);
-    CHECK (n.largest == Approx (1.0));
+    CHECK (n.largest == 1.0);
     CHECK (arm.device->counts().departures == 0);
 
     // At the end, the last message that the service has heard asks for no force.
@@ -122,22 +132,19 @@ TEST_CASE ("position, rotation and buttons of an arm and its grip are one readin
         {
             ++number;
             const double turn = 1e-4 * (number % 30000);
-            return { .position = { 1e-6 * number, 0.0, 0.0 }, .rotation = { 0.6 * turn, 0.0, -0.8 * turn }, .buttons = static_cast<std::uint32_t> (number % 16) };
+            const auto buttons = static_cast<std::uint32_t> (number % 16);
+            return { .position = { 1e-6 * number, 0.0, 0.0 }, .rotation = { 0.6 * turn, 0.0, -0.8 * turn }, .buttons = buttons };
         }
         void write (const Effort&) noexcept override {}
         int number = 0;
     };
     auto made = host::FakeInverse3::make (0, std::make_unique<Hand>());
     REQUIRE (made);
-    auto opened = host::openPluginDevice ({ { "driver", "haply" }, { "port", "localhost:" + std::to_string ((*made)->port()) }, { "grip", "wireless" } });
-    INFO (test::text (opened.messages));
-    REQUIRE (opened.device);
-    opened.device->prepare (1e-3);
+    test::ServiceBench<host::FakeInverse3> arm { std::move (*made), "haply", host::patient_haply_driver, Patience::ample, { { "grip", "wireless" } } };
     int seen = 0, last = 0;
     REQUIRE (eventually ([&] {
-        const auto reading = opened.device->read();
-        opened.device->write ({});
-        if (! reading.valid) return false;
+        if (! arm.tick ([] (Effort&) {})) return false;
+        const auto& reading = arm.reading;
         const int number = static_cast<int> (std::lround (1e6 * reading.position.x()));
         if (number == last) return false;
         const double turn = 1e-4 * (number % 30000);
@@ -151,21 +158,28 @@ TEST_CASE ("position, rotation and buttons of an arm and its grip are one readin
 
 TEST_CASE ("the Inverse3 understands both spellings of a force, and is asked where it is while nobody pushes", "[haply][wires]")
 {
-    Arm arm { Json { { "spelling", "vector" } } };
+    Arm arm { Patience::ample, Json { { "spelling", "vector" } }, 0, 0.02 };
     CHECK_FALSE (arm.device->about().rotation);
+    const auto silences = arm.device->counts().silences;
     REQUIRE (arm.pushes());
     CHECK (arm.service->counts().refused == 0);
 
-    // The program stops offering forces: the arm is brought to rest, and then only asked.
-    const auto at = arm.service->counts();
-    CHECK (eventually ([&] { return arm.service->counts().probes > at.probes + 10 && arm.service->force().isZero (0.0); }));
-    CHECK (arm.device->counts().silences == 1);
+    // The program stops offering forces: the arm is brought to rest once, and then only asked.
+    CHECK (eventually ([&] { return arm.device->counts().silences > silences; }));
+    const auto at = arm.service->counts().probes;
+    CHECK (eventually ([&] { return arm.service->counts().probes > at + 10; }));
+    CHECK (arm.rests());
+    const auto at_rest = arm.service->counts();
+    const auto then = arm.device->counts().silences;
+    CHECK (eventually ([&] { return arm.service->counts().probes > at_rest.probes + 10; }));
+    CHECK (arm.service->counts().forces == at_rest.forces);
+    CHECK (arm.device->counts().silences == then);
 }
 
 TEST_CASE ("a service of the Inverse3 that fails costs no force longer than a tick of it, and is found again", "[haply][wires][safety]")
 {
     const auto fault = GENERATE (Fault::silent, Fault::rename, Fault::restart, Fault::garbage);
-    Arm arm;
+    Arm arm { fault == Fault::silent ? Patience::promised : Patience::ample };
     REQUIRE (arm.pushes());
     const auto before = arm.service->counts();
     arm.service->fail (fault);
@@ -173,8 +187,8 @@ TEST_CASE ("a service of the Inverse3 that fails costs no force longer than a ti
         arm.tick (1.0);
         return arm.device->counts().departures > 0;
     }));
-    CHECK (eventually ([&] { return arm.service->force().isZero (0.0); }));   // the last one lasts for its tick
-    if (fault == Fault::silent)                                               // each connection has one message that is not answered, and no other one follows
+    CHECK (arm.rests());          // the last force lasts for its tick
+    if (fault == Fault::silent)   // each connection has one message that is not answered, and no other one follows
     {
         const auto n = arm.service->counts();
         CHECK (n.forces - before.forces <= n.answered - before.answered + n.clients);
@@ -188,7 +202,7 @@ TEST_CASE ("a service of the Inverse3 that fails costs no force longer than a ti
 
 TEST_CASE ("a service of the Inverse3 that pushes instead of answering is read, and rests when the program does", "[haply][wires][safety]")
 {
-    Arm arm;
+    Arm arm { Patience::ample };
     REQUIRE (arm.pushes());
     arm.service->fail (Fault::push);
     const auto readings = arm.device->counts().readings;
@@ -197,17 +211,15 @@ TEST_CASE ("a service of the Inverse3 that pushes instead of answering is read, 
         return arm.device->counts().readings > readings + 100;
     }));
     CHECK (arm.device->counts().departures == 0);
-    CHECK (eventually ([&] {
-        arm.tick (0.0);
-        return arm.service->force().isZero (0.0);
-    }));
+    CHECK (arm.stops());
+    CHECK (arm.rests());
     arm.opened.device.reset();
     CHECK (arm.service->force().isZero (0.0));
 }
 
 TEST_CASE ("an Inverse3 that stays idle although it is pushed is not trusted", "[haply][wires][safety]")
 {
-    Arm arm;
+    Arm arm { Patience::promised };
     REQUIRE (arm.pushes());
     arm.service->fail (Fault::deaf);
     CHECK (eventually ([&] {
@@ -220,7 +232,7 @@ TEST_CASE ("an Inverse3 that stays idle although it is pushed is not trusted", "
 
 TEST_CASE ("what is wrong with a description of an Inverse3, or with its service, is said", "[haply][wires]")
 {
-    Arm arm;
+    Arm arm { Patience::ample };
     const auto problem = [&] (const Json& description) { return test::text (host::openPluginDevice (description).messages); };
     const auto with = [&] (const char* key, const char* value) {
         auto d = arm.description;
@@ -233,15 +245,25 @@ TEST_CASE ("what is wrong with a description of an Inverse3, or with its service
     CHECK (with ("colour", "red").find ("colour") != std::string::npos);
     CHECK (problem ({ { "driver", "haply" }, { "port", "localhost:9" } }).find ("refused") != std::string::npos);
     arm.opened.device.reset();   // the fake serves one client at a time
-    CHECK (with ("device_id", "FFFF").find ("no Inverse3 with the id FFFF") != std::string::npos);
-    CHECK (with ("grip", "wired").find ("how the grip is held") != std::string::npos);
+    const auto driver = host::DeviceDriver::within (host::patient_haply_driver);
+    REQUIRE (driver);
+    const auto patiently = [&] (const char* key, const char* value) {
+        auto d = arm.description;
+        d[key] = value;
+        Messages messages;
+        CHECK ((*driver)->open (d, messages) == nullptr);
+        return test::text (messages);
+    };
+    CHECK (patiently ("device_id", "FFFF").find ("no Inverse3 with the id FFFF") != std::string::npos);
+    CHECK (patiently ("grip", "wired").find ("how the grip is held") != std::string::npos);
 }
 
 TEST_CASE ("a long run of an Inverse3: each message is answered, one at a time, and nothing pushes after a stop", "[haply][wires][soak]")
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
-    const auto pushes = static_cast<std::uint64_t> (300.0 * (wanted != nullptr ? std::max (1.0, std::atof (wanted)) : 3.0));   // about a quarter of what a second has room for
-    Arm arm;
+    const double seconds = wanted != nullptr ? std::max (1.0, std::atof (wanted)) : 3.0;
+    const auto pushes = static_cast<std::uint64_t> (300.0 * seconds);   // about a quarter of what a second has room for
+    Arm arm { Patience::ample };
     REQUIRE (arm.pushes());
     const auto before = arm.service->counts();
     int tick = 0;
@@ -250,7 +272,7 @@ TEST_CASE ("a long run of an Inverse3: each message is answered, one at a time, 
             arm.tick (++tick % 2 == 0 ? 0.5 : -0.5);
             return arm.service->counts().forces - before.forces >= pushes;
         },
-        std::chrono::seconds (60 + pushes / 20)));
+        std::chrono::seconds (120 + pushes / 20)));
     CHECK (arm.device->counts().departures == 0);
     const auto n = arm.service->counts();
     CHECK (n.heard - n.answered <= 1);   // the last one may be under way
@@ -260,11 +282,13 @@ TEST_CASE ("a long run of an Inverse3: each message is answered, one at a time, 
     CHECK (n.largest <= 1.0);
 
     // After a stop, only the message that was under way may ask for a force, and none after it, not even the last one.
+    REQUIRE (arm.stops());
     const auto at_stop = arm.service->counts().heard;
     REQUIRE (eventually ([&] {
         arm.tick (0.0);
-        return arm.service->counts().heard >= at_stop + 3 && arm.service->force().isZero (0.0);
+        return arm.service->counts().heard >= at_stop + 3;
     }));
+    CHECK (arm.rests());
     const auto at_rest = arm.service->counts();
     REQUIRE (eventually ([&] {
         arm.tick (0.0);
@@ -278,32 +302,27 @@ TEST_CASE ("a state of an Inverse3 is answered at once by whoever reads it", "[h
 {
     const auto* wanted = std::getenv ("TACTUS_HOPS");
     const int states = wanted ? std::stoi (wanted) : 200;
-    Arm arm;
+    if (wanted) becomeRealTime (std::nullopt);
+    Arm arm { Patience::ample };
     REQUIRE (arm.pushes());
     std::vector<double> us;
-    auto last = std::chrono::steady_clock::now();
-    auto known = arm.device->counts().readings;
-    REQUIRE (eventually (
-        [&] {
-            // From a force to the next state: the force on its way, the service, and the state on its way. The pause is that of ticks at 1 kHz.
-            while (arm.device->counts().readings == known)
-                if (std::chrono::steady_clock::now() - last > 1s) return true;
-            known = arm.device->counts().readings;
-            us.push_back (1e6 * std::chrono::duration<double> (std::chrono::steady_clock::now() - last).count());
-            std::this_thread::sleep_for (1ms);
-            known = arm.device->counts().readings;
-            last = std::chrono::steady_clock::now();
-            arm.tick (0.5);
-            return us.size() > static_cast<std::size_t> (states);
-        },
-        120s));
-    REQUIRE (us.size() > static_cast<std::size_t> (states));
+    auto next = std::chrono::steady_clock::now();
+    while (us.size() < static_cast<std::size_t> (states))
+    {
+        // From a force to the arrival of the next state: the force on its way, the service, and the state on its way. A tick comes each millisecond, and
+        // after the answer to the last one; nothing that this thread waits for is in the time.
+        std::this_thread::sleep_until (next = std::max (next + 1ms, std::chrono::steady_clock::now()));
+        const auto known = arm.device->counts().readings;
+        const auto begin = std::chrono::steady_clock::now();
+        const bool pushed = arm.tick (0.5);
+        REQUIRE (eventually ([&] { return arm.device->counts().readings > known; }));
+        if (pushed) us.push_back (1e6 * std::chrono::duration<double> (arm.device->lastArrival() - begin).count());
+    }
     const auto n = arm.service->counts();
     CHECK (n.together == 0);
     CHECK (n.heard - n.answered <= 1);
     CHECK (n.forces >= static_cast<std::uint64_t> (states));
     if (wanted == nullptr) return;
-    us.erase (us.begin());
     std::ranges::sort (us);
     const auto quantile = [&] (double part) { return us[static_cast<std::size_t> (part * static_cast<double> (us.size() - 1))]; };
     std::cout << "WebSocket (Inverse3): " << us.size() << " reports, p50 " << quantile (0.5) << ", p90 " << quantile (0.9) << ", p99 " << quantile (0.99)

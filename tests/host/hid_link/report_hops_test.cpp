@@ -255,8 +255,8 @@ void print (const char* how, const Measured& m)
 {
     const auto each = [&] (long sleeps) { return static_cast<double> (sleeps) / std::max (1, m.answered); };
     std::cout << how << ": " << m.answered << " reports, p50 " << m.quantile (0.5) << ", p90 " << m.quantile (0.9) << ", p99 " << m.quantile (0.99);
-    std::cout << ", p99.9 " << m.quantile (0.999) << ", max " << m.quantile (1.0) << " us; " << each (m.sleeps) << " thread switches a report, " << each (m.sleeps_of_reader)
-              << " of them in the reading thread\n";
+    std::cout << ", p99.9 " << m.quantile (0.999) << ", max " << m.quantile (1.0) << " us; " << each (m.sleeps) << " thread switches a report, ";
+    std::cout << each (m.sleeps_of_reader) << " of them in the reading thread\n";
 }
 }   // namespace
 

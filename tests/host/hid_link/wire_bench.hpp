@@ -2,14 +2,18 @@
 #pragma once
 
 #include "host/hid/hid.hpp"
+#include "support/eventually.hpp"
 #include "support/sketch.hpp"
 
+#include <host/hid/hex.hpp>
 #include <host/hid_link/capture.hpp>
 #include <host/hid_link/fake_device.hpp>
 #include <host/hid_link/hid_device.hpp>
+#include <host/hid_link/open_device.hpp>
 
 #include <tactus/file/text_file.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 #include <tactus/text/json_text.hpp>
 
 #include <catch2/catch.hpp>
@@ -32,20 +36,8 @@ namespace tactus::test::wires
 using namespace host;
 using namespace host::hid;
 using namespace std::chrono_literals;
+using test::eventually;
 using WireClock = WireFile::Clock;
-
-/// True as soon as the condition holds; false if it still does not hold after a long time.
-template <typename F>
-bool eventually (F&& so)
-{
-    const auto end = WireClock::now() + 30s;
-    while (! so())
-    {
-        if (WireClock::now() > end) return false;
-        std::this_thread::sleep_for (200us);
-    }
-    return true;
-}
 
 /// A computer without HID devices, with a clock of its own.
 struct NoHid final : host::hid::HidSystem
@@ -204,5 +196,47 @@ struct OffTheWire final : Device
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     std::vector<Bytes> answers;
 };
+
+/// Closes a loop over a wire, in which the hand feels the force, and compares each report that the far end hears with the offline run. `there` is the device
+/// of the run, and `isPush` tells a report that pushes. Returns false if the computer stood still for so long that the port took it for suspended: then the
+/// device is opened again, and the loop is broken.
+template <typename B, typename There, typename F>
+bool keepsItsForces (B& bench, There& there, const std::shared_ptr<Plan>& plan, bool has_rested, F&& isPush)
+{
+    constexpr std::size_t ticks = 3000;
+    const auto limits = limitsOf (*bench.profile, {});
+    Engine engine { plan };
+    engine.attach ("stylus", there, limits);
+    const auto heard_before = bench.heard.size();
+    for (std::size_t k = 0; k < ticks && there.works; ++k)
+        engine.tick();
+    const auto trouble = bench.device->port().trouble();
+    if (! there.works && trouble.find ("suspended") != std::string::npos) return false;
+    INFO (bench.heard.size() - heard_before << " reports, trouble: " << trouble);
+    REQUIRE (there.works);
+
+    OffTheWire offline { bench.profile, std::span (bench.sent).subspan (there.first.value()), has_rested };
+    Engine again { plan };
+    again.attach ("stylus", offline, limits);
+    for (std::size_t k = 0; k < ticks; ++k)
+        again.tick();
+
+    REQUIRE (bench.heard.size() == heard_before + ticks);
+    std::size_t different = 0, pushing = 0;
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        const auto& heard = bench.heard[heard_before + k];
+        if (heard != offline.answers[k] && ++different == 1)
+            UNSCOPED_INFO ("the first difference is at " << k << ": " << hexOf (heard) << " instead of " << hexOf (offline.answers[k]));
+        pushing += isPush (heard) ? 1 : 0;
+    }
+    CHECK (different == 0);
+    CHECK (pushing > ticks / 4);
+    CHECK (bench.fake->counts().refused == 0);
+    CHECK (bench.fake->counts().stray == 0);
+    CHECK (bench.device->port().counts().write_errors == 0);
+    CHECK (bench.device->port().counts().dropped == 0);
+    return true;
+}
 
 }   // namespace tactus::test::wires

@@ -65,7 +65,8 @@ Workspace anyTurnedWorkspace()
     Json rows = Json::array();
     for (int row = 0; row < 3; ++row)
         rows.push_back (Json::array ({ side * turn (row, 0), side * turn (row, 1), side * turn (row, 2) }));
-    if (*rc::gen::inRange (0, 3) == 0) rows = readJson (*rc::gen::element<std::string> (R"(["y", "-x", "z"])", R"(["-x", "y", "z"])", R"(["-y", "-z", "-x"])")).root;
+    const auto named = rc::gen::element<std::string> (R"(["y", "-x", "z"])", R"(["-x", "y", "z"])", R"(["-y", "-z", "-x"])");
+    if (*rc::gen::inRange (0, 3) == 0) rows = readJson (*named).root;
     Messages messages;
     auto w = readWorkspace ({ { "axes", rows }, { "scale", std::pow (10.0, within (-1.0, 1.0)) } }, "", messages);
     RC_ASSERT (messages.empty());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the scopes share their panel, on small and large screens.
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/over_plot.hpp>
@@ -11,18 +11,11 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::Bench;
 using tactus::host::test::Stage;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
 {
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 1000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
-}
-
 ScopePanel& scopes (WindowRig& w)
 {
     auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The Take tab in the whole window, with a mouse.
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,18 +9,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
-
-namespace
-{
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 3000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
-}
-}   // namespace
 
 TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take and not the graph; what is saved can be used now", "[app][take]")
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What helps to begin: templates, the tour, and the list of nodes.
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <host/app/storage/settings.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -10,19 +10,12 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
 {
 const std::filesystem::path templates = TACTUS_SOURCE_DIR "/graphs/templates";
-
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 1000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
-}
 
 /// Where a node of the list is on the screen.
 juce::Point<float> rowOf (WindowRig& w, const std::string& type)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <tactus/file/graph_file.hpp>
 
@@ -11,6 +11,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -18,14 +19,6 @@ namespace
 bool isSeen (WindowRig& w, const juce::String& text)
 {
     return std::ranges::any_of (tactus::host::test::readTexts (*w.view), [&] (const auto& t) { return t.text == text; });
-}
-
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 1000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
 }
 
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }

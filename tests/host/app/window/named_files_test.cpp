@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that settings name, in the whole window: a saved graph finds them again, and a missing one is chosen where it is missed.
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -11,20 +11,13 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 namespace fs = std::filesystem;
 
 namespace
 {
 const fs::path heart = TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", clip_template = TACTUS_SOURCE_DIR "/graphs/templates/clip.json";
-
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 1000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
-}
 
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
 

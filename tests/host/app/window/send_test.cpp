@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layers that are sent to a vibration motor, and the tool that the mouse moves, in the window while the graph runs.
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,18 +8,11 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
 {
-template <typename F>
-bool waitFor (F&& isSo)
-{
-    for (int i = 0; i < 1000 && ! isSo(); ++i)
-        WindowRig::settle (10);
-    return isSo();
-}
-
 bool needs (LiveRun& run, const std::string& role) { return std::ranges::count (run.needs(), role, &RoleNeeds::role) > 0; }
 
 /// Adds a mixer, and sends a layer to a new vibration motor.
