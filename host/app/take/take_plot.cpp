@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float edge_grip = 6.0f;        // pixels beside an edge
+constexpr float edge_grip = 6.0f;   // pixels beside an edge
 constexpr double key_step = 0.01;   // s
 }   // namespace
 
