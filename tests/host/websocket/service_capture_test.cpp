@@ -50,7 +50,7 @@ public:
     }
 
     int port() const { return server.port(); }
-    bool isAtEnd() const { return is_at_end; }   // it has said everything
+    bool isAtEnd() const { return is_at_end; }   // nothing follows the message that it says now
 
 private:
     void serve (const std::stop_token& stop)
@@ -62,8 +62,8 @@ private:
         auto left = std::ranges::count (capture.lines, What::in, &Capture::Line::what);
         for (const auto& line : capture.lines)
         {
+            if (line.what == What::in && --left == 0) is_at_end = true;   // first, because the driver may read the last message at once
             if (line.what == What::in) client->say ({ line.bytes.begin(), line.bytes.end() });
-            if (line.what == What::in && --left == 0) is_at_end = true;
             if (line.what == What::out) waitFor (*client, stop);
         }
         while (! stop.stop_requested())
