@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <host/hid/bits.hpp>
 #include <host/hid/hid_model.hpp>
 
 #include <cstdlib>
@@ -35,7 +36,7 @@ inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::s
             Bytes report (bytes.begin() + static_cast<std::ptrdiff_t> (at), bytes.begin() + static_cast<std::ptrdiff_t> (at + input.length));
             if (input.id) report[0] = *input.id;
             for (const auto& field : input.fields)
-                if (field.expect && field.bits.at % 8 == 0) report[field.bits.at / 8] = static_cast<std::uint8_t> (*field.expect);
+                if (field.expect) putBits (field.bits, static_cast<std::uint32_t> (static_cast<std::int64_t> (*field.expect)), report);
             decode (report);
         }
 
