@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float grip = 6.0f;        // pixels beside an edge
+constexpr float edge_grip = 6.0f;   // pixels beside an edge
 constexpr double key_step = 0.01;   // s
 }   // namespace
 
@@ -65,7 +65,7 @@ double TakePlot::timeAt (float x) const { return std::clamp (static_cast<double>
 TakePlot::Edge TakePlot::edgeAt (float x) const
 {
     const float to_from = std::abs (x - xAt (from_s)), to_until = std::abs (x - xAt (until_s));
-    if (std::min (to_from, to_until) > grip) return Edge::none;
+    if (std::min (to_from, to_until) > edge_grip) return Edge::none;
     return to_from < to_until ? Edge::from : Edge::until;
 }
 
