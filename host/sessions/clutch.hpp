@@ -13,7 +13,11 @@ namespace tactus::host
 ///     released    the reading is valid again, at the position that the nodes know, and the guard's ramp brings the force back
 ///
 /// A press is carried through even if the button is released before the efforts are zero. So the position that nodes see never moves by more than
-/// the tool does, whatever the hand does with the button. Force, torque and the efforts on axes have to be zero. Allocates nothing. [tick thread]
+/// the tool does, whatever the hand does with the button. Force, torque and the efforts on axes have to be zero.
+///
+/// moveTo() puts the workspace elsewhere by the same steps, so that the tool is at another place of the graph. Then signals have to be zero, too, and
+/// the reading is not valid for at least one tick: the guard takes what comes after it for a device that is somewhere else now, not for one that has
+/// moved at a great speed, and its ramp begins. Allocates nothing. [tick thread]
 class Clutch
 {
 public:
@@ -22,6 +26,14 @@ public:
 
     /// Converts a reading in the workspace that does not move. `is_held`: the button is down, if the reading is valid.
     void operator() (Reading& reading, bool is_held) noexcept;
+
+    /// The workspace shall be moved by this much in all, in m, as soon as nothing is on the device.
+    void moveTo (const Vec3& moved) noexcept
+    {
+        goal = moved;
+        has_goal = true;
+    }
+    bool hasGoal() const noexcept { return has_goal; }   ///< and is not there yet
 
     /// Takes what the guard has passed on.
     void wrote (const Effort& guarded) noexcept;
@@ -38,8 +50,11 @@ private:
     };
 
     Vec3 fixed, shift = Vec3::Zero(), seen = Vec3::Zero();   // seen: the position that the nodes know
+    Vec3 goal = Vec3::Zero();
     State state = State::open;
-    bool has_seen = false, is_at_rest = true;
+    bool has_seen = false, has_goal = false, was_put = false;   // was_put: at its goal, since the clutch has closed
+    bool is_at_rest = true, is_silent = true;
+    double brake = 0.0;   // of the latest effort
 };
 
 }   // namespace tactus::host

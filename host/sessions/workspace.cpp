@@ -95,9 +95,41 @@ std::optional<Message> wrongClutch (const Workspace& w, const DeviceLayout& has)
 
 WorkspaceDevice::WorkspaceDevice (std::unique_ptr<Device> d, const Workspace& w, const GuardLimits& limits)
     : device (std::move (d)), workspace (w), spin (w.isMirrored() ? Mat3 (-w.axes) : w.axes), is_turned (w.isTurned()),
-      is_oblique (! isAligned (w.axes)), clutch_button (clutchBit (w, device->layout())), max_still (limits.max_still),
-      still_force (limits.still_force), still_torque (limits.still_torque), clutch (w.offset)
+      is_oblique (! isAligned (w.axes)), is_moved (w.isTurned() || w.scale != 1.0 || ! w.offset.isZero (0.0)), clutch_button (clutchBit (w, device->layout())),
+      max_still (limits.max_still),
+      still_force (limits.still_force), still_torque (limits.still_torque), shown { { w.offset.x(), w.offset.y(), w.offset.z() } }, clutch (w.offset)
 {
+    latest_origin.store (shown);
+}
+
+void WorkspaceDevice::moveTo (const Vec3& origin) noexcept
+{
+    const auto n = goals_told.load (std::memory_order_relaxed) + 1;
+    for (std::size_t i = 0; i < 3; ++i)
+        goals[n % 2][i].store (origin[static_cast<int> (i)], std::memory_order_release);
+    goals_told.store (n, std::memory_order_release);
+}
+
+Vec3 WorkspaceDevice::origin() const noexcept
+{
+    const auto now = latest_origin.load();
+    const auto n = goals_told.load (std::memory_order_relaxed);
+    if (now.goals == n) return Vec3 (now.at.data());
+    const auto& goal = goals[n % 2];
+    return { goal[0].load (std::memory_order_relaxed), goal[1].load (std::memory_order_relaxed), goal[2].load (std::memory_order_relaxed) };
+}
+
+/// A goal that is being written over is the one before the latest, which comes with a new count on the next tick.
+void WorkspaceDevice::takeGoal() noexcept
+{
+    const auto n = goals_told.load (std::memory_order_acquire);
+    if (n == goals_taken) return;
+    Vec3 goal;
+    for (std::size_t i = 0; i < 3; ++i)
+        goal[static_cast<int> (i)] = goals[n % 2][i].load (std::memory_order_acquire);
+    if (goals_told.load (std::memory_order_relaxed) != n) return;
+    goals_taken = n;
+    clutch.moveTo (goal - workspace.offset);
 }
 
 void WorkspaceDevice::prepare (double dt_s)
@@ -141,20 +173,36 @@ void WorkspaceDevice::watch (Reading& reading) noexcept
     reading.fault = ReadingFault::frozen;
 }
 
+/// Tells the main thread where the origin is, if it has moved.
+void WorkspaceDevice::showOrigin() noexcept
+{
+    const Vec3 at = workspace.offset + clutch.moved();
+    const std::uint64_t reached = clutch.hasGoal() ? shown.goals : goals_taken;
+    if (at == Vec3 (shown.at.data()) && reached == shown.goals) return;
+    shown = { { at.x(), at.y(), at.z() }, reached };
+    latest_origin.store (shown);
+}
+
 Reading WorkspaceDevice::read() noexcept
 {
     auto reading = device->read();
     if (is_oblique && max_still != GuardLimits::none) watch (reading);
-    reading.position = workspace.toGraph (reading.position);
-    reading.true_position = workspace.toGraph (reading.true_position);
-    reading.true_velocity = workspace.scale * (workspace.axes * reading.true_velocity);
+    if (is_moved)
+    {
+        reading.position = workspace.toGraph (reading.position);
+        reading.true_position = workspace.toGraph (reading.true_position);
+        reading.true_velocity = workspace.scale * (workspace.axes * reading.true_velocity);
+    }
     if (is_turned)
     {
         reading.rotation = spin * reading.rotation;
         reading.unrendered_force = workspace.axes * reading.unrendered_force;
         reading.unrendered_torque = spin * reading.unrendered_torque;
     }
-    if (clutch_button >= 0) clutch (reading, (reading.buttons >> clutch_button & 1u) != 0);
+    takeGoal();
+    const bool is_pressed = clutch_button >= 0 && (reading.buttons >> clutch_button & 1u) != 0;
+    clutch (reading, is_pressed || is_held.load (std::memory_order_relaxed));
+    showOrigin();
     return reading;
 }
 

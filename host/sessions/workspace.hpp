@@ -3,6 +3,7 @@
 
 #include "clutch.hpp"
 
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/run/guard/effort_watch.hpp>
@@ -11,6 +12,9 @@
 
 #include <Eigen/LU>
 
+#include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,7 +62,8 @@ GuardLimits inWorkspace (GuardLimits ofDevice, const Workspace&) noexcept;
 /// What is wrong with the clutch on a device with these buttons. Id: device/no_button; where: relative to the description of the device.
 std::optional<Message> wrongClutch (const Workspace&, const DeviceLayout&);
 
-/// A device whose readings are converted to a graph's workspace.
+/// A device whose readings are converted to a graph's workspace. Its origin can be moved while it is in use: by the clutch, which is a button of the
+/// device or hold(), and by moveTo(). Neither steps the force, see Clutch.
 class WorkspaceDevice final : public Device
 {
 public:
@@ -75,18 +80,43 @@ public:
     DeviceLayout layout() const override;
     double duration() const noexcept override { return device->duration(); }
 
+    /// The clutch is held, such as by a key, as if it were by its button. [any thread]
+    void hold (bool h) noexcept { is_held.store (h, std::memory_order_relaxed); }
+
+    /// The device's origin shall be there in the graph, in m, instead of at the offset of the workspace and where the clutch has moved it. Until
+    /// nothing is on the device, and while it has no valid reading, the origin stays where it is. [main thread]
+    void moveTo (const Vec3& origin) noexcept;
+
+    /// Where the device's origin is in the graph, or will be soon, in m. [main thread]
+    Vec3 origin() const noexcept;
+
 private:
     void watch (Reading&) noexcept;
+    void takeGoal() noexcept;
+    void showOrigin() noexcept;
 
     std::unique_ptr<Device> device;
     const Workspace workspace;
-    const Mat3 spin;   // axes of rotations and torques
-    const bool is_turned, is_oblique;
-    const int clutch_button;   // -1: none
+    const Mat3 spin;                              // axes of rotations and torques
+    const bool is_turned, is_oblique, is_moved;   // is_moved: turned, scaled, or with an offset
+    const int clutch_button;                      // -1: none
     const double max_still, still_force, still_torque;
     double dt = 1e-3;
 
+    /// Where moveTo() wants the origin. The tick thread must not wait, so the main thread writes the other of two places, and counts it then.
+    std::array<std::array<std::atomic<double>, 3>, 2> goals {};
+    std::atomic<std::uint32_t> goals_told = 0;
+    struct Origin
+    {
+        std::array<double, 3> at {};
+        std::uint64_t goals = 0;   // that have been reached
+    };
+    Snapshot<Origin> latest_origin;
+    std::atomic<bool> is_held = false;
+
     // [tick thread]
+    Origin shown;   // the latest one that the main thread was told
+    std::uint32_t goals_taken = 0;
     Clutch clutch;
     StillWatch still, still_turn;                       // in the axes of the device
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();   // on the device

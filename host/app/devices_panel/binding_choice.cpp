@@ -20,8 +20,9 @@ Json deviceOfBinding (Json binding)
 {
     for (const auto* key : { "workspace", "guard" })
         binding.erase (key);
-    if (! namesPlugin (binding))   // to the driver of a plugin, other keys may mean anything
-        for (const auto* key : { "outputs", "inputs", "calibration" })
+    const bool is_events = binding.is_object() && binding.value ("driver", Json()) == Json (event_driver);
+    if (is_events || ! namesPlugin (binding))   // to the driver of a plugin of others, other keys may mean anything
+        for (const auto* key : { "outputs", "inputs", "calibration", "max_rate" })
             binding.erase (key);
     return binding;
 }
@@ -34,7 +35,7 @@ Json simulationOf (const hid::Profile& profile, const Json* before)
 }
 
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles,
-                                           std::span<const hid::ConnectedDevice> without_profile)
+                                           std::span<const hid::ConnectedDevice> without_profile, std::span<const ConnectedEvents> events)
 {
     std::vector<BindingChoice> all { { TRANS ("as in the graph").toStdString(), Json() },
                                      { TRANS ("simulated tool").toStdString(), defaultDevice() },
@@ -58,6 +59,14 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         if (! d.serial.empty()) description["serial"] = d.serial;
         BindingChoice choice { filled (TRANS ("%1, force feedback"), d.product).toStdString(), std::move (description) };
         if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
+    }
+    for (const auto& d : events)
+    {
+        // By its name, because numbers of event devices change from start to start.
+        const bool is_alone = ! d.name.empty() && std::ranges::count (events, d.name, &ConnectedEvents::name) == 1;
+        const auto& port = is_alone ? d.name : d.path;
+        const auto label = filled (TRANS ("%1, through the kernel"), is_alone ? d.name : d.name + " (" + d.path + ")");
+        all.push_back ({ label.toStdString(), { { "driver", event_driver }, { "port", port } } });
     }
     for (const auto& p : profiles.profiles)
         if (hid::isNumbersOnly (*p))

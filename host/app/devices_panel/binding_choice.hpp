@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/run/connected_events.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/transport.hpp>
@@ -15,6 +16,8 @@ namespace tactus::host
 
 inline constexpr const char* sound_card = NEEDS_TRANS ("sound card");   // the label, in English
 
+inline constexpr const char* event_driver = "evdev";   ///< the driver of event devices, a plugin
+
 /// A device that a role can be bound to.
 struct BindingChoice
 {
@@ -26,12 +29,12 @@ struct BindingChoice
 };
 
 /// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, each of
-/// `without_profile`, which have force feedback, a simulation of each device that is known only by its numbers, the gestures, and what
-/// the role is bound to now if that is none of these.
+/// `without_profile`, which have force feedback, each event device, by its name if that is its own, a simulation of each device that is known only by
+/// its numbers, the gestures, and what the role is bound to now if that is none of these.
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&,
-                                           std::span<const hid::ConnectedDevice> without_profile = {});
+                                           std::span<const hid::ConnectedDevice> without_profile = {}, std::span<const ConnectedEvents> = {});
 
-/// The device of a binding, without its workspace and guard, and, if its driver is one of Tactus, without its channels and calibration.
+/// The device of a binding, without its workspace and guard, and, if its driver is one of Tactus, without its channels, calibration and rate.
 Json deviceOfBinding (Json binding);
 
 /// A simulated device with the numbers of a profile. It keeps the guard of the previous binding, so that no limit is lost, unless that

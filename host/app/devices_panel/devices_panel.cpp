@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "devices_panel.hpp"
+#include "axes_text.hpp"
 #include "sound_text.hpp"
 
 #include <host/app/inspector/blocks/fields.hpp>
@@ -10,6 +11,7 @@
 #include <host/sessions/audio_settings.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -33,32 +35,40 @@ std::string clockLabelled (const std::string& label)
     return known != std::end (clocks) ? known->first : label;
 }
 
+constexpr const char* axes_part = "/workspace/axes";
+
 /// A setting of a binding: its JSON pointer, and its label and tooltip in English.
 struct Part
 {
     const char *pointer, *label, *about;
 };
-constexpr Part parts[] {
+constexpr Part parts_of_tool[] {
     { "/workspace/scale", NEEDS_TRANS ("scale"),
       NEEDS_TRANS ("Size of the device's workspace in the graph: at 2 the hand moves half as far, and walls feel twice as stiff") },
-    { "/workspace/offset", NEEDS_TRANS ("offset"), NEEDS_TRANS ("Position of the device's origin in the graph, such as [0, 0, \"1 cm\"]") },
+    { "/workspace/offset", NEEDS_TRANS ("offset"),
+      NEEDS_TRANS ("Position of the device's origin in the graph, such as [0, 0, \"1 cm\"]. The arrows in the 3D scene change it, too") },
+    { axes_part, NEEDS_TRANS ("axes"),
+      NEEDS_TRANS ("Which axes of the device are x, y and z of the graph, such as y -x z, which turns it, or -x y z, which mirrors it. For any other "
+                   "angle: three rows of numbers, such as [[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]") },
+    { "/workspace/clutch", NEEDS_TRANS ("clutch"),
+      NEEDS_TRANS ("Button of the device that moves the workspace with the hand while it is held, by its name or number. The key S does it, too") },
     { "/guard/max_force", NEEDS_TRANS ("max force"), NEEDS_TRANS ("Force limit, such as 3 N. Cannot exceed the limit in the device's profile") },
     { "/guard/max_speed", NEEDS_TRANS ("max speed"),
       NEEDS_TRANS ("Speed limit of the tool in the hand, such as 1 m/s. If the tool exceeds it, the guard withholds the force until you rearm") },
     { "/guard/ramp", NEEDS_TRANS ("ramp"), NEEDS_TRANS ("Time from no force to full force, such as 0.5 s") },
 };
 
-constexpr Part parts_of_pid[] {
+constexpr Part parts_of_calibration[] {
     { "/calibration/full_force", NEEDS_TRANS ("full force"),
       NEEDS_TRANS ("What the device exerts at its largest magnitude, such as 4 N, or 2.5 N*m for a wheel. Measure it. Without it, a tenth is used") },
     { "/calibration/travel", NEEDS_TRANS ("travel"),
       NEEDS_TRANS ("How far each axis moves from end to end, such as {\"x\": \"12 cm\"}, or {\"steering\": \"900 deg\"} for a wheel") },
     { "/calibration/reversed", NEEDS_TRANS ("reversed"), NEEDS_TRANS ("true if a force to the right pushes to the left") },
-    parts[0],
-    parts[1],
-    parts[2],
-    parts[3],
-    parts[4],
+};
+
+constexpr Part parts_of_events[] {
+    { "/max_rate", NEEDS_TRANS ("max rate"),
+      NEEDS_TRANS ("How many new forces per second the device gets at most, such as 250 Hz. Default: as many as its USB port takes, or 250") },
 };
 
 constexpr Part parts_of_sound[] {
@@ -80,14 +90,17 @@ constexpr Part parts_of_card[] {
     { "/reserve", NEEDS_TRANS ("reserve"), NEEDS_TRANS ("How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay") },
 };
 
-std::span<const Part> partsOf (const std::string& driver)
+std::vector<Part> partsOf (const std::string& driver)
 {
-    if (driver == "audio") return parts_of_sound;
-    if (driver == hid::pid_profile) return parts_of_pid;
+    std::vector<Part> parts;
+    const auto add = [&] (std::span<const Part> more) { parts.insert (parts.end(), more.begin(), more.end()); };
+    if (driver == hid::pid_profile || driver == event_driver) add (parts_of_calibration);
+    if (driver == event_driver) add (parts_of_events);
+    add (driver == "audio" ? std::span<const Part> (parts_of_sound) : parts_of_tool);
     return parts;
 }
 
-/// What decides which settings a binding has: its driver, or "pid" for a device that must be calibrated.
+/// What decides which settings a binding has: its driver, or "pid" for a HID device that must be calibrated.
 std::string driverOf (const Json& binding)
 {
     const bool is_pid = hid::isHid (binding) && binding.value ("profile", Json()) == Json (hid::pid_profile);
@@ -105,6 +118,20 @@ Json readText (const juce::String& t)
 }
 
 bool isListOfChannels (const std::string& pointer) { return pointer == "/outputs" || pointer == "/inputs"; }
+
+/// A setting as it is typed.
+juce::String typedPart (const std::string& pointer, const Json& value)
+{
+    if (pointer == axes_part) return fromUtf8 (textOfAxes (value));
+    return isListOfChannels (pointer) ? fromUtf8 (textOfChannels (value)) : written (value);
+}
+
+Json readTypedPart (const std::string& pointer, const juce::String& text, const Json& before)
+{
+    if (pointer == axes_part) return readAxesText (text.trim().toStdString());
+    if (pointer == "/workspace/clutch") return text.trim().toStdString();   // a number, too, is written as a text
+    return isListOfChannels (pointer) ? readChannelsText (text.toStdString(), before) : readText (text);
+}
 
 /// Removes a setting, and the object around it if that becomes empty.
 void remove (Json& binding, const std::string& pointer)
@@ -193,10 +220,11 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
     else
     {
         auto& value = binding[JsonPointer (pointer)];   // null if it is new
-        value = isListOfChannels (pointer) ? readChannelsText (text.toStdString(), value) : readText (text);
+        value = readTypedPart (pointer, text, value);
     }
-    if (complain (checkBinding (binding, setup.session().file.parent_path(), setup.profiles()))) return;
-    edit ([&] (DeviceSession& s) { s.bind (role, binding); });
+    const auto parts = partsOf (driverOf (binding));
+    const auto part = std::ranges::find (parts, pointer, [] (const Part& p) { return std::string (p.pointer); });
+    change (role, std::move (binding), part != parts.end() ? juce::translate (part->label) : fromUtf8 (pointer));
 }
 
 void DevicesPanel::refresh()
@@ -208,6 +236,7 @@ void DevicesPanel::refresh()
 void DevicesPanel::update()
 {
     const auto connected = setup.connected(), without_profile = setup.withoutProfile();
+    const auto events = setup.events();
     fits = fitsOf (run.needs(), document.graph(), setup.session(), setup.profiles(), connected);
     Shape now;
     for (const auto& fit : fits)
@@ -215,7 +244,7 @@ void DevicesPanel::update()
         now.roles.push_back (fit.role);
         const auto* binding = bindingOf (fit.role);
         now.drivers.push_back (binding != nullptr ? driverOf (*binding) : std::string());
-        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles(), without_profile));
+        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles(), without_profile, events));
     }
     now.routes = routes().size();
     if (columns.empty() || now != shape)
@@ -289,10 +318,10 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
     if (shape.drivers[i].empty()) return card;
     for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
-            juce::translate (part.label), [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)] {
+            juce::translate (part.label), [this, role, pointer = std::string (part.pointer)] {
             const auto* now = bindingOf (role);
-            if (now == nullptr || ! now->contains (at)) return juce::String();
-            return is_list ? fromUtf8 (textOfChannels (now->at (at))) : written (now->at (at)); },
+            const JsonPointer at (pointer);
+            return now != nullptr && now->contains (at) ? typedPart (pointer, now->at (at)) : juce::String(); },
             [this, role, pointer = std::string (part.pointer)] (const juce::String& text) { setPart (role, pointer, text); },
             juce::translate (part.about)));
     return card;

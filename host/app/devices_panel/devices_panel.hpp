@@ -14,7 +14,7 @@ namespace tactus::host
 
 /// The devices for the roles of the graph. For each role: what it needs, what it is bound to and whether that fits, its status, its
 /// workspace, and the limits of its guard. Also the clock of the run, and what the sound card plays. Edits change the session, not the
-/// graph.
+/// graph. Those of a workspace are steps that can be undone.
 class DevicesPanel final : public juce::Component
 {
 public:
@@ -34,6 +34,7 @@ public:
 
     void bind (const std::string& role, const std::string& label);                                  ///< binds the role to the choice with this label
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
+    void moveOrigin (const std::string& role, const Vec3& origin);                                  ///< the offset of the workspace, in m
 
     void setCard (const std::string& pointer, const juce::String& text);   ///< a setting of the sound card; empty text removes it
     void setRoute (std::size_t, const juce::String& text);                 ///< empty text removes it; an index past the end adds one
@@ -59,6 +60,8 @@ private:
     const BindingChoice* choiceNow (const std::string& role) const;
     const Json* bindingOf (const std::string& role) const { return setup.session().session.binding (role); }
     void edit (const std::function<void (DeviceSession&)>&);
+    void change (const std::string& role, Json binding, const juce::String& what);
+    void putWorkspace (const std::string& role, const Json& workspace);
     void update();
     bool complain (const Messages&) const;   // shows the first error; returns true if there is one
     void rebuild();
@@ -71,6 +74,7 @@ private:
     // In remarks.cpp
     Remark fitRemark (const std::string& role) const;
     Remark statusRemark (const std::string& role) const;
+    Remark eventRemark (const Json& description) const;
     Remark clockRemark() const;
     Remark tickRemark() const;
     Remark soundRemark() const;

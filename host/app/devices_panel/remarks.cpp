@@ -55,6 +55,8 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
     else if (fit != nullptr && fit->connected && ! run.isRunning())
         r = *fit->connected ? Remark { TRANS ("Connected."), false }
                             : Remark { TRANS ("Not connected. A run waits for the device and applies no force until then."), true };
+    else if (fit != nullptr && ! run.isRunning() && fit->description.value ("driver", Json()) == Json (event_driver))
+        r = eventRemark (fit->description);
     const auto status = run.status();
     if (! status || ! run.isRunning()) return r;
     for (const auto& now : status->shown())
@@ -64,6 +66,19 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
             r.is_problem = true;
         }
     return r;
+}
+
+/// Whether an event device is there, and may be opened. The driver finds it by its path, its name, or a part of that.
+Remark DevicesPanel::eventRemark (const Json& description) const
+{
+    const auto named = description.value ("port", Json());
+    const auto port = named.is_string() ? named.asString() : std::string();
+    const auto events = setup.events();
+    const auto isMeant = [&] (const ConnectedEvents& e) { return e.path == port || e.name.find (port) != std::string::npos; };
+    const auto at = std::ranges::find_if (events, isMeant);
+    if (port.empty() || at == events.end()) return { TRANS ("Not connected. The graph does not start without it."), true };
+    if (! at->trouble.empty()) return { filled (TRANS ("This user may not open it: %1."), at->trouble), true };
+    return { TRANS ("Connected. While it runs, this line says how many new forces per second reach it."), false };
 }
 
 /// What ticks the run, and what the system refuses to a run that drives a device.

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p) : devices (s), known (p) {}
+DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p, ListEvents list) : devices (s), known (p), list_events (list) {}
 
 DeviceSetup::~DeviceSetup()
 {
@@ -68,6 +68,12 @@ std::vector<hid::ConnectedDevice> DeviceSetup::withoutProfile() const
     return found_without_profile;
 }
 
+std::vector<ConnectedEvents> DeviceSetup::events() const
+{
+    const std::lock_guard lock (mutex);
+    return found_events;
+}
+
 void DeviceSetup::scanLoop()
 {
     using namespace std::chrono_literals;
@@ -82,10 +88,10 @@ void DeviceSetup::scanLoop()
             auto without_profile = connected_now;
             std::erase_if (without_profile,
                            [&] (const auto& d) { return ! hid::matching (known.profiles, d).empty() || ! hid::hasForceFeedback (devices, d); });
-            return std::pair { std::move (connected_now), std::move (without_profile) };
+            return std::tuple { std::move (connected_now), std::move (without_profile), list_events() };
         });
         lock.lock();
-        if (look) std::tie (found, found_without_profile) = std::move (*look);   // else it looks again a second later
+        if (look) std::tie (found, found_without_profile, found_events) = std::move (*look);   // else it looks again a second later
         changed.wait_for (lock, 1s, [this] { return ends; });
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "connected_events.hpp"
 #include "device_profiles.hpp"
 
 #include <host/hid_link/open_device.hpp>
@@ -18,7 +19,9 @@ namespace tactus::host
 class DeviceSetup
 {
 public:
-    explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles());
+    using ListEvents = std::vector<ConnectedEvents> (*)();
+
+    explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles(), ListEvents = connectedEvents);
     ~DeviceSetup();
 
     /// Reads the user's session. Before that, the session is empty and is not saved.
@@ -37,12 +40,14 @@ public:
     void scan (bool on);
     std::vector<hid::ConnectedDevice> connected() const;        ///< as of the last scan
     std::vector<hid::ConnectedDevice> withoutProfile() const;   ///< of these, the devices with force feedback that no profile fits
+    std::vector<ConnectedEvents> events() const;                ///< event devices, as of the last scan
 
 private:
     void scanLoop();
 
     hid::HidSystem& devices;
     const hid::LoadedProfiles& known;
+    const ListEvents list_events;
     LoadedSession now;
     bool is_saved = false;
 
@@ -50,6 +55,7 @@ private:
     std::condition_variable changed;
     bool scans = false, ends = false;
     std::vector<hid::ConnectedDevice> found, found_without_profile;
+    std::vector<ConnectedEvents> found_events;
     std::jthread scanner;   // declared last: it uses the members above
 };
 

@@ -53,13 +53,9 @@ void LiveRun::setupChanged()
     if (session && setup != nullptr) session->rebind (setup->session());
     if (! wanted || ! isRunning() || setup == nullptr) return;
     const auto& now = setup->session().session;
-    const auto differs = [&] (const auto& role) {
-        const auto *before = run_session.binding (role.name), *after = now.binding (role.name);
-        return before == nullptr || after == nullptr ? before != after : *before != *after;
-    };
     const auto sounds = [] (const DeviceSession& s) { return s.audio() != nullptr ? *s.audio() : Json(); };
-    if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (session->engine().newest().roles(), differs))
-        restart();
+    if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || ! moveWorkspaces (now)) return restart();
+    run_session = now;
 }
 
 void LiveRun::start (Hand who)

@@ -147,6 +147,14 @@ public:
     /// Sets the position that the mouse points at, in m. No effect unless the mouse moves the tool.
     void point (const Vec3&);
 
+    /// Holds the workspace of the hand's device, or releases it: while it is held, it moves with the hand (docs/sessions.md). The force does not step.
+    /// False if there is nothing to hold: the session binds no device to the role, or something else moves its tool.
+    bool holdWorkspace (bool);
+
+    /// Where the device of a role is in the graph now, with what a clutch has moved. Empty if the session binds no device to the role, or if
+    /// something else moves its tool.
+    std::optional<Workspace> workspaceOf (const std::string& role) const;
+
     /// The tool of the hand, as its device measures it, and the force on it.
     struct Tool
     {
@@ -225,8 +233,12 @@ private:
     void beginLog();
     void endLog();
     bool isMovedOtherwise (const std::string& role) const;
+    bool isBound (const std::string& role) const;
+    WorkspaceDevice* workspaceDevice (const std::string& role) const;
+    bool moveWorkspaces (const DeviceSession& now);
     bool lacksPluginDevice() const;
     void adopt (const std::string& role, Run::RoleDevice&, const Workspace&, Messages&);
+    void adoptHand (Run::RoleDevice&, const Workspace&, Messages&);
     std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping, Messages&);
     void note (const Plan&);
 

@@ -81,10 +81,77 @@ bool LiveRun::lacksPluginDevice() const
     });
 }
 
-/// Puts the chosen hand on its tool.
+/// True if the session binds the role to a device with a place, and this device moves the tool.
+bool LiveRun::isBound (const std::string& role) const
+{
+    const auto* bound = setup != nullptr ? setup->session().session.binding (role) : nullptr;
+    return bound != nullptr && ! audio::isAudio (*bound) && ! isMovedOtherwise (role);
+}
+
+WorkspaceDevice* LiveRun::workspaceDevice (const std::string& role) const
+{
+    if (! isRunning()) return nullptr;
+    for (const auto& [name, opened] : session->run().devices())
+        if (name == role) return dynamic_cast<WorkspaceDevice*> (opened.device.get());
+    return nullptr;
+}
+
+std::optional<Workspace> LiveRun::workspaceOf (const std::string& role) const
+{
+    if (! isBound (role)) return std::nullopt;
+    auto workspace = bindingOf (setup->session(), role)->workspace;
+    if (const auto* device = workspaceDevice (role)) workspace.offset = device->origin();
+    return workspace;
+}
+
+bool LiveRun::holdWorkspace (bool is_held)
+{
+    auto* device = is_held && ! isBound (hand_role) ? nullptr : workspaceDevice (hand_role);
+    if (device != nullptr) device->hold (is_held);
+    return device != nullptr;
+}
+
+/// Moves the devices whose offset is all that differs between the session of the run and this one. False if more differs, so that the run has to begin
+/// again.
+bool LiveRun::moveWorkspaces (const DeviceSession& now)
+{
+    const auto withoutOffset = [] (const Json* binding) {
+        auto rest = binding != nullptr ? *binding : Json();
+        if (rest.is_object() && rest.contains ("workspace") && rest["workspace"].is_object())
+        {
+            rest["workspace"].erase ("offset");
+            if (rest["workspace"].empty()) rest.erase ("workspace");
+        }
+        return rest;
+    };
+    std::vector<std::pair<WorkspaceDevice*, Vec3>> moves;
+    for (const auto& role : session->engine().newest().roles())
+    {
+        const auto *before = run_session.binding (role.name), *after = now.binding (role.name);
+        if (before == after || (before != nullptr && after != nullptr && *before == *after)) continue;
+        auto* device = workspaceDevice (role.name);
+        if (device == nullptr || after == nullptr || ! isBound (role.name) || withoutOffset (before) != withoutOffset (after)) return false;
+        const auto binding = bindingOf (setup->session(), role.name);
+        if (hasErrors (binding->messages)) return false;
+        moves.emplace_back (device, binding->workspace.offset);
+    }
+    for (const auto& [device, offset] : moves)
+        device->moveTo (offset);
+    return true;
+}
+
+/// Puts the chosen hand on its tool, and lets a workspace be moved.
 void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages)
 {
-    if (role != hand_role) return;
+    if (role == hand_role) adoptHand (opened, in, messages);
+    if (! opened.device || ! isBound (role) || dynamic_cast<WorkspaceDevice*> (opened.device.get()) != nullptr) return;
+    if (opened.driver == nullptr) opened.driver = opened.device.get();
+    opened.device = std::make_unique<WorkspaceDevice> (std::move (opened.device), Workspace {}, opened.limits);   // so that it can be moved
+}
+
+void LiveRun::adoptHand (Run::RoleDevice& opened, const Workspace& in, Messages& messages)
+{
+    const auto& role = hand_role;
     auto& driver = opened.driver != nullptr ? *opened.driver : *opened.device;
     const auto* simulated = dynamic_cast<const SimulatedDevice*> (&driver);
     hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;

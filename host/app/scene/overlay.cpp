@@ -5,6 +5,8 @@
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <cmath>
+
 namespace tactus::host::scene
 {
 
@@ -199,6 +201,88 @@ void Overlay::drawScale (const Scene& scene, const SceneState& now)
     }
     graphics.setColour (is_touched ? theme.text : theme.dim);
     drawNumber (graphics, is_touched ? filled (TRANS ("%1 deep"), lengthText (depth)) : TRANS ("no contact"), text);
+}
+
+/// How the middle of a box moves in the picture when it moves along an axis.
+juce::Point<float> Overlay::pixelsPerMetre (const Camera& camera, const Reach& reach, int axis)
+{
+    const double step = 1e-3 * camera.distance;
+    const auto way = camera.pixel (reach.middle + step * Vec3::Unit (axis)) - camera.pixel (reach.middle);
+    return way * static_cast<float> (1.0 / step);
+}
+
+std::optional<juce::Line<float>> Overlay::handle (const Camera& camera, juce::Rectangle<float> area, const Reach& reach, int axis)
+{
+    constexpr float begin = 9.0f, end = 44.0f;
+    constexpr double flattest = 0.25;   // of the length that the axis has when it is seen from the side
+    const auto seen = camera.see (reach.middle);
+    const juce::Point<float> at (seen.x, seen.y);
+    if (! isFinite (reach.middle) || ! (seen.depth > camera.near()) || ! area.contains (at)) return std::nullopt;
+    const auto way = pixelsPerMetre (camera, reach, axis);
+    const float length = way.getDistanceFromOrigin();
+    if (! (static_cast<double> (length) > flattest * camera.scaleAt (seen.depth))) return std::nullopt;
+    const auto unit = way / length;
+    return juce::Line<float> (at + unit * begin, at + unit * end);
+}
+
+std::optional<int> Overlay::handleAt (const Camera& camera, juce::Rectangle<float> area, const Reach& reach, juce::Point<float> at)
+{
+    std::optional<int> nearest;
+    float least = 9.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (const auto line = handle (camera, area, reach, axis))
+        {
+            juce::Point<float> foot;
+            if (const float away = line->getDistanceFromPoint (at, foot); away < least)
+            {
+                least = away;
+                nearest = axis;
+            }
+        }
+    return nearest;
+}
+
+double Overlay::dragged (const Camera& camera, const Reach& reach, int axis, juce::Point<float> pixels)
+{
+    const auto way = pixelsPerMetre (camera, reach, axis);
+    const float square = way.getDotProduct (way);
+    return square > 0.0f ? static_cast<double> (pixels.getDotProduct (way) / square) : 0.0;
+}
+
+void Overlay::drawReach (const Reach& reach, bool names_role, std::optional<Dragged> moved)
+{
+    const auto& theme = look.theme();
+    const auto colour = moved ? theme.accent : theme.dim;
+    const auto corners = reach.corners();
+    const auto draw = [&] (const Vec3& from, const Vec3& to) {
+        if (isInFront (from) && isInFront (to)) graphics.drawLine (juce::Line<float> (camera.pixel (from), camera.pixel (to)), 1.0f);
+    };
+    graphics.setColour (colour.withAlpha (0.8f));
+    if (reach.hasBox())
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (const std::size_t bit : { 1u, 2u, 4u })
+                if ((i & bit) == 0) draw (corners[i], corners[i | bit]);
+    if (isInFront (reach.middle))
+    {
+        graphics.setColour (colour);
+        graphics.fillEllipse (juce::Rectangle<float> (5.0f, 5.0f).withCentre (camera.pixel (reach.middle)));
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const auto line = handle (camera, area, reach, axis);
+        if (! line) continue;
+        const bool is_lit = moved && moved->axis == axis;
+        graphics.setColour (theme.canvas.withAlpha (0.55f));
+        graphics.drawArrow (*line, 5.0f, 14.0f, 12.0f);
+        graphics.setColour (is_lit ? theme.accent : theme.axes[static_cast<std::size_t> (axis)]);
+        graphics.drawArrow (*line, is_lit ? 3.0f : 2.0f, 11.0f, 10.0f);
+        if (! is_lit) continue;
+        const auto sign = moved->metres < 0.0 ? juce::String::fromUTF8 ("\xe2\x88\x92") : juce::String ("+");
+        label (juce::String::charToString (static_cast<juce::juce_wchar> ('x' + axis)) + " " + sign + lengthText (std::abs (moved->metres)),
+               line->getEnd().translated (8.0f, 0.0f), Side::right, theme.accent);
+    }
+    if (names_role && ! moved && isInFront (reach.middle))
+        label (fromUtf8 (reach.role), camera.pixel (reach.middle).translated (8.0f, 12.0f), Side::right, colour);
 }
 
 juce::Point<float> Overlay::gizmoEnd (const Camera& camera, juce::Rectangle<float> area, int axis)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "reach.hpp"
 #include "scene.hpp"
 
 #include <host/app/look/look.hpp>
@@ -18,6 +19,23 @@ public:
     void drawMarks (const Scene&, const SceneState&);
     void drawScale (const Scene&, const SceneState&);
     void drawAxes();
+
+    /// The edges of the box that a device can reach, and a handle along each axis to move it. A handle that is dragged is lit, with how far it has gone.
+    struct Dragged
+    {
+        int axis = 0;
+        double metres = 0.0;
+    };
+    void drawReach (const Reach&, bool names_role, std::optional<Dragged>);
+
+    /// The handle for an axis: from near the middle of the box outwards. Empty if the middle is not in the picture, or the axis points at the eye.
+    static std::optional<juce::Line<float>> handle (const Camera&, juce::Rectangle<float> area, const Reach&, int axis);
+
+    /// The axis whose handle is at this place.
+    static std::optional<int> handleAt (const Camera&, juce::Rectangle<float> area, const Reach&, juce::Point<float>);
+
+    /// How far the middle of a box goes along an axis when its handle is dragged by this many pixels, in m.
+    static double dragged (const Camera&, const Reach&, int axis, juce::Point<float> pixels);
 
     /// The axis of the gizmo at this place: 0, 1 or 2 for x, y or z; empty: none.
     static std::optional<int> axisAt (const Camera&, juce::Rectangle<float> area, juce::Point<float>);
@@ -37,6 +55,7 @@ private:
     void drawForce (const Tool&, bool names_role);
     void drawPlumb (const Tool&, const Scene&, const std::vector<Touch>&);
     bool isInFront (const Vec3&) const;
+    static juce::Point<float> pixelsPerMetre (const Camera&, const Reach&, int axis);
     enum class Side
     {
         left,

@@ -157,6 +157,9 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S"), NEEDS_TRANS ("new, open, save, save as") },
     Keys { NEEDS_TRANS ("Z"), NEEDS_TRANS ("gives the window to the canvas, or brings the panels back") },
     Keys { NEEDS_TRANS ("H"), NEEDS_TRANS ("holds the tool pressed where it is, or releases it") },
+    Keys { NEEDS_TRANS ("S, held"),
+           NEEDS_TRANS ("moves the workspace of the device with the hand, as one lifts a mouse, while the canvas or the scene has the keyboard. The force "
+                        "fades, and comes back after the release") },
     Keys { NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes") },
     Keys { NEEDS_TRANS ("C"), NEEDS_TRANS ("shows the CPU cost of each node") },
     Keys { NEEDS_TRANS ("Shift+F1"), NEEDS_TRANS ("guided tour of the window") },
@@ -167,6 +170,7 @@ constexpr std::array mouse_list {
     Keys { NEEDS_TRANS ("drag from a port"), NEEDS_TRANS ("draws a wire: matching ports light up; drop it on the canvas to add a matching node") },
     Keys { NEEDS_TRANS ("double-click on the canvas"), NEEDS_TRANS ("adds a node there") },
     Keys { NEEDS_TRANS ("middle or right button, wheel"), NEEDS_TRANS ("the buttons pan, the wheel zooms at the pointer; a right click opens the menu") },
+    Keys { NEEDS_TRANS ("drag an arrow in the 3D scene"), NEEDS_TRANS ("moves the box that a device can reach; the force fades while it moves") },
     Keys { NEEDS_TRANS ("press on the surface below"), NEEDS_TRANS ("moves the tool with the mouse as your hand; the arrow is the force on it") },
 };
 

@@ -229,6 +229,7 @@ void MainView::timerCallback()
     else if (awake_for == 0 || --awake_for == 0)
         rest();
     playback.poll();
+    attendClutch();
     keepKeyboard();
     shade.follow();
     if (osc_server) osc_server->poll();

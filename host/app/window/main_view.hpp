@@ -11,6 +11,7 @@
 #include "top_bar.hpp"
 
 #include <host/app/devices_panel/devices_panel.hpp>
+#include <host/app/devices_panel/reach.hpp>
 #include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
@@ -110,6 +111,8 @@ public:
     void paint (juce::Graphics&) override;
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
+    bool keyStateChanged (bool is_down) override;
+    using juce::KeyListener::keyStateChanged;
 
     /// Opens a graph or clip that is dropped where no panel takes it. For a table, opens the panel that fits a model to it.
     bool isInterestedInFileDrag (const juce::StringArray&) override;
@@ -176,6 +179,9 @@ private:
     juce::Component& keyboardHome();
     void keepKeyboard();
     bool panelKey (const juce::KeyPress&);
+    bool clutchKey (const juce::KeyPress&);
+    bool hasClutchFocus();
+    void attendClutch();
     void nextPanel (int step);
     void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);
@@ -227,6 +233,7 @@ private:
     LimitWatch limits;
     std::unique_ptr<OscServer> osc_server;
     std::optional<LiveNodes> live_nodes;
+    Reaches reaches { device_setup };
     SafetyStrip strip { playback };
     std::optional<DirectStop> direct_stop;
     HandPanel hand { playback, sound };
@@ -259,6 +266,7 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
+    bool holds_clutch = false, clutch_ends = false;          // the key of the clutch is down; some key has come up since it was pressed
     Messages missing;                                        // what the graph needs before it can be felt
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown

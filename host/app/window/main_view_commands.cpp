@@ -46,6 +46,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         help.isOpen() ? help.close() : helpOnSelection();
         return true;
     }
+    if (clutchKey (key)) return true;
     const int digit = key.getKeyCode() - '0';
     if (digit >= 1 && digit <= snapshot_count && ! key.getModifiers().isAltDown())
     {
@@ -92,6 +93,7 @@ void MainView::globalFocusChanged (juce::Component* now)
     focused = now != this ? now : nullptr;
     if (focused != nullptr) focused->addKeyListener (this);
     if (focused != nullptr) inspector.reveal (*focused);
+    attendClutch();
     keepKeyboard();
 }
 

@@ -4,8 +4,10 @@
 #include "main_view.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -54,6 +56,42 @@ void MainView::nextPanel (int step)
         takeFocus (next);   // or the first part of it that takes keys
         if (next.hasKeyboardFocus (true)) return;
     }
+}
+
+/// True while the canvas or the scene has the keyboard, and the window that of the screen: elsewhere, nobody would tell when the key comes up.
+bool MainView::hasClutchFocus()
+{
+    const auto* peer = getPeer();
+    return peer != nullptr && peer->isFocused() && (patching.hasKeyboardFocus (true) || hand.scene().hasKeyboardFocus (true) || hasKeyboardFocus (false));
+}
+
+/// While S is down, the workspace of the hand's device moves with the hand. A key that is held comes again and again.
+bool MainView::clutchKey (const juce::KeyPress& key)
+{
+    if (key != juce::KeyPress::createFromDescription ("s") || ! hasClutchFocus()) return false;
+    clutch_ends = false;
+    if (! playback.current().holdWorkspace (true))
+        status.hint (TRANS ("S moves the workspace of a device that runs. The tool has none: bind one in the Devices panel, and press START."));
+    else if (! std::exchange (holds_clutch, true))
+        status.hint (TRANS ("The workspace moves with the hand until you release S. There is no force."));
+    return true;
+}
+
+/// Which key has come up is not known, so any of them ends the clutch, unless S comes again at once: between two repetitions of a held key, the system
+/// may report that it is up.
+bool MainView::keyStateChanged (bool is_down)
+{
+    clutch_ends = clutch_ends || ! is_down;
+    return false;
+}
+
+void MainView::attendClutch()
+{
+    if (! holds_clutch || (! clutch_ends && hasClutchFocus())) return;
+    holds_clutch = false;
+    for (auto* each : { &playback.run(), &playback.current() })   // the second is that of a preview, if there is one
+        static_cast<void> (each->holdWorkspace (false));
+    status.hint ({});
 }
 
 /// F6 goes from panel to panel, Ctrl+F to the search for presets and Ctrl+K to that for everything else, and F5 starts.

@@ -94,6 +94,8 @@ void MainView::connectRun()
     hand.onHint = patching.onHint;
     hand.onEnlarge = [this] { resized(); };
     hand.onSceneToggled = [this] { rememberScene(); };
+    hand.scene().reachesNow = [this] { return playback.isPreviewing() ? std::vector<scene::Reach> {} : reaches.of (run()); };
+    hand.scene().onMoveOrigin = [this] (const std::string& role, const Vec3& origin) { devices.moveOrigin (role, origin); };
     hand.film().onLength = [this] { rememberFilmLength(); };
     hand.film().onChoose = [this] (const std::filesystem::path& begin, auto chosen) { chooseFile (true, begin, std::move (chosen)); };
 

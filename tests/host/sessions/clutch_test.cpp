@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 using namespace tactus;
@@ -64,9 +65,9 @@ struct Spy final : Device
 /// A wall at z = 0, and a guard without a limit of the slew, so that only the clutch keeps the force from stepping.
 struct Contact
 {
-    explicit Contact (const Workspace& w) : spy (w), engine (wall().compile ({ .rate_hz = 1.0 / dt }).plan)
+    explicit Contact (const Workspace& w, double max_speed = GuardLimits::none) : spy (w), engine (wall().compile ({ .rate_hz = 1.0 / dt }).plan)
     {
-        engine.attach ("stylus", spy, { .max_force = strongest, .ramp = ramp });
+        engine.attach ("stylus", spy, { .max_force = strongest, .ramp = ramp, .max_speed = max_speed });
     }
 
     static test::Sketch wall()
@@ -212,6 +213,132 @@ TEST_CASE ("a lying device cannot move the workspace out of the sight of the gua
     CHECK (std::isnan (put (std::nan (""), false).position.x()));
 }
 
+TEST_CASE ("a key holds the clutch as its button does, and needs none", "[sessions][clutch]")
+{
+    Contact contact { {} };
+    contact.position() = { 0.0, 0.0, -0.004 };
+    contact.tick (100);
+    CHECK (contact.force().z() == Approx (stiffness * 0.004));
+    contact.spy.device->hold (true);
+    contact.tick (20);
+    CHECK (contact.force().isZero (0.0));
+    contact.position() = { 0.03, 0.0, 0.01 };
+    contact.tick (5);
+    CHECK (contact.spy.seen.z() == -0.004);
+    contact.spy.device->hold (false);
+    contact.tick();
+    CHECK (contact.spy.latest.valid);
+    CHECK ((contact.spy.seen - Vec3 (0.0, 0.0, -0.004)).norm() < 1e-15);
+    CHECK (contact.force().z() <= strongest * dt / ramp * (1.0 + 1e-12));
+    contact.tick (100);
+    CHECK (contact.force().z() == Approx (stiffness * 0.004));
+    CHECK (contact.spy.device->origin().x() == Approx (-0.03));
+    CHECK (contact.spy.device->origin().z() == Approx (-0.014));
+}
+
+TEST_CASE ("an origin that is moved puts the tool elsewhere in the graph, without a step of the force and without a speed", "[sessions][clutch][safety]")
+{
+    Contact contact { { .scale = 2.0, .offset = { 0.0, 0.0, 0.001 } }, 1.0 };   // the place jumps by 3 mm in a tick, which would be 3 m/s
+    contact.position() = { 0.0, 0.0, -0.002 };
+    contact.tick (100);
+    CHECK (contact.force().z() == Approx (stiffness * 0.003));
+    CHECK (contact.spy.device->origin() == Vec3 (0.0, 0.0, 0.001));
+
+    contact.spy.device->moveTo ({ 0.0, 0.0, 0.5 });
+    contact.spy.device->moveTo ({ 0.01, 0.0, -0.002 });   // the latest one counts
+    CHECK (contact.spy.device->origin() == Vec3 (0.01, 0.0, -0.002));
+    int invalid = 0;
+    for (int k = 0; k < 100; ++k)
+    {
+        const double before = contact.force().z();
+        const Vec3 seen = contact.spy.seen;
+        contact.tick();
+        REQUIRE (std::abs (contact.force().z() - before) <= strongest * dt * (1.0 / Guard::fade_s + 1.0 / ramp) + 1e-12);
+        if (contact.spy.seen != seen)
+        {
+            CHECK (before == 0.0);
+            CHECK (contact.force().z() <= strongest * dt / ramp * (1.0 + 1e-12));
+        }
+        invalid += contact.spy.latest.valid ? 0 : 1;
+    }
+    CHECK (invalid > 1);
+    CHECK (contact.spy.seen.z() == Approx (-0.006));
+    CHECK (contact.spy.seen.x() == Approx (0.01));
+    CHECK (contact.force().z() == Approx (stiffness * 0.006));
+    CHECK (contact.spy.device->origin().isApprox (Vec3 (0.01, 0.0, -0.002)));
+
+    // In the air, too, the reading is missed for a tick.
+    for (int k = 0; k < 200; ++k)   // slowly, for the limit of the speed
+    {
+        contact.position().z() = -0.002 + 0.0002 * k;
+        contact.tick();
+    }
+    CHECK (contact.force().isZero (0.0));
+    contact.spy.device->moveTo ({ 0.0, 0.0, -0.3 });
+    contact.tick();
+    CHECK_FALSE (contact.spy.latest.valid);
+    contact.tick();
+    CHECK (contact.spy.latest.valid);
+    CHECK (contact.spy.seen.z() < 0.0);
+    CHECK (contact.force().z() > 0.0);
+    CHECK (contact.force().z() <= strongest * dt / ramp * (1.0 + 1e-12));
+    contact.tick (100);
+    CHECK (contact.force().z() == Approx (strongest));   // no stop: the guard has seen no speed
+}
+
+TEST_CASE ("however the origin is moved and the key is pressed, the force does not step", "[sessions][clutch][safety]")
+{
+    test::property ("contact", [] {
+        const double scale = std::pow (10.0, within (-0.5, 0.5)), speed = within (0.0, 1.0);
+        Contact contact { { .scale = scale, .clutch = "grip" } };
+        auto& device = *contact.spy.device;
+        contact.position() = { 0.0, 0.0, within (-0.01, 0.005) };
+        contact.tick();
+        std::optional<Vec3> goal;
+        int next = 0;
+        for (int k = 0; k < 600; ++k)
+        {
+            if (k >= next)
+            {
+                next = k + *rc::gen::inRange (1, 60);
+                switch (*rc::gen::inRange (0, 4))
+                {
+                case 0:
+                    goal = Vec3 (within (-0.05, 0.05), within (-0.05, 0.05), within (-0.01, 0.01));
+                    device.moveTo (*goal);
+                    break;
+                case 1:
+                    device.hold (true);
+                    break;
+                case 2:
+                    device.hold (false);
+                    break;
+                default:
+                    contact.spy.hold (*rc::gen::inRange (0, 2) == 0);
+                }
+            }
+            contact.spy.put->reading.valid = *rc::gen::inRange (0, 50) > 0;
+            const Vec3 step = speed * dt * Vec3 (within (-1.0, 1.0), within (-1.0, 1.0), within (-1.0, 1.0));
+            contact.position() += step;
+            const Vec3 before = contact.force();
+            contact.tick();
+            RC_ASSERT ((contact.force() - before).norm()
+                       <= strongest * dt * (1.0 / Guard::fade_s + 1.0 / ramp) + stiffness * scale * step.norm() + 1e-9);
+            RC_ASSERT (contact.force().norm() <= strongest * (1.0 + 1e-12));
+        }
+
+        // At rest, it arrives where it shall be.
+        contact.spy.put->reading.valid = true;
+        contact.spy.hold (false);
+        device.hold (false);
+        const Vec3 last (0.01, -0.02, 0.003);
+        device.moveTo (last);
+        contact.tick (200);
+        RC_ASSERT ((device.origin() - last).norm() < 1e-15);
+        RC_ASSERT ((contact.spy.seen - (scale * contact.position() + last)).norm() < 1e-12);
+    });
+}
+
 TEST_CASE ("a clutch is a button that the device has, by name or number", "[sessions][clutch]")
 {
     const DeviceLayout has { .buttons = { "", "grip" } };
@@ -233,6 +360,8 @@ TEST_CASE ("a clutch is a button that the device has, by name or number", "[sess
     for (int k = 0; k < 50; ++k)
     {
         contact.spy.hold (k > 20 && k < 30);
+        contact.spy.device->hold (k > 35 && k < 40);
+        if (k % 7 == 0) contact.spy.device->moveTo ({ 0.001 * k, 0.0, 0.0 });
         contact.spy.read();
         contact.spy.write ({});
     }

@@ -2,10 +2,11 @@
 #include "scene_view.hpp"
 
 #include <host/app/look/focus.hpp>
-#include <host/app/scene/overlay.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -30,8 +31,12 @@ SceneView::SceneView (Playback& p) : playback (p)
     follow_button.setClickingTogglesState (true);
     follow_button.onClick = [this] { changed(); };
     frame_button.onClick = [this] { frameAll(); };
+    reach_button.setClickingTogglesState (true);
+    reach_button.setToggleState (true, juce::dontSendNotification);
+    reach_button.onClick = [this] { changed(); };
     addAndMakeVisible (follow_button);
     addAndMakeVisible (frame_button);
+    addChildComponent (reach_button);
 }
 
 void SceneView::watch (bool w)
@@ -67,6 +72,7 @@ void SceneView::refresh()
     auto latest = feed.now();
     if (! playback.current().isRunning()) latest.tools.clear();   // the last ones would look as if they still pressed
     const bool is_news = ! isSame (latest, now);
+    is_dirty = refreshReaches() || is_dirty;
     now = std::move (latest);
     if (const auto* tool = handTool(); follows() && tool != nullptr)
     {
@@ -86,6 +92,63 @@ void SceneView::refresh()
     if (since_s < took_s || (! is_dirty && ! refines)) return;   // leaves half of the time to the rest of the window
     is_dirty = is_coarse = false;
     repaint();
+}
+
+/// True if the picture of where the devices can reach has changed.
+bool SceneView::refreshReaches()
+{
+    auto latest = reachesNow ? reachesNow() : std::vector<scene::Reach> {};
+    if (latest == shown_reaches) return false;
+    shown_reaches = std::move (latest);
+    reach_button.setVisible (! shown_reaches.empty());
+    if (grabbed && grabbedReach() == nullptr) grabbed.reset();   // its device has another role now
+    return true;
+}
+
+const scene::Reach* SceneView::grabbedReach() const
+{
+    const auto at = grabbed ? std::ranges::find (shown_reaches, grabbed->role, &scene::Reach::role) : shown_reaches.end();
+    return at != shown_reaches.end() ? &*at : nullptr;
+}
+
+void SceneView::showReach (bool shows)
+{
+    reach_button.setToggleState (shows, juce::dontSendNotification);
+    changed();
+}
+
+/// Begins to drag the handle at this place; false if there is none.
+bool SceneView::grabHandle (juce::Point<float> at)
+{
+    if (! showsReach()) return false;
+    for (const auto& reach : shown_reaches)
+        if (const auto axis = scene::Overlay::handleAt (seen_by, getLocalBounds().toFloat(), reach, at))
+        {
+            grabbed = Grabbed { reach.role, { *axis, 0.0 } };
+            return true;
+        }
+    return false;
+}
+
+void SceneView::dropHandle()
+{
+    const auto* reach = grabbedReach();
+    if (reach != nullptr && grabbed->by.metres != 0.0 && onMoveOrigin)
+        onMoveOrigin (std::string (grabbed->role), reach->origin + grabbed->by.metres * Vec3::Unit (grabbed->by.axis));
+    grabbed.reset();
+    refreshReaches();
+    changed();
+}
+
+void SceneView::drawReaches (scene::Overlay& overlay) const
+{
+    if (! showsReach()) return;
+    for (const auto& reach : shown_reaches)
+    {
+        const bool is_grabbed = grabbed && grabbed->role == reach.role;
+        const auto by = is_grabbed ? std::optional (grabbed->by) : std::nullopt;
+        overlay.drawReach (by ? reach.movedBy (by->metres * Vec3::Unit (by->axis)) : reach, shown_reaches.size() > 1, by);
+    }
 }
 
 void SceneView::changed()
@@ -124,6 +187,10 @@ void SceneView::frameAll()
                 for (const auto& end : line)
                     box.add (end);
         }
+        for (const auto& reach : shown_reaches)
+            if (showsReach() && reach.middle.norm() < far)
+                for (const auto& corner : reach.corners())
+                    box.add (corner);
         seen_by.frame (box);
     }
     is_framed = ! stage.bounds().isEmpty() && getWidth() > 0;
@@ -157,7 +224,7 @@ void SceneView::follow (bool f)
 void SceneView::resized()
 {
     auto row = getLocalBounds().reduced (8).removeFromTop (24);
-    for (auto* b : { &follow_button, &frame_button })
+    for (auto* b : { &follow_button, &frame_button, &reach_button })
     {
         b->setBounds (row.removeFromLeft (b->wantedWidth()));
         row.removeFromLeft (4);
@@ -200,7 +267,7 @@ void SceneView::paint (juce::Graphics& g)
     const juce::Graphics::ScopedSaveState clipped (g);
     g.reduceClipRegion (getLocalBounds());
     scene::Overlay overlay (g, look, seen_by, area);
-    if (stage.isEmpty() && now.tools.empty())
+    if (stage.isEmpty() && now.tools.empty() && (shown_reaches.empty() || ! showsReach()))
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (13.0f));
@@ -211,6 +278,7 @@ void SceneView::paint (juce::Graphics& g)
     overlay.drawGround (stage);
     drawSurfaces (std::clamp (g.getInternalContext().getPhysicalPixelScaleFactor(), 1.0f, 3.0f));
     g.drawImage (surfaces, area);
+    drawReaches (overlay);
     overlay.drawMarks (stage, now);
     overlay.drawScale (stage, now);
     overlay.drawAxes();
@@ -244,12 +312,17 @@ void SceneView::press (juce::Point<float> at)
 /// Ends a drag. The tool stops pressing wherever the pointer is.
 void SceneView::release()
 {
+    grabbed.reset();
     if (std::exchange (drag, Drag::none) == Drag::tool && onSteer) onSteer (steered_to.x(), steered_to.y(), false);
 }
 
 void SceneView::mouseMove (const juce::MouseEvent& e)
 {
     const bool is_gizmo = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position).has_value();
+    const auto isHandle = [&] (const scene::Reach& reach) {
+        return scene::Overlay::handleAt (seen_by, getLocalBounds().toFloat(), reach, e.position).has_value();
+    };
+    if (showsReach() && std::ranges::any_of (shown_reaches, isHandle)) return setMouseCursor (juce::MouseCursor::DraggingHandCursor);
     const auto plain = is_gizmo ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor;
     setMouseCursor (isOnTool (e.position) ? juce::MouseCursor::CrosshairCursor : plain);
 }
@@ -259,6 +332,11 @@ void SceneView::mouseDown (const juce::MouseEvent& e)
     takeFocus (*this);
     dragged_to = e.position;
     drag = e.mods.isShiftDown() || e.mods.isRightButtonDown() ? Drag::move : Drag::turn;
+    if (drag == Drag::turn && e.mods.isLeftButtonDown() && grabHandle (e.position))
+    {
+        drag = Drag::reach;
+        return changed();
+    }
     if (drag == Drag::turn && e.mods.isLeftButtonDown() && isOnTool (e.position))
     {
         drag = Drag::tool;
@@ -279,6 +357,12 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
     const auto by = e.position - dragged_to;
     dragged_to = e.position;
     if (drag == Drag::tool) return press (e.position);
+    if (const auto* reach = grabbedReach(); drag == Drag::reach && reach != nullptr)
+    {
+        auto& [axis, metres] = grabbed->by;
+        const double most = 0.5;   // m; from a camera far away, a pixel is much
+        metres = std::clamp (metres + scene::Overlay::dragged (seen_by, reach->movedBy (metres * Vec3::Unit (axis)), axis, by), -most, most);
+    }
     if (drag == Drag::turn) seen_by.orbit (-radians_per_pixel * static_cast<double> (by.x), radians_per_pixel * static_cast<double> (by.y));
     if (drag == Drag::move)
     {
@@ -288,7 +372,11 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
     changed();
 }
 
-void SceneView::mouseUp (const juce::MouseEvent&) { release(); }
+void SceneView::mouseUp (const juce::MouseEvent&)
+{
+    if (drag == Drag::reach) dropHandle();
+    release();
+}
 
 void SceneView::mouseDoubleClick (const juce::MouseEvent& e)
 {

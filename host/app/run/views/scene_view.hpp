@@ -3,6 +3,7 @@
 
 #include <host/app/look/label_button.hpp>
 #include <host/app/run/playback.hpp>
+#include <host/app/scene/overlay.hpp>
 #include <host/app/scene/scene.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -10,7 +11,8 @@ namespace tactus::host
 {
 
 /// The scene in space: what the nodes of the graph look like, the tools, and the forces on them. Dragging turns the camera; with Shift
-/// or the right button it moves; the wheel zooms about the pointer. Dragging the tool itself presses with it. [main thread]
+/// or the right button it moves; the wheel zooms about the pointer. Dragging the tool itself presses with it. Where devices can reach is a thin box,
+/// with handles that move it. [main thread]
 class SceneView final : public juce::Component
 {
 public:
@@ -25,6 +27,8 @@ public:
     void lookAlong (int axis);   ///< looks along x, y or z; the second time from the other side
     void follow (bool);          ///< keeps the tool of the hand in the middle
     bool follows() const noexcept { return follow_button.getToggleState(); }
+    void showReach (bool);   ///< where the devices can reach, if there are any; on at first
+    bool showsReach() const noexcept { return reach_button.getToggleState(); }
 
     const scene::Camera& camera() const noexcept { return seen_by; }
     const scene::Raster::Count& triangles() const noexcept { return raster.count(); }   ///< of the last picture
@@ -33,6 +37,12 @@ public:
     /// Called while the tool is dragged: where to, in m, and whether it presses.
     std::function<void (double x, double y, bool presses)> onSteer;
     std::function<void (double octaves)> onDeeper;   ///< the wheel while the tool is dragged
+
+    std::function<std::vector<scene::Reach>()> reachesNow;   ///< where devices can reach; asked at each refresh
+    const std::vector<scene::Reach>& reaches() const noexcept { return shown_reaches; }
+
+    /// Called when the user has dragged a box: where the origin of the role's device shall be, in m.
+    std::function<void (const std::string& role, const Vec3& origin)> onMoveOrigin;
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -52,6 +62,11 @@ private:
     void release();
     const scene::Tool* handTool() const { return now.tool (playback.current().handRole()); }   ///< the tool that a drag moves; null: none
     bool isOnTool (juce::Point<float>) const;
+    bool refreshReaches();
+    bool grabHandle (juce::Point<float>);
+    void dropHandle();
+    void drawReaches (scene::Overlay&) const;
+    const scene::Reach* grabbedReach() const;
     void describe();
     void changed();
 
@@ -64,7 +79,9 @@ private:
     scene::Raster raster;
     juce::Image surfaces;
     LabelButton follow_button { TRANS ("Follow"), TRANS ("Keeps the tool in the middle (T)") },
-        frame_button { TRANS ("Frame"), TRANS ("Shows the whole scene (F, or double-click)") };
+        frame_button { TRANS ("Frame"), TRANS ("Shows the whole scene (F, or double-click)") },
+        reach_button { TRANS ("Reach"), TRANS ("Shows where the devices can reach. Drag an arrow to move that in the graph; the force fades meanwhile") };
+    std::vector<scene::Reach> shown_reaches;
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;
     int still_for = 0;   // calls to refresh() since something changed
@@ -75,12 +92,21 @@ private:
         none,
         turn,
         move,
-        tool
+        tool,
+        reach
     };
     Drag drag = Drag::none;
     juce::Point<float> dragged_to;
     juce::Point<float> grabbed_at;    // from where the tool was grabbed to its position, in pixels
     Vec3 steered_to = Vec3::Zero();   // where the dragged tool was moved last; z does not matter
+
+    /// The handle that is dragged.
+    struct Grabbed
+    {
+        std::string role;
+        scene::Overlay::Dragged by {};
+    };
+    std::optional<Grabbed> grabbed;
 };
 
 }   // namespace tactus::host

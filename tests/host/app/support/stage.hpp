@@ -120,6 +120,12 @@ public:
         modifiersNow();
     }
 
+    /// A key comes up. The system does not say which.
+    void keyUp()
+    {
+        if (auto* peer = getPeer()) peer->handleKeyUpOrDown (false);
+    }
+
     /// The key as described by juce::KeyPress.
     void key (const juce::String& described)
     {

@@ -132,7 +132,8 @@ struct WindowRig
 
     /// Clicks there, goes down in the menu that opens (or up, if `steps` is negative), and presses a key. The keys are in the message after the one
     /// that opens the menu, because JUCE closes a menu at its first timer call if no window of the program has the keyboard of the X server.
-    void choose (juce::Point<float> at, int steps, int button = juce::ModifierKeys::rightButtonModifier, const juce::String& end = "return")
+    static void chooseFrom (Stage& stage, juce::Point<float> at, int steps, int button = juce::ModifierKeys::rightButtonModifier,
+                            const juce::String& end = "return")
     {
         bool opened = false;
         int waits = 0;
@@ -140,16 +141,22 @@ struct WindowRig
             opened = juce::Component::getNumCurrentlyModalComponents() == 1;
             if (! opened && ++waits < 1000) return void (juce::MessageManager::callAsync (chooseIfOpen));
             for (int i = 0; i < std::abs (steps); ++i)
-                stage->key (steps > 0 ? "cursor down" : "cursor up");
-            stage->key (end);
+                stage.key (steps > 0 ? "cursor down" : "cursor up");
+            stage.key (end);
             waits = 1000;
         };
-        stage->click (at, button);
+        stage.click (at, button);
         chooseIfOpen();
         while (waits < 1000 || juce::Component::getNumCurrentlyModalComponents() > 0)
             settle();
         REQUIRE (opened);
         settle();
+    }
+
+    /// Chooses from a menu of this window, see chooseFrom().
+    void choose (juce::Point<float> at, int steps, int button = juce::ModifierKeys::rightButtonModifier, const juce::String& end = "return")
+    {
+        chooseFrom (*stage, at, steps, button, end);
     }
 
     static juce::Component* focused() { return juce::Component::getCurrentlyFocusedComponent(); }

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the hand is, in the window: a role's workspace in the Devices panel, the box that its device can reach in the scene, and the clutch by a key.
+// The force steps nowhere.
+
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/devices_panel/axes_text.hpp>
+#include <tactus/file/graph_file.hpp>
+
+#include <chrono>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::latestStep;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+template <typename T>
+T* partIn (juce::Component& c)
+{
+    if (auto* part = dynamic_cast<T*> (&c)) return part;
+    for (auto* child : c.getChildren())
+        if (auto* part = partIn<T> (*child)) return part;
+    return nullptr;
+}
+
+constexpr double ramp_s = 0.05, strongest = 4.0;
+
+/// The window with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
+struct Bench : WindowRig
+{
+    Bench() : WindowRig ("dry_wood.json", 1600, 1000)
+    {
+        click ("Devices");
+        panel().bind ("stylus", "simulated PHANTOM 1.0");
+        set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
+        set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
+        REQUIRE (binding().contains ("hand"));
+        click ("3D");
+        view->run().film().keep (FilmTape::longest_s);
+    }
+    ~Bench() { view->run().letGo(); }
+    Bench (const Bench&) = delete;
+    Bench& operator= (const Bench&) = delete;
+
+    DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
+    SceneView& scene() { return *partIn<SceneView> (*view); }
+    void set (const char* pointer, const char* text) { panel().setPart ("stylus", pointer, text); }
+
+    Json saved() const { return Json::parse (home.textOf ("session.json")); }
+    Json binding() const { return saved()["roles"]["stylus"]; }
+    Json workspace() const { return binding().value ("workspace", Json()); }
+
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (60);
+        while (! isSo() && std::chrono::steady_clock::now() < end)
+            settle (5);
+        return isSo();
+    }
+
+    void start()
+    {
+        view->canvas().grabKeyboardFocus();
+        key ("F5");
+        REQUIRE (until ([&] { return view->run().tool() && force() > 0.0 && ticks() > 0; }));
+    }
+    double force() { return view->run().tool() ? view->run().tool()->force.norm() : 0.0; }
+    Vec3 origin() { return view->run().workspaceOf ("stylus")->offset; }
+
+    /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
+    juce::TextEditor& field (const juce::String& label)
+    {
+        click ("Devices");
+        auto* found = dynamic_cast<juce::TextEditor*> (titledIn (panel(), label));
+        REQUIRE (found != nullptr);
+        const auto isReached = [&] {
+            const auto* at = stage->getComponentAt (middleOf (*found).roundToInt());
+            return at != nullptr && (at == found || found->isParentOf (at));
+        };
+        for (int i = 0; i < 100 && ! isReached(); ++i)   // from the top downwards
+        {
+            stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), i == 0 ? 100.0f : -0.1f, true);
+            settle (2);
+        }
+        REQUIRE (isReached());
+        return *found;
+    }
+
+    bool says (const juce::String& text)
+    {
+        click ("Devices");
+        stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), 100.0f, true);   // to its top
+        settle();
+        juce::StringArray words;
+        for (const auto& seen : host::test::readTexts (panel()))
+            words.addTokens (seen.text, false);
+        return words.joinIntoString (" ").replace ("  ", " ").contains (text);
+    }
+
+    std::uint64_t ticks() { return view->run().film().end(); }
+
+    void type (const juce::String& label, const juce::String& text)
+    {
+        INFO (label);
+        stage->click (middleOf (field (label)));
+        settle();
+        stage->type (text);
+        key ("return");
+        settle();
+    }
+
+    /// The ticks since a place, without those that the tape has lost. Where the tool jumps, there is no force, and it rises along the ramp.
+    std::size_t checkSteps()
+    {
+        const auto film = view->run().film().last (60.0);
+        const double dt = 1.0 / film.rate_hz;
+        std::size_t jumps = 0;
+        for (std::size_t i = 1; i < film.ticks.size(); ++i)
+        {
+            const auto &before = film.ticks[i - 1], &now = film.ticks[i];
+            if (now.tick != before.tick + 1) continue;
+            const bool has_jumped = (now.position - before.position).norm() > 1e-3;   // 4 m/s, at 4 kHz
+            jumps += has_jumped ? 1 : 0;
+            const double most = strongest * dt / ramp_s * (1.0 + 1e-9);
+            if (has_jumped && (before.force.norm() > 0.0 || now.force.norm() > most)) FAIL ("a step of the force at tick " << now.tick);
+            // It rises no faster than along the ramp, apart from what the hand does: at 2 N/mm and a speed far below 1 m/s.
+            if (now.force.norm() - before.force.norm() > most + 2000.0 * dt * 0.5) FAIL ("the force rises in a step at tick " << now.tick);
+        }
+        return jumps;
+    }
+};
+}   // namespace
+
+TEST_CASE ("axes are typed as three letters, or as rows of numbers", "[app][sessions]")
+{
+    CHECK (readAxesText ("y -x z") == Json { "y", "-x", "z" });
+    CHECK (readAxesText ("+y, -x,z") == Json { "y", "-x", "z" });
+    CHECK (readAxesText ("[\"y\", \"-x\", \"z\"]") == Json { "y", "-x", "z" });
+    CHECK (readAxesText ("y -x") == Json ("y -x"));
+    CHECK (textOfAxes (Json { "y", "-x", "z" }) == "y -x z");
+    const auto rows = Json::parse ("[[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]");
+    CHECK (readAxesText (textOfAxes (rows)) == rows);
+}
+
+TEST_CASE ("a role's workspace is typed in the Devices panel, saved with the session, and each edit is one undo", "[app][sessions][undo]")
+{
+    Bench w;
+    auto& document = w.view->document();
+    const auto graph = writeGraph (w.graph());
+    const auto before = document.history().position();
+    w.type ("scale", "2");
+    w.type ("offset", "[0, 0, \"1 cm\"]");
+    w.type ("axes", "-x y z");
+    w.type ("clutch", "grip");
+    const Json mirrored { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } }, { "axes", { "-x", "y", "z" } }, { "clutch", "grip" } };
+    CHECK (w.workspace() == mirrored);
+    CHECK (document.history().position() == before + 4);
+    CHECK (latestStep (document) == "clutch of stylus");
+    CHECK (w.field ("axes").getText() == "-x y z");
+    CHECK (w.says ("no button"));   // the device has none, and its card says so
+
+    // A mistake changes nothing, and is no step.
+    w.type ("axes", "x x z");
+    CHECK (w.workspace() == mirrored);
+    CHECK (w.view->statusText().contains ("axes"));
+    CHECK (document.history().position() == before + 4);
+
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK_FALSE (w.workspace().contains ("clutch"));
+    w.key ("ctrl + z");
+    CHECK_FALSE (w.workspace().contains ("axes"));
+    CHECK (w.field ("axes").getText().isEmpty());
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + y");
+    CHECK (w.workspace()["axes"] == Json { "-x", "y", "z" });
+    w.type ("max force", "1 N");   // a limit is not taken back
+    w.view->canvas().grabKeyboardFocus();
+    for (int i = 0; i < 3; ++i)
+        w.key ("ctrl + z");
+    CHECK (w.workspace().is_null());
+    CHECK (w.binding()["guard"]["max_force"] == Json ("1 N"));
+    CHECK (document.history().position() == before);
+    CHECK (writeGraph (w.graph()) == graph);
+    CHECK_FALSE (document.isChanged());
+}
+
+TEST_CASE ("a workspace that is typed while the graph runs moves the tool without a step of the force", "[app][sessions][undo]")
+{
+    Bench w;
+    w.start();
+    const auto begun = w.view->run().film().last (60.0).ticks.front().tick;
+    w.type ("offset", "[0, 0, \"-1 mm\"]");
+    CHECK (w.until ([&] { return w.force() > 0.0 && w.origin() == Vec3 (0.0, 0.0, -0.001); }));
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK (w.until ([&] { return w.force() > 0.0 && w.origin().isZero (0.0); }));
+    CHECK (w.view->run().film().last (60.0).ticks.front().tick == begun);   // the same run
+    w.checkSteps();
+
+    // A turn begins another run.
+    w.type ("axes", "-x y z");
+    CHECK (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
+    w.checkSteps();
+}
+
+TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves it while the graph runs", "[app][scene][sessions][undo]")
+{
+    Bench w;
+    w.set ("/workspace/scale", "0.25");
+    w.set ("/workspace/axes", "y -x z");
+    w.start();
+    REQUIRE (w.until ([&] { return ! w.scene().reaches().empty(); }));
+    const auto reach = w.scene().reaches().front();
+    CHECK (reach.role == "stylus");
+    REQUIRE (reach.hasBox());
+    scene::Bounds box;
+    for (const auto& corner : reach.corners())
+        box.add (corner);
+    CHECK (box.low.isApprox (0.25 * Vec3 (-0.0635, -0.127, -0.089), 1e-9));   // x of the graph is y of the device
+    CHECK (box.high.isApprox (0.25 * Vec3 (0.0635, 0.127, 0.089), 1e-9));
+
+    // The picture has a line along an edge of the box, and none without it.
+    w.scene().grabKeyboardFocus();
+    w.key ("f");
+    const auto differs = [&] {
+        const auto with = w.scene().createComponentSnapshot (w.scene().getLocalBounds());
+        w.scene().showReach (false);
+        const auto without = w.scene().createComponentSnapshot (w.scene().getLocalBounds());
+        w.scene().showReach (true);
+        const auto corners = reach.corners();
+        const auto at = w.scene().camera().pixel (0.5 * (corners[6] + corners[7])).roundToInt();
+        int pixels = 0;
+        for (int x = -2; x <= 2; ++x)
+            for (int y = -2; y <= 2; ++y)
+                pixels += with.getPixelAt (at.x + x, at.y + y) != without.getPixelAt (at.x + x, at.y + y) ? 1 : 0;
+        return pixels;
+    };
+    CHECK (differs() > 2);
+
+    const auto begun = w.view->run().film().last (60.0).ticks.front().tick;
+    const auto position = w.view->document().history().position();
+    const auto area = w.scene().getLocalBounds().toFloat();
+    const auto handle = scene::Overlay::handle (w.scene().camera(), area, reach, 2);
+    REQUIRE (handle);
+    const auto from = handle->getPointAlongLineProportionally (0.7f);
+    const juce::Point<float> by = (handle->getStart() - handle->getEnd()) * 0.15f;
+    const double metres = scene::Overlay::dragged (w.scene().camera(), reach, 2, by);
+    CHECK (metres < 0.0);
+    const double yaw = w.scene().camera().yaw;
+    w.stage->drag (w.stage->getLocalPoint (&w.scene(), from), w.stage->getLocalPoint (&w.scene(), from + by));
+    CHECK (w.scene().camera().yaw == yaw);   // the drag does not turn the scene
+    REQUIRE (w.until ([&] { return w.force() > 0.0 && w.origin().z() < 0.0; }));
+    const double z = w.workspace()["offset"][2].get<double>();
+    CHECK (z == Approx (metres).epsilon (0.1));   // nearer by, a pixel is less
+    CHECK (w.origin() == Vec3 (0.0, 0.0, z));
+    CHECK (w.until ([&] { return w.scene().reaches().front().middle.z() == z; }));
+    CHECK (w.view->document().history().position() == position + 1);
+    CHECK (latestStep (w.view->document()) == "offset of stylus");
+
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK_FALSE (w.workspace().contains ("offset"));
+    CHECK (w.until ([&] { return w.force() > 0.0 && w.origin().isZero (0.0); }));
+    CHECK (w.view->run().film().last (60.0).ticks.front().tick == begun);   // the same run
+    w.checkSteps();
+
+    // Moved by the mouse, the tool is no device of the session.
+    w.view->run().moveBy (LiveRun::Hand::pointer());
+    CHECK (w.until ([&] { return w.scene().reaches().empty(); }));
+}
+
+TEST_CASE ("a device whose box is not known has handles at its origin", "[app][scene][sessions]")
+{
+    Bench w;
+    w.panel().bind ("stylus", "gesture circle");
+    REQUIRE (w.until ([&] { return ! w.scene().reaches().empty() && ! w.scene().reaches().front().hasBox(); }));
+    const auto handle = scene::Overlay::handle (w.scene().camera(), w.scene().getLocalBounds().toFloat(), w.scene().reaches().front(), 0);
+    REQUIRE (handle);
+    const auto from = w.stage->getLocalPoint (&w.scene(), handle->getEnd());
+    w.stage->drag (from, from + (handle->getEnd() - handle->getStart()));
+    WindowRig::settle();
+    CHECK (w.workspace()["offset"][0].get<double>() > 0.0);   // also while nothing runs
+    CHECK (w.workspace()["offset"][1].get<double>() == 0.0);
+}
+
+TEST_CASE ("S moves the workspace with the hand while it is held, and the force does not step", "[app][sessions][safety]")
+{
+    Bench w;
+    w.start();
+    w.view->canvas().grabKeyboardFocus();
+    const auto hold = [&] {   // a key that is held is repeated
+        w.stage->key ("s");
+        WindowRig::settle (10);
+        w.stage->keyUp();   // as some systems do between two repetitions
+        w.stage->key ("s");
+    };
+    REQUIRE (w.until ([&] {
+        hold();
+        return w.force() == 0.0;
+    }));
+    CHECK (w.view->statusText().contains ("until you release S"));
+    const auto after = [&] (std::uint64_t more) {
+        return w.until ([&, from = w.ticks()] {
+            hold();
+            return w.ticks() > from + more;
+        });
+    };
+    REQUIRE (after (10));
+    const auto place = w.view->run().tool()->position;
+    for (int i = 0; i < 10; ++i)
+    {
+        REQUIRE (after (100));
+        CHECK (w.force() == 0.0);
+        CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
+    }
+    w.stage->keyUp();
+    CHECK (w.until ([&] { return w.force() > 0.0; }));
+    CHECK (w.origin().norm() > 1e-4);
+    CHECK (w.checkSteps() == 0);   // nor does the tool jump
+    CHECK_FALSE (w.workspace().contains ("offset"));
+
+    SECTION ("in the scene, too, until something else gets the keyboard")
+    {
+        w.scene().grabKeyboardFocus();
+        w.stage->key ("s");
+        REQUIRE (w.until ([&] { return w.force() == 0.0; }));
+        auto& field = w.field ("scale");
+        w.stage->click (w.middleOf (field));
+        CHECK (w.until ([&] { return w.force() > 0.0; }));
+        w.stage->key ("s");   // is text now
+        CHECK (field.getText() == "s");
+        CHECK_FALSE (w.view->statusText().contains ("until you release S"));
+        w.key ("escape");
+    }
+    SECTION ("but not without a device of the session")
+    {
+        w.panel().bind ("stylus", "as in the graph");
+        REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
+        w.view->canvas().grabKeyboardFocus();
+        w.stage->key ("s");
+        CHECK (w.view->statusText().contains ("bind one"));
+        WindowRig::settle (100);
+        CHECK (w.until ([&] { return w.force() > 0.0; }));   // the stroke presses again
+    }
+    SECTION ("and a STOP stops")
+    {
+        w.stage->key ("s");
+        w.key ("shift + escape");
+        w.stage->keyUp();
+        REQUIRE (w.until ([&] { return w.view->run().isStoppedForGood() && w.force() == 0.0; }));
+        WindowRig::settle (200);
+        CHECK (w.force() == 0.0);
+    }
+}
+
+TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F1");
+    REQUIRE (w.view->helpPanel().isOpen());
+    bool is_listed = false;
+    for (const auto& seen : host::test::readTexts (w.view->helpPanel()))
+        is_listed = is_listed || seen.text.contains ("S, held");
+    CHECK (is_listed);
+}
