@@ -12,6 +12,12 @@
 namespace tactus::host
 {
 
+const graph::Control* findControl (const graph::Graph& g, const std::string& id)
+{
+    const auto at = std::ranges::find (g.controls, id, &graph::Control::id);
+    return at == g.controls.end() ? nullptr : &*at;
+}
+
 namespace
 {
 double si (const Json& written)
@@ -20,16 +26,10 @@ double si (const Json& written)
     return read ? read->value : 0.0;
 }
 
-const graph::Control* find (const graph::Graph& g, const std::string& id)
-{
-    const auto at = std::ranges::find (g.controls, id, &graph::Control::id);
-    return at == g.controls.end() ? nullptr : &*at;
-}
-
 std::string freeId (const graph::Graph& g, const std::string& wanted)
 {
     auto id = wanted;
-    for (int i = 2; find (g, id) != nullptr; ++i)
+    for (int i = 2; findControl (g, id) != nullptr; ++i)
         id = wanted + '_' + std::to_string (i);
     return id;
 }
@@ -59,7 +59,7 @@ std::optional<ControlledParam> controlOf (const graph::Graph& g, const std::stri
 
 std::optional<graph::Command> moveControlFor (const graph::Graph& g, const ControlledParam& param, double to_si)
 {
-    const auto* control = find (g, param.control);
+    const auto* control = findControl (g, param.control);
     if (control == nullptr || param.low == param.high) return std::nullopt;
     const double at = (to_si - param.low) / (param.high - param.low);
     if (! (at > -1e-9 && at < 1.0 + 1e-9)) return std::nullopt;

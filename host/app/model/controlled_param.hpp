@@ -9,6 +9,9 @@
 namespace tactus::host
 {
 
+/// Null if the graph has no control with this id.
+const graph::Control* findControl (const graph::Graph&, const std::string& id);
+
 /// A parameter that a control of the graph drives, and its range.
 struct ControlledParam
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "value_in_effect.hpp"
+#include "controlled_param.hpp"
 #include "param_value.hpp"
 #include "quantity_text.hpp"
 
@@ -63,12 +64,6 @@ void keep (graph::Graph& g, const graph::Control& control, const graph::Control:
     auto edit = stored (g, path, valueBetween (target.low, target.high, control.value), catalogue);
     if (edit && graph::apply (g, *edit)) edits.push_back (std::move (*edit));
 }
-
-const graph::Control* find (const graph::Graph& g, const std::string& id)
-{
-    const auto at = std::ranges::find (g.controls, id, &graph::Control::id);
-    return at == g.controls.end() ? nullptr : &*at;
-}
 }   // namespace
 
 std::optional<double> valueInEffect (const graph::Graph& g, const std::string& address, const Catalogue& catalogue)
@@ -115,7 +110,7 @@ graph::Command removeControl (const graph::Graph& g, const std::string& id, cons
     const graph::RemoveControl removal { id };
     graph::Batch all { graph::nameOf (removal), { removal } };
     auto kept = g;
-    if (const auto* control = find (g, id))
+    if (const auto* control = findControl (g, id))
         for (const auto& t : control->to)
             keep (kept, *control, t, t.path, catalogue, all.commands);
     return all;
@@ -123,7 +118,7 @@ graph::Command removeControl (const graph::Graph& g, const std::string& id, cons
 
 std::optional<graph::Command> removeTarget (const graph::Graph& g, const std::string& id, const std::string& path, const Catalogue& catalogue)
 {
-    const auto* control = find (g, id);
+    const auto* control = findControl (g, id);
     if (control == nullptr) return std::nullopt;
     const auto target = std::ranges::find (control->to, path, &graph::Control::Target::path);
     if (target == control->to.end()) return std::nullopt;
@@ -137,7 +132,7 @@ std::optional<graph::Command> removeTarget (const graph::Graph& g, const std::st
 
 std::optional<graph::Command> addTarget (const graph::Graph& g, const std::string& id, const std::string& path, const Json& now, const PortSheet& sheet)
 {
-    const auto* control = find (g, id);
+    const auto* control = findControl (g, id);
     if (control == nullptr) return std::nullopt;
     auto to = *control;
     if (to.to.empty())
