@@ -52,7 +52,8 @@ void Palette::close()
 {
     if (! isVisible()) return;
     setVisible (false);
-    if (auto* parent = getParentComponent()) takeFocus (*parent);
+    const auto* window = getPeer();   // while another program has the keyboard, the canvas must not take it back
+    if (auto* parent = getParentComponent(); parent != nullptr && (window == nullptr || window->isFocused())) takeFocus (*parent);
 }
 
 void Palette::update()
