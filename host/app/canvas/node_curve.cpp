@@ -280,7 +280,7 @@ void paintSmallCurve (juce::Graphics& g, juce::Rectangle<float> area, const Plot
         const juce::Point<float> p { toX (plot.x[i]), toY (plot.y[i]) };
         i == 0 ? line.startNewSubPath (p) : line.lineTo (p);
     }
-    g.strokePath (line, juce::PathStrokeType (thickness, juce::PathStrokeType::curved));
+    g.strokePath (line, juce::PathStrokeType (thickness, juce::PathStrokeType::beveled));   // curved joints fail an assertion of JUCE where a line turns back
 }
 
 }   // namespace tactus::host

@@ -90,7 +90,7 @@ public:
             const auto angle = [] (double half_turns) { return static_cast<float> (half_turns * juce::MathConstants<double>::pi); };
             p.addCentredArc (dial.getCentreX(), dial.getCentreY(), 16.0f, 16.0f, 0.0f, angle (scale_start), angle (to), true);
             g.setColour (colour);
-            g.strokePath (p, juce::PathStrokeType (4.0f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded));
+            g.strokePath (p, juce::PathStrokeType (4.0f, juce::PathStrokeType::beveled, juce::PathStrokeType::rounded));
         };
         arc (scale_end, theme.hairline);
         if (getValue() > 0.0) arc (scale_start + (scale_end - scale_start) * getValue(), theme.accent);
