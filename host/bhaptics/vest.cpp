@@ -129,7 +129,7 @@ private:
     // Protected by the mutex of the exchange:
     Dots dots;
     const Clock::duration period;   // of messages
-    int answers = 0;                // that nobody has read
+    int answers = 0;                // received and not yet read
     bool is_new = false, has_to_rest = false;
     bool is_worn = true;   // as far as the Player says
     Clock::time_point asked, shown;

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// Stands between a driver and a service, passes their messages on, and shows each to somebody. One driver at a time. Runs on a thread of its own.
+/// Stands between a driver and a service, passes their messages on, and hands each to a callback. One driver at a time. Runs on a thread of its own.
 /// [any thread]
 class ServiceRelay
 {

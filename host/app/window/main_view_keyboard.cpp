@@ -58,7 +58,7 @@ void MainView::nextPanel (int step)
     }
 }
 
-/// True while the canvas or the scene has the keyboard, and the window that of the screen: elsewhere, nobody would tell when the key comes up.
+/// True while the canvas or the scene has the keyboard focus, in a window that has it, too. Elsewhere, the window does not learn when the key comes up.
 bool MainView::hasClutchFocus()
 {
     const auto* peer = getPeer();

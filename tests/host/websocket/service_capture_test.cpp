@@ -246,7 +246,7 @@ TEST_CASE ("a capture of a vest has what was shown on it, and replays to the sam
     CHECK (replayed.isAtEnd());
 }
 
-TEST_CASE ("every capture of a service that somebody has sent us replays through its driver", "[capture][haply][bhaptics][wires]")
+TEST_CASE ("every capture of a service replays through its driver", "[capture][haply][bhaptics][wires]")
 {
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/tests/host/hid_link/captures"))

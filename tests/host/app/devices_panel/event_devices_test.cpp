@@ -149,7 +149,8 @@ TEST_CASE ("an event device is chosen and calibrated in the window, runs, and it
     REQUIRE (b.until ([&] { return ! b.run.health().empty() && b.run.health().front().reached_hz > 1.0; }));
     CHECK (b.run.health().front().reached_hz < 200.0);   // neither the rate of the graph, nor the 250 Hz of its port
     REQUIRE (b.until ([&] { return b.text().contains ("efforts/s reach it"); }));
-    const double shown = b.text().upToFirstOccurrenceOf ("efforts/s reach it", false, false).trimEnd().fromLastOccurrenceOf (" ", false, false).getDoubleValue();
+    const auto before = b.text().upToFirstOccurrenceOf ("efforts/s reach it", false, false).trimEnd();
+    const double shown = before.fromLastOccurrenceOf (" ", false, false).getDoubleValue();
     CHECK (shown > 0.0);
     CHECK (shown < 200.0);
     b.run.letGo();
