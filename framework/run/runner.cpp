@@ -124,26 +124,28 @@ void Runner::publish() noexcept
     if (is_released) now.force = 0.0;
     constexpr std::size_t roles_at = offsetof (RunStatus, roles), often = offsetof (RunStatus::Role, name), all = sizeof (RunStatus::Role);
     static_assert (roles_at % 8 == 0 && often % 8 == 0 && all % 8 == 0, "a snapshot stores words");
+    std::array<bool, RunStatus::most_roles> is_new {};
+    for (std::size_t i = 0; i < now.shown().size(); ++i)
+    {
+        const auto [name, applied, guard] = engine.role (i);
+        auto& role = now.roles[i];
+        if (is_released) role.force = role.torque = 0.0;
+        role.stop = guard.stop();
+        role.is_latched = guard.isLatched();
+        // The name lives in the channel of the role, so a channel with another guard has another name.
+        is_new[i] = role.name.data() != name.data() || seen[i] != guard.changes();
+        if (! is_new[i]) continue;
+        role.name = name;
+        role.event = guard.latest();
+        role.latest = role.event.why;
+        seen[i] = guard.changes();
+    }
     published.storeParts (now, [&] (auto part) {
         part (0, std::integral_constant<std::size_t, roles_at>());
         for (std::size_t i = 0; i < now.shown().size(); ++i)
         {
-            const auto [name, applied, guard] = engine.role (i);
-            auto& role = now.roles[i];
-            if (is_released) role.force = role.torque = 0.0;
-            role.stop = guard.stop();
-            role.is_latched = guard.isLatched();
-            // The name lives in the channel of the role, so a channel with another guard has another name.
-            const bool is_new = role.name.data() != name.data() || seen[i] != guard.changes();
-            if (is_new)
-            {
-                role.name = name;
-                role.event = guard.latest();
-                role.latest = role.event.why;
-                seen[i] = guard.changes();
-            }
             const auto begin = roles_at + i * all;
-            is_new ? part (begin, all) : part (begin, std::integral_constant<std::size_t, often>());
+            is_new[i] ? part (begin, all) : part (begin, std::integral_constant<std::size_t, often>());
         }
     });
 }

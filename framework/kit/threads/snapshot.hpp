@@ -14,11 +14,13 @@ namespace tactus
 {
 
 /// The latest value of something, published by one thread and read by any number of threads. A reader always gets a value
-/// that was stored as a whole. The writer never waits; a reader tries again if a store came in between.
+/// that was stored as a whole. The writer never waits. A reader tries again only if the writer has gone on meanwhile, so a reader
+/// that has interrupted the writer, such as a tick on the core of a thread with a lower priority, gets the value before.
 ///
-/// A sequence lock (Boehm, "Can seqlocks get along with programming language memory models?", 2012): the sequence number
-/// is odd while the writer stores. Thread sanitizers do not understand fences, so the words are stored with release and
-/// loaded with acquire instead: a reader that sees a word of a later value also sees its odd number.
+/// Two copies with a sequence number (a "latch sequence counter" of the Linux kernel, Documentation/locking/seqlock.rst): while the
+/// number is odd, the writer changes the first copy and readers use the second; while it is even, the other way round. Thread
+/// sanitizers do not understand fences, so the words are stored with release and loaded with acquire instead (Boehm, "Can seqlocks get
+/// along with programming language memory models?", 2012): a reader that sees a word of a later value also sees its number.
 template <typename T>
 class Snapshot
 {
@@ -35,42 +37,48 @@ public:
 
     /// Stores parts of a value whose other parts are as they were last stored. `parts` calls its argument for each of them: where it begins
     /// in the value, and how long it is, in bytes; the length may be a std::integral_constant. Parts begin at multiples of 8 bytes.
-    /// [writing thread]
+    /// It is called once for each copy. [writing thread]
     template <typename Parts>
     void storeParts (const T& value, Parts&& parts) noexcept
     {
         const auto n = sequence.load (std::memory_order_relaxed);
-        sequence.store (n + 1, std::memory_order_relaxed);
-        parts (Part { *this, reinterpret_cast<const std::byte*> (&value) });
+        const auto* const from = reinterpret_cast<const std::byte*> (&value);
+        sequence.store (n + 1, std::memory_order_release);
+        parts (Part { copies[0], from });
         sequence.store (n + 2, std::memory_order_release);
+        parts (Part { copies[1], from });
     }
 
     /// [any thread]
     T load() const noexcept
     {
-        std::array<std::uint64_t, sizeof (T) / sizeof (std::uint64_t)> copy;
+        std::array<std::uint64_t, sizeof (T) / word_size> got;
         for (;;)
         {
             const auto n = sequence.load (std::memory_order_acquire);
-            for (std::size_t i = 0; i < copy.size(); ++i)
-                copy[i] = words[i].load (std::memory_order_acquire);
-            if (n % 2 == 0 && sequence.load (std::memory_order_relaxed) == n) break;
+            const auto& words = copies[n % 2];
+            for (std::size_t i = 0; i < got.size(); ++i)
+                got[i] = words[i].load (std::memory_order_acquire);
+            if (sequence.load (std::memory_order_relaxed) == n) break;
         }
         T value;
-        std::memcpy (static_cast<void*> (&value), copy.data(), sizeof value);
+        std::memcpy (static_cast<void*> (&value), got.data(), sizeof value);
         return value;
     }
 
 private:
+    static constexpr auto word_size = sizeof (std::uint64_t);
+    using Words = std::array<std::atomic<std::uint64_t>, sizeof (T) / word_size>;
+
     /// Stores a part of a value.
     struct Part
     {
-        Snapshot& to;
+        Words& to;
         const std::byte* from;
 
         void operator() (std::size_t begin, std::size_t bytes) const noexcept
         {
-            const auto end = std::min (begin / word_size + (bytes + word_size - 1) / word_size, to.words.size());
+            const auto end = std::min (begin / word_size + (bytes + word_size - 1) / word_size, to.size());
             for (auto i = begin / word_size; i < end; ++i)
                 put (i);
         }
@@ -88,14 +96,12 @@ private:
         {
             std::uint64_t word = 0;
             std::memcpy (&word, from + i * word_size, word_size);
-            to.words[i].store (word, std::memory_order_release);
+            to[i].store (word, std::memory_order_release);
         }
     };
 
-    static constexpr auto word_size = sizeof (std::uint64_t);
-
     std::atomic<std::uint64_t> sequence = 0;
-    std::array<std::atomic<std::uint64_t>, sizeof (T) / sizeof (std::uint64_t)> words {};
+    std::array<Words, 2> copies {};
 };
 
 }   // namespace tactus

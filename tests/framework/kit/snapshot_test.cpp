@@ -55,6 +55,31 @@ TEST_CASE ("a snapshot stores several parts of a value, and keeps what is betwee
     }
 }
 
+TEST_CASE ("a reader that interrupts the writer anywhere gets the value before or after, and does not wait for the writer", "[runtime]")
+{
+    Snapshot<State> snapshot { allOf (1) };
+    for (std::uint64_t n = 2; n <= 4; ++n)
+    {
+        std::vector<State> seen { snapshot.load() };
+        const auto look = [&] { seen.push_back (snapshot.load()); };   // on the writer's thread, as a tick that runs on its core
+        snapshot.storeParts (allOf (n), [&] (auto part) {
+            look();
+            for (std::size_t i = 0; i < 40; ++i)
+            {
+                part (i * sizeof (std::uint64_t), sizeof (std::uint64_t));
+                look();
+            }
+        });
+        look();
+        REQUIRE (seen.size() == 2 + 2 * 41);
+        for (std::size_t i = 0; i < seen.size(); ++i)
+        {
+            INFO (i);
+            CHECK (seen[i].numbers == allOf (i < seen.size() / 2 ? n - 1 : n).numbers);
+        }
+    }
+}
+
 TEST_CASE ("a reader sees every snapshot complete, and never one older than the previous one", "[runtime]")
 {
     Snapshot<State> snapshot;
