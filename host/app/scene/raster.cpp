@@ -4,7 +4,7 @@
 namespace tactus::host::scene
 {
 
-void Raster::begin (int width, int height, int fineness)
+void Raster::begin (int width, int height, int fineness, Shading shading)
 {
     samples = std::max (1, fineness);
     columns = std::max (0, width) * samples;
@@ -12,6 +12,9 @@ void Raster::begin (int width, int height, int fineness)
     const auto size = static_cast<std::size_t> (columns) * static_cast<std::size_t> (rows);
     colours.assign (size, 0);
     nearest.assign (size, 0.0f);
+    by_pixel = shading == Shading::pixel && samples == 2;
+    triangle_number = 0;
+    if (by_pixel) pixels.assign (size / 4, {});
     counted = {};
 }
 

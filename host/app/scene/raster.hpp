@@ -45,8 +45,16 @@ public:
         both
     };
 
-    /// Makes the picture empty. `fineness` is the number of samples per pixel in each direction.
-    void begin (int width, int height, int fineness);
+    /// What has a colour of its own. If it is the pixel, a triangle is shaded once for all its samples there, in the middle of the pixel: its edges
+    /// are as smooth, and a picture takes half the time.
+    enum class Shading
+    {
+        sample,
+        pixel
+    };
+
+    /// Makes the picture empty. `fineness` is the number of samples per pixel in each direction; Shading::pixel has an effect if it is 2.
+    void begin (int width, int height, int fineness, Shading = Shading::sample);
 
     /// Fills the part of a triangle that is in front of the camera. `shade (values)` returns the colour of a sample: 0xffRRGGBB.
     template <std::size_t N, typename Shade>
@@ -105,7 +113,19 @@ private:
     /// The samples of a row whose middles are inside a triangle with these corners. Triangles that share an edge share no sample.
     std::pair<int, int> span (const std::array<float, 3>& x, const std::array<float, 3>& y, float middle) const noexcept;
 
+    /// With two samples per pixel in each direction: how far the middle of a sample is from that of its pixel, in samples.
+    static float fromMiddle (int sample) noexcept { return static_cast<float> (sample & 1) - 0.5f; }
+
+    /// The triangle that was shaded last in a pixel.
+    struct Shaded
+    {
+        std::uint32_t triangle, colour;
+    };
+
     int columns = 0, rows = 0, samples = 1;
+    bool by_pixel = false;
+    std::uint32_t triangle_number = 0;
+    std::vector<Shaded> pixels;   // where the pixel has the colour
     std::vector<std::uint32_t> colours;
     std::vector<float> nearest;   // 1 / depth of the sample; 0: nothing there
     Count counted;
@@ -176,6 +196,7 @@ Raster::DepthResult Raster::fill (const Corner<N>& a, const Corner<N>& b, const 
         lay (i, a.values[i] * a.nearness, b.values[i] * b.nearness, c.values[i] * c.nearness);
     lay (N, a.nearness, b.nearness, c.nearness);
 
+    ++triangle_number;
     for (int y = firstAfter (low_y, rows), last = firstAfter (high_y, rows); y < last; ++y)
     {
         const float py = static_cast<float> (y) + 0.5f;
@@ -184,20 +205,33 @@ Raster::DepthResult Raster::fill (const Corner<N>& a, const Corner<N>& b, const 
         std::array<float, N + 1> now;
         for (std::size_t i = 0; i <= N; ++i)
             now[i] = base[i] + along_y[i] * py + along_x[i] * (static_cast<float> (begin) + 0.5f);
+        const auto row_of_pixels = static_cast<std::size_t> (y >> 1) * static_cast<std::size_t> (columns >> 1);
+        const auto step = [&] {
+            for (std::size_t i = 0; i <= N; ++i)
+                now[i] += along_x[i];
+        };
         auto place = static_cast<std::size_t> (y) * static_cast<std::size_t> (columns) + static_cast<std::size_t> (begin);
-        for (int x = begin; x < end; ++x, ++place)
+        for (int x = begin; x < end; ++x, ++place, step())
         {
             if (now[N] > nearest[place])
             {
                 nearest[place] = now[N];
-                const float depth = 1.0f / now[N];
+                const auto pixel = by_pixel ? row_of_pixels + static_cast<std::size_t> (x >> 1) : 0;
+                if (by_pixel && pixels[pixel].triangle == triangle_number)
+                {
+                    colours[place] = pixels[pixel].colour;
+                    continue;
+                }
+                float dx = by_pixel ? fromMiddle (x) : 0.0f, dy = by_pixel ? fromMiddle (y) : 0.0f;
+                const auto at = [&] (std::size_t i) { return now[i] - along_x[i] * dx - along_y[i] * dy; };
+                if (! (at (N) > 0.0f)) dx = dy = 0.0f;   // the middle of the pixel is behind the camera
+                const float depth = 1.0f / at (N);
                 std::array<float, N> values;
                 for (std::size_t i = 0; i < N; ++i)
-                    values[i] = now[i] * depth;
+                    values[i] = at (i) * depth;
                 colours[place] = shade (values);
+                if (by_pixel) pixels[pixel] = { triangle_number, colours[place] };
             }
-            for (std::size_t i = 0; i <= N; ++i)
-                now[i] += along_x[i];
         }
     }
     return DepthResult::drawn;

@@ -194,14 +194,16 @@ std::vector<Crack> Scene::cracks (const SceneState& now) const
 void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const SceneState& now) const
 {
     auto sheets = sheetsOf (now);
-    constexpr double most_cells = 8192.0;   // in all sheets together
+    constexpr double most_cells = 8192.0, pixels_per_cell = 7.0;   // the first in all sheets together, the second on average
     const auto cells = static_cast<int> (std::sqrt (most_cells / static_cast<double> (std::max<std::size_t> (1, sheets.size()))));
     for (auto& sheet : sheets)
     {
         sheet.grid = gridFor (camera);
         for (const auto& tool : now.tools)
             if (isFinite (tool.position)) sheet.cover (tool.position);
-        sheet.cells = std::clamp (cells, 2, sheet.cells);
+        // In a small picture, cells that are smaller than a pixel would cost time and show nothing.
+        const auto across = static_cast<int> (std::min (1e4, 2.0 * sheet.half * camera.scaleAt (camera.distance) / pixels_per_cell));
+        sheet.cells = std::clamp (std::min (cells, across), 2, sheet.cells);
         sheet.draw (raster, camera, paint);
     }
     const auto felt = touches (now);

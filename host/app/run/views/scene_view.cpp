@@ -247,8 +247,8 @@ void SceneView::drawSurfaces (float pixels_per_unit)
     camera.setSize (static_cast<float> (width), static_cast<float> (height));
     const bool is_at_rest = still_for >= rest_after;
     const int fineness = is_at_rest || ! is_slow ? 2 : 1;
-    is_coarse = fineness == 1;
-    raster.begin (width, height, fineness);
+    is_coarse = ! is_at_rest;
+    raster.begin (width, height, fineness, is_at_rest ? scene::Raster::Shading::sample : scene::Raster::Shading::pixel);
     stage.draw (raster, camera, scene::Paint (themeOf (*this)), now);
     raster.write (surfaces);
     painted_ms = juce::Time::getMillisecondCounterHiRes();

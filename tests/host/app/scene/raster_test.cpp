@@ -136,6 +136,45 @@ TEST_CASE ("finer samples smooth an edge", "[app][scene]")
     CHECK (image.getPixelAt (11, 10).getAlpha() == 0);
 }
 
+TEST_CASE ("a triangle that is shaded by the pixel covers the same samples, with the colour of the pixel's middle, and shades each pixel once", "[app][scene]")
+{
+    rc::check ("random triangles", [] {
+        const auto number = [] { return 0.1f * static_cast<float> (*rc::gen::inRange (-100, 900)); };
+        std::array<Raster::Corner<1>, 3> all;
+        for (auto& c : all)
+            c = { number(), number(), 1.0f, { number() } };
+        const auto draw = [&] (Raster& r, Raster::Shading shading, int& shaded) {
+            r.begin (width, height, 2, shading);
+            shaded = 0;
+            r.triangle (all[0], all[1], all[2], Raster::Sides::both, [&] (const std::array<float, 1>& v) {
+                ++shaded;
+                return 0xff000000u | static_cast<std::uint32_t> (std::clamp (v[0], 0.0f, 255.0f));
+            });
+            return pictureOf (r);
+        };
+        Raster r;
+        int by_sample = 0, by_pixel = 0, covered = 0;
+        const auto one = draw (r, Raster::Shading::sample, by_sample), other = draw (r, Raster::Shading::pixel, by_pixel);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+            {
+                const auto a = one.getPixelAt (x, y), b = other.getPixelAt (x, y);
+                RC_ASSERT (static_cast<int> (a.getAlpha()) == static_cast<int> (b.getAlpha()));
+                if (a.getAlpha() > 0) ++covered;
+            }
+        RC_ASSERT (by_pixel == covered);
+        RC_ASSERT (by_sample >= by_pixel);
+    });
+
+    Raster r;
+    r.begin (width, height, 2, Raster::Shading::pixel);
+    const auto shade = [] (const std::array<float, 1>& v) { return 0xff000000u | static_cast<std::uint32_t> (v[0]); };
+    const Raster::Corner<1> a { 0.0f, 0.0f, 1.0f, { 0.0f } }, b { 0.0f, 160.0f, 1.0f, { 0.0f } }, c { 160.0f, 0.0f, 1.0f, { 400.0f } };   // 5 per pixel
+    r.triangle (a, b, c, Raster::Sides::both, shade);
+    for (const int x : { 0, 7, 20 })
+        CHECK (static_cast<int> (pictureOf (r).getPixelAt (x, 5).getBlue()) == Approx (5 * x + 2).margin (1));
+}
+
 TEST_CASE ("a ball is round and hides what is behind it", "[app][scene]")
 {
     Camera camera;
