@@ -36,7 +36,10 @@ enum class ReadingFault : std::uint32_t
     frozen,
 
     // found by the driver
-    stuck
+    stuck,
+
+    // no fault of the device: its workspace moves, and the nodes keep the position that they know
+    moved
 };
 
 struct ReadingFaultInfo
@@ -46,7 +49,7 @@ struct ReadingFaultInfo
 };
 
 /// In the order of ReadingFault.
-inline constexpr std::array<ReadingFaultInfo, 17> reading_faults { {
+inline constexpr std::array<ReadingFaultInfo, 18> reading_faults { {
     { "none", "" },
     { "too_hot", "the device reports that a motor is too hot" },
     { "timed_out", "the device reports that its watchdog has released the motors" },
@@ -64,8 +67,9 @@ inline constexpr std::array<ReadingFaultInfo, 17> reading_faults { {
     { "impossible_pose", "the device reports a pose that its arm cannot have" },
     { "frozen", "the position does not change" },
     { "stuck", "the driver of the device does not return" },
+    { "moved", "its workspace is being moved" },
 } };
-static_assert (reading_faults.size() == static_cast<std::size_t> (ReadingFault::stuck) + 1, "a new fault needs words");
+static_assert (reading_faults.size() == static_cast<std::size_t> (ReadingFault::moved) + 1, "a new fault needs words");
 
 /// Those that a device can report itself.
 constexpr bool isAlarm (ReadingFault fault) noexcept { return fault >= ReadingFault::too_hot && fault <= ReadingFault::failed; }

@@ -51,6 +51,7 @@ void Clutch::operator() (Reading& reading, bool is_held) noexcept
         return;
     }
     reading.valid = false;
+    if (is_usable && reading.fault == ReadingFault::none) reading.fault = ReadingFault::moved;
     if (state == State::closed && isFinite (fresh))
     {
         reading.true_position += seen - reading.position;

@@ -108,6 +108,13 @@ TEST_CASE ("a clutch moves the workspace and leaves the tool where it is in the 
     contact.tick (20);
     CHECK (contact.force().isZero (0.0));
     CHECK_FALSE (contact.spy.latest.valid);
+    CHECK (describe (contact.spy.latest.fault) == "its workspace is being moved");
+    contact.spy.put->reading.valid = false;   // what the device says itself counts for more
+    contact.spy.put->reading.fault = ReadingFault::unplugged;
+    contact.tick();
+    CHECK (contact.spy.latest.fault == ReadingFault::unplugged);
+    contact.spy.put->reading.valid = true;
+    contact.spy.put->reading.fault = ReadingFault::none;
     for (int k = 0; k < 100; ++k)
     {
         contact.position().x() += 0.0005;

@@ -183,8 +183,11 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
     for (const auto& role : status.shown())
         if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
         {
-            now.guard = juce::String (std::string (role.name)) + ": " + fromUtf8 (describe (role.latestEvent()));
-            now.alarmed = now.alarmed || role.stop != Guard::Stop::none;
+            const auto event = role.latestEvent();
+            const bool is_stopped = role.stop != Guard::Stop::none, is_meant = event.why == Guard::Stop::stale && event.fault == ReadingFault::moved;
+            if (is_meant && ! is_stopped) continue;
+            now.guard = juce::String (std::string (role.name)) + ": " + fromUtf8 (describe (event));
+            (is_meant ? now.warned : now.alarmed) |= is_stopped;
         }
     if (now.running && status.clock_replaced)
     {

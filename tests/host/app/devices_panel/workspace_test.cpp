@@ -304,6 +304,15 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
         return w.force() == 0.0;
     }));
     CHECK (w.view->statusText().contains ("until you release S"));
+    SafetyStrip* strip = nullptr;
+    for (auto* child : w.view->getChildren())
+        if (auto* found = dynamic_cast<SafetyStrip*> (child)) strip = found;
+    REQUIRE (strip != nullptr);
+    CHECK (w.until ([&] {
+        hold();
+        return strip->guardText().contains ("its workspace is being moved");
+    }));
+    CHECK_FALSE (strip->isAlarmed());   // it is what the person wants
     const auto after = [&] (std::uint64_t more) {
         return w.until ([&, from = w.ticks()] {
             hold();
@@ -319,7 +328,7 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
         CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
     }
     w.stage->keyUp();
-    CHECK (w.until ([&] { return w.force() > 0.0; }));
+    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip->guardText().contains ("being moved"); }));
     CHECK (w.origin().norm() > 1e-4);
     CHECK (w.checkSteps() == 0);   // nor does the tool jump
     CHECK_FALSE (w.workspace().contains ("offset"));
