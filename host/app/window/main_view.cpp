@@ -188,21 +188,6 @@ void MainView::applyFusion()
     run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
 }
 
-void MainView::closeWhenSaved (std::function<void()> close)
-{
-    files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] {
-        run().letGo();
-        files.end();
-        close();
-    });
-}
-
-void MainView::closeSuddenly()
-{
-    run().letGo();
-    files.endSuddenly();
-}
-
 void MainView::wake()
 {
     awake_for = refreshes_until_rest;

@@ -76,7 +76,7 @@ public:
     /// Opens the panel that fits a model to a recording. [main thread]
     void fitRecordingIn (const std::filesystem::path&);
 
-    void closeWhenSaved (std::function<void()> close);   ///< calls `close` once unsaved changes are saved or discarded
+    void closeWhenSaved (std::function<void()> close);   ///< calls `close` once unsaved changes and a take are saved or discarded
     void closeSuddenly();                                ///< autosaves unsaved changes for the next start
 
     /// Runs another graph with its own gesture in place of the document, until endPreview().
@@ -189,7 +189,7 @@ private:
     void openExample (const std::string& type);
     void saveClipAs (const std::filesystem::path&);
     void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    void writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
+    bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
@@ -211,6 +211,7 @@ private:
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
+    void closeWithTake (const std::function<void()>& close);
     using Shares = std::array<std::optional<double>, 5>;
     std::array<std::pair<const char*, Splitter*>, 5> edges();   ///< of the panels, by the names that the settings give them; only the first three fold
     Shares shares();
