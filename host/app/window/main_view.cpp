@@ -227,6 +227,7 @@ void MainView::timerCallback()
     }
     hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
+    attendFilm();
     live.refresh();
     limits.poll();
     attendLiveNodes();

@@ -11,7 +11,9 @@ Files::Callbacks MainView::fileCallbacks()
 {
     return {
         .notify = [this] (const juce::String& text) { status.notify (text); },
-        .stop = [this] { run().stop(); },
+        .stop = [this] {
+            hand.film().end();   // the next run begins another film
+            run().stop(); },
         .run = [this] (bool by_pointer) { startOpened (by_pointer); },
         .isRunning = [this] { return playback.current().isRunning(); },
         .onSettings = [this] {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closing the window, or opening another graph, loses no take without a question.
+// Closing the window, or opening another graph, loses no film and no take without a question.
 #include "host/app/support/wait_for.hpp"
 
 #include <host/assets/file_assets.hpp>
+#include <tactus/file/csv.hpp>
 #include <tactus/run/log/stretch.hpp>
 
 #include <catch2/catch.hpp>
@@ -35,10 +36,25 @@ struct Closing
     ~Closing() { w.view->run().letGo(); }
 
     Question& question() { return w.view->asked(); }
+    FilmButton& film() { return w.view->handPanel().film(); }
     Take& take() { return w.view->takePanel().take(); }
     void close()
     {
         w.view->closeWhenSaved ([this] { ++closed; });
+    }
+
+    void filmSomething()
+    {
+        film().begin();
+        REQUIRE (waitFor ([&] { return film().filmed() > 0.3; }));
+    }
+
+    /// Whether a film is being saved changes only while messages are handled.
+    void saveFilm()
+    {
+        filmSomething();
+        film().end();
+        REQUIRE (film().isSaving());
     }
 
     void record()
@@ -55,6 +71,125 @@ struct Closing
     }
 };
 }   // namespace
+
+TEST_CASE ("closing while a film is being saved waits for it\\, with progress", "[app][closing]")
+{
+    Closing c;
+    c.saveFilm();
+    c.close();
+    REQUIRE (c.question().isOpen());
+    CHECK (c.closed == 0);
+    CHECK (c.question().title() == "A film is being saved");
+    CHECK (c.question().getDescription().contains (" %"));
+    SECTION ("by a choice, with the question closed")
+    {
+        c.question().answer (0);
+        CHECK_FALSE (c.question().isOpen());
+        CHECK (c.closed == 0);
+    }
+    SECTION ("with the question open") {}
+    REQUIRE (waitFor ([&] { return c.closed > 0; }));
+    CHECK_FALSE (c.film().isSaving());
+    const auto table = readTable (filmFile (c.chosen, ".csv"));
+    REQUIRE (table);
+    CHECK (table->rows() > 100);
+    CHECK (fs::exists (filmFile (c.chosen, ".png")));
+    WindowRig::settle (100);
+    CHECK (c.closed == 1);
+}
+
+TEST_CASE ("Cancel keeps the window\\, and the film is saved\\; so does a film that cannot be saved", "[app][closing]")
+{
+    Closing c;
+    SECTION ("cancelled")
+    {
+        c.saveFilm();
+        c.close();
+        c.w.stage->key ("escape");
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        CHECK (c.film().isSaved());
+        CHECK (fs::exists (c.chosen));
+    }
+    SECTION ("failed")
+    {
+        c.folder.write ("in the way", "");
+        c.w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) { then (c.folder / "in the way" / "film.png"); };
+        c.saveFilm();
+        c.close();
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        CHECK_FALSE (c.film().isSaved());
+        CHECK (c.w.view->statusText().isNotEmpty());   // why
+    }
+    WindowRig::settle (100);
+    CHECK_FALSE (c.question().isOpen());
+    CHECK (c.closed == 0);
+}
+
+TEST_CASE ("a film can be discarded at closing\\, and what was changed while it was saved is asked about", "[app][closing]")
+{
+    Closing c;
+    SECTION ("discarded")
+    {
+        c.saveFilm();
+        c.close();
+        c.question().answer (1);
+        CHECK (c.closed == 1);
+    }
+    SECTION ("an answer about the graph counts")
+    {
+        REQUIRE (c.w.view->document().perform (graph::SetHeader { .about = "before" }));
+        c.saveFilm();
+        c.close();
+        c.question().answer (1);   // Don't save
+        REQUIRE (c.question().title() == "A film is being saved");
+        REQUIRE (waitFor ([&] { return c.closed > 0; }));
+    }
+    SECTION ("until the graph is changed")
+    {
+        c.saveFilm();
+        c.close();
+        c.question().answer (0);
+        REQUIRE (c.w.view->document().perform (graph::SetHeader { .about = "meanwhile" }));
+        REQUIRE (waitFor ([&] { return c.question().isOpen(); }));
+        CHECK (c.question().title().startsWith ("Save changes to"));
+        CHECK (c.closed == 0);
+        c.question().answer (1);
+        CHECK (c.closed == 1);
+    }
+}
+
+TEST_CASE ("what is being filmed is saved before the window closes or another graph is opened", "[app][closing]")
+{
+    Closing c;
+    c.filmSomething();
+    SECTION ("closing, and Cancel")
+    {
+        c.close();
+        REQUIRE (c.question().title().startsWith ("Save the film"));
+        c.w.stage->key ("escape");
+        WindowRig::settle();
+        CHECK (c.film().isFilming());
+        CHECK (c.closed == 0);
+    }
+    SECTION ("closing, and Save")
+    {
+        c.close();
+        c.question().answer (0);
+        REQUIRE (c.question().title() == "A film is being saved");
+        REQUIRE (waitFor ([&] { return c.closed > 0; }));
+        CHECK (fs::exists (c.chosen));
+    }
+    SECTION ("another graph")
+    {
+        c.w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+        CHECK (c.w.graph().name == "Soft pad");
+        CHECK_FALSE (c.film().isFilming());
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        const auto table = readTable (filmFile (c.chosen, ".csv"));
+        REQUIRE (table);
+        CHECK (table->rows() > 100);
+    }
+}
 
 TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it so that it can be played again", "[app][closing][take]")
 {
