@@ -2,6 +2,7 @@
 #include <host/app/storage/language.hpp>
 #include <host/app/window/main_view.hpp>
 #include <host/app/window/places.hpp>
+#include <host/juce/native_window.hpp>
 #include <host/osc/osc_options.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/platform/patient_output.hpp>
@@ -101,6 +102,7 @@ private:
         std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
         how.live = liveBuilds (catalogue());
         useTranslation (translationFor (languageSetIn (how.home), how.home));
+        takeHeldKeysFromEvents();
         window = std::make_unique<Window> (*look, how);
         watchForStop();
         giveUpBlockedOutputs();

@@ -70,13 +70,13 @@ std::optional<std::uint64_t> tickOf (const std::string& line)
 
 bool hasGraph (const std::string& line) { return line.find ("\"graph\"") != line.npos; }
 
-/// The lines of a log up to a tick, with paths relative to another folder, and the hash of the first graph.
+/// The lines of a log up to a tick, or all of them, with paths relative to another folder, and the hash of the first graph.
 struct LogPart
 {
     std::string text, hash;
 };
 
-Result<LogPart> partOf (const std::string& log, std::uint64_t until, const fs::path& folder)
+Result<LogPart> partOf (const std::string& log, std::optional<std::uint64_t> until, const fs::path& folder)
 {
     auto in = opened (log);
     if (! in) return in.error();
@@ -90,7 +90,7 @@ Result<LogPart> partOf (const std::string& log, std::uint64_t until, const fs::p
         ++number;
         const auto tick = tickOf (*line);
         if (! tick) return wrongTest ("log/missing", log, number, "the line has no \"tick\"", "use the log unchanged, as `tactus play` wrote it");
-        if (*tick >= until) break;
+        if (until && *tick >= *until) break;
         if (hasGraph (*line))
         {
             auto read = readJson (*line);
@@ -104,7 +104,7 @@ Result<LogPart> partOf (const std::string& log, std::uint64_t until, const fs::p
         }
         part.text += *line + "\n";
     }
-    part.text += "{\"tick\":" + std::to_string (until) + ",\"end\":true}\n";
+    if (until) part.text += "{\"tick\":" + std::to_string (*until) + ",\"end\":true}\n";
     return part;
 }
 
@@ -187,6 +187,17 @@ Result<> writeRunTest (const std::string& log, const fs::path& test, const Stret
     }
     out << part->text;
     if (! out) return file->writeError();
+    return file->commit();
+}
+
+Result<> copyRunLog (const std::string& log, const fs::path& to)
+{
+    const auto all = partOf (log, {}, to.parent_path());
+    if (! all) return all.error();
+    auto file = AtomicFile::create (to);
+    if (! file) return file.error();
+    file->stream() << all->text;
+    if (! file->stream()) return file->writeError();
     return file->commit();
 }
 

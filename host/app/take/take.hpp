@@ -44,6 +44,7 @@ public:
         std::filesystem::path file;
         std::string hand;   ///< the role of the hand; empty if it has none
         double length_s = 0.0;
+        bool is_saved = false;   ///< it was saved, or something was made of it
     };
 
     void record();   ///< starts the run again, and records it

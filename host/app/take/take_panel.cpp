@@ -199,7 +199,10 @@ void TakePanel::makeClip()
         Messages notes;
         const auto made = clipOfStretch (*read, notes);
         const auto gain = read->unit == "N" ? std::optional (gainOf (*read)) : std::nullopt;
-        if (onChoose && onClip) onChoose ("take.wav", [this, made, notes, gain] (const std::filesystem::path& to) { onClip (made, notes, gain, to); });
+        if (! onChoose || ! onClip) return;
+        onChoose ("take.wav", [this, made, notes, gain, of = recording.recorded()] (const std::filesystem::path& to) {
+            of->is_saved |= onClip (made, notes, gain, to);
+        });
     });
 }
 
@@ -210,8 +213,9 @@ void TakePanel::makeGesture()
     recording.read (std::move (options), [this] (Result<Stretch> read) {
         if (! read) return refuse (read.error());
         if (! onChoose) return;
-        onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
+        onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
             if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
+            of->is_saved = true;
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
                         TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."),
@@ -238,8 +242,9 @@ void TakePanel::makeTest()
     recording.read (marked(), [this] (Result<Stretch> read) {
         if (! read) return refuse (read.error());
         if (! onChoose) return;
-        onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
-            if (const auto saved = writeRunTest (recording.log().string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
+        onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
+            if (const auto saved = writeRunTest (of->file.string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
+            of->is_saved = true;
             const auto name = juce::String (printableName (to.filename().string()));
             auto text = filled (TRANS ("`tactus test %1` plays the run again and compares %2 ticks, bit for bit."), name, stretch->ticks());
             if (stretch->from > 0)
@@ -248,6 +253,24 @@ void TakePanel::makeTest()
                                 juce::String (curve.from(), 3));
             if (onSaid) onSaid (filled (TRANS ("Saved %1"), name), text, [this, to] { runTest (to); });
         });
+    });
+}
+
+bool TakePanel::isUnsaved() const
+{
+    return recording.state() != Take::State::empty && recording.recorded() != nullptr && ! recording.recorded()->is_saved;
+}
+
+void TakePanel::save (const std::function<void()>& then)
+{
+    recording.stop();
+    refresh();   // the recording is complete
+    if (! isUnsaved()) return then();
+    if (! onChoose) return;
+    onChoose ("take.jsonl", [this, then, of = recording.recorded()] (const std::filesystem::path& to) {
+        if (const auto saved = copyRunLog (of->file.string(), to); ! saved) return refuse (saved.error());
+        of->is_saved = true;
+        then();
     });
 }
 

@@ -35,11 +35,17 @@ public:
     void makeGesture();
     void makeTest();
 
+    /// True if there is a take, complete or not, of which nothing was saved.
+    bool isUnsaved() const;
+    /// Ends the recording if there is one, asks for a file, and saves the whole take there, as a log. `then` is called once it is saved.
+    void save (const std::function<void()>& then);
+
     /// Asks for a file to write; `name` is the suggested name.
     std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
 
-    /// Writes a clip, and reports what was lost. A recorded force has the gain in N with which it is played as strongly again.
-    std::function<void (const Clip&, Messages, std::optional<double> gain, const std::filesystem::path&)> onClip;
+    /// Writes a clip, and reports what was lost. A recorded force has the gain in N with which it is played as strongly again. Returns false if the
+    /// clip was not written.
+    std::function<bool (const Clip&, Messages, std::optional<double> gain, const std::filesystem::path&)> onClip;
 
     /// Shows a result or a problem. `use`, unless it is null, uses at once what was saved.
     std::function<void (const juce::String& title, const juce::String& text, std::function<void()> use)> onSaid;

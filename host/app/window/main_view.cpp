@@ -6,7 +6,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/juce/repaint_rate.hpp>
+#include <host/juce/native_window.hpp>
 #include <tactus/plan/rules/unheard.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -188,21 +188,6 @@ void MainView::applyFusion()
     run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
 }
 
-void MainView::closeWhenSaved (std::function<void()> close)
-{
-    files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] {
-        run().letGo();
-        files.end();
-        close();
-    });
-}
-
-void MainView::closeSuddenly()
-{
-    run().letGo();
-    files.endSuddenly();
-}
-
 void MainView::wake()
 {
     awake_for = refreshes_until_rest;
@@ -242,6 +227,7 @@ void MainView::timerCallback()
     }
     hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
+    attendFilm();
     live.refresh();
     limits.poll();
     attendLiveNodes();

@@ -76,8 +76,9 @@ public:
     /// Opens the panel that fits a model to a recording. [main thread]
     void fitRecordingIn (const std::filesystem::path&);
 
-    void closeWhenSaved (std::function<void()> close);   ///< calls `close` once unsaved changes are saved or discarded
-    void closeSuddenly();                                ///< autosaves unsaved changes for the next start
+    /// Calls `close` once unsaved changes, a take and a film are saved or discarded.
+    void closeWhenSaved (std::function<void()> close);
+    void closeSuddenly();   ///< autosaves unsaved changes for the next start
 
     /// Runs another graph with its own gesture in place of the document, until endPreview().
     void preview (const std::filesystem::path&);
@@ -94,6 +95,7 @@ public:
     PresetBrowser& browser() noexcept { return presets; }
     const ProblemList& problemList() const noexcept { return problems; }
     TakePanel& takePanel() noexcept { return takes; }
+    HandPanel& handPanel() noexcept { return hand; }
     NodeList& nodeList() noexcept { return nodes; }
     TemplateRow& templateRow() noexcept { return templates; }
     Tour& guidedTour() noexcept { return tour; }
@@ -189,7 +191,7 @@ private:
     void openExample (const std::string& type);
     void saveClipAs (const std::filesystem::path&);
     void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    void writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
+    bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
@@ -211,6 +213,9 @@ private:
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
+    void closeWithTake (const std::function<void()>& close);
+    void closeWithFilm (const std::function<void()>& close);
+    void attendFilm();
     using Shares = std::array<std::optional<double>, 5>;
     std::array<std::pair<const char*, Splitter*>, 5> edges();   ///< of the panels, by the names that the settings give them; only the first three fold
     Shares shares();
@@ -270,6 +275,7 @@ private:
     Messages missing;                                        // what the graph needs before it can be felt
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown
+    std::function<void()> close_after_film;                  // while the window waits for a film that is being saved
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time

@@ -66,7 +66,7 @@ void MainView::saveClipAs (const fs::path& file)
     if (! read)
         return tell (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".");
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
-    chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { writeClip (clip, {}, {}, to); });
+    chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { static_cast<void> (writeClip (clip, {}, {}, to)); });
 }
 
 /// Asks where to save a file of the user. The clips of presets are in a folder that may be read-only.
@@ -77,17 +77,22 @@ void MainView::chooseOwnFile (const std::string& name, std::function<void (const
     chooseFile (true, ownFolder() / name, std::move (chosen));
 }
 
-void MainView::writeClip (const Clip& clip, Messages notes, std::optional<double> gain, const fs::path& to)
+bool MainView::writeClip (const Clip& clip, Messages notes, std::optional<double> gain, const fs::path& to)
 {
     auto file = to;
     if (! file.has_extension()) file += ".haptic";
     const auto name = juce::String (printableName (file.filename().string()));
     const auto saved = saveClip (clip, file);
-    if (! saved) return tell (TRANS ("The clip was not saved"), messageText (saved.error()) + ".");
+    if (! saved)
+    {
+        tell (TRANS ("The clip was not saved"), messageText (saved.error()) + ".");
+        return false;
+    }
     tell (filled (TRANS ("Saved %1"), name), lossText (*saved, notes), [this, file, gain] {
         bottom.show (layers);
         layers.addClip (file, gain);
     });
+    return true;
 }
 
 /// A message that the user closes. With `use`, what was saved can be used at once.

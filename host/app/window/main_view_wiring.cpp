@@ -11,7 +11,9 @@ Files::Callbacks MainView::fileCallbacks()
 {
     return {
         .notify = [this] (const juce::String& text) { status.notify (text); },
-        .stop = [this] { run().stop(); },
+        .stop = [this] {
+            hand.film().end();   // the next run begins another film
+            run().stop(); },
         .run = [this] (bool by_pointer) { startOpened (by_pointer); },
         .isRunning = [this] { return playback.current().isRunning(); },
         .onSettings = [this] {
@@ -115,7 +117,7 @@ void MainView::connectRun()
     takes.onHint = patching.onHint;
     takes.onChoose = [this] (const std::string& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); };
     takes.onClip = [this] (const Clip& clip, Messages notes, std::optional<double> gain, const std::filesystem::path& to) {
-        writeClip (clip, std::move (notes), gain, to);
+        return writeClip (clip, std::move (notes), gain, to);
     };
     takes.onSaid = [this] (const juce::String& title, const juce::String& text, std::function<void()> use) { tell (title, text, std::move (use)); };
 }

@@ -42,6 +42,15 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
     takeFocus (*this);
 }
 
+void Question::say (const juce::String& text)
+{
+    if (text == body) return;
+    body = text;
+    setDescription (text);
+    resized();
+    repaint();
+}
+
 void Question::answer (std::size_t choice)
 {
     if (! isOpen() || choice >= choices.size()) return;

@@ -26,6 +26,7 @@ public:
     Question();
 
     void ask (const juce::String& title, const juce::String& text, std::vector<Choice>);
+    void say (const juce::String& text);   ///< replaces the text of the question that is open
     bool isOpen() const { return isVisible(); }
     void cancel();                      ///< picks the last choice
     void answer (std::size_t choice);   ///< like a click on its button

@@ -99,13 +99,14 @@ void FilmButton::begin()
     tape().keep (FilmTape::longest_s);
 }
 
-void FilmButton::end()
+void FilmButton::end (std::function<void()> then)
 {
-    if (const auto first = std::exchange (first_tick, {})) ask (tape().end() < *first ? tape().last (FilmTape::longest_s) : tape().since (*first));
+    if (const auto first = std::exchange (first_tick, {}))
+        ask (tape().end() < *first ? tape().last (FilmTape::longest_s) : tape().since (*first), std::move (then));
     tape().keep (length_s);
 }
 
-void FilmButton::ask (Film film)
+void FilmButton::ask (Film film, std::function<void()> then)
 {
     if (job) return;
     if (film.ticks.empty() || film.states.empty())
@@ -116,28 +117,32 @@ void FilmButton::ask (Film film)
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     folder.createDirectory();
     const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
-    ask (std::make_shared<Film> (std::move (film)), file.getFullPathName().toStdString());
+    ask (std::make_shared<Film> (std::move (film)), file.getFullPathName().toStdString(), std::move (then));
 }
 
-void FilmButton::ask (std::shared_ptr<Film> film, const std::filesystem::path& begin)
+void FilmButton::ask (std::shared_ptr<Film> film, const std::filesystem::path& begin, std::function<void()> then)
 {
     if (! onChoose) return;
-    onChoose (begin, [safe = juce::Component::SafePointer (this), film = std::move (film)] (const std::filesystem::path& named) {
-        if (safe != nullptr) safe->saveOrAskAgain (film, named);
+    onChoose (begin, [safe = juce::Component::SafePointer (this), film = std::move (film), then = std::move (then)] (const std::filesystem::path& named) {
+        if (safe != nullptr) safe->saveOrAskAgain (film, named, then);
     });
 }
 
 /// The dialog has asked only about the .png.
-void FilmButton::saveOrAskAgain (std::shared_ptr<Film> film, const std::filesystem::path& named)
+void FilmButton::saveOrAskAgain (std::shared_ptr<Film> film, const std::filesystem::path& named, const std::function<void()>& then)
 {
-    const auto taken = fileInTheWay (named);
-    if (! taken) return save (std::move (*film), named);
-    if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
-    ask (std::move (film), named);
+    if (const auto taken = fileInTheWay (named))
+    {
+        if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
+        return ask (std::move (film), named, then);
+    }
+    save (std::move (*film), named);
+    if (then) then();
 }
 
 void FilmButton::save (Film film, const std::filesystem::path& named)
 {
+    is_saved = false;
     job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
     refresh();
 }
@@ -145,6 +150,7 @@ void FilmButton::save (Film film, const std::filesystem::path& named)
 void FilmButton::finish()
 {
     const auto& result = *job->result();
+    is_saved = result.has_value();
     juce::String text;
     if (result)
     {

@@ -31,21 +31,25 @@ public:
     std::function<void (const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> onChoose;
 
     // The commands of the menu.
-    void saveLast();                                  ///< asks for a name, and saves the last seconds
-    void begin();                                     ///< films from now on
-    void end();                                       ///< asks for a name, and saves what was filmed
+    void saveLast();   ///< asks for a name, and saves the last seconds
+    void begin();      ///< films from now on
+    /// Asks for a name, and saves what was filmed. `then` is called once it is being saved; never if the user cancels.
+    void end (std::function<void()> then = {});
     void save (Film, const std::filesystem::path&);   ///< saves a film under this name
     bool isFilming() const noexcept { return first_tick.has_value(); }
     bool isSaving() const noexcept { return job != nullptr; }
+    double progress() const noexcept { return job ? job->progress() : 0.0; }                  ///< of the saving, 0…1
+    bool isSaved() const noexcept { return is_saved; }                                        ///< the last film that was to be saved is complete
+    double filmed() const { return isFilming() ? tape().secondsSince (*first_tick) : 0.0; }   ///< how much was filmed so far, in s
 
     void resized() override { button.setBounds (getLocalBounds()); }
 
 private:
     void click();
     void openMenu();
-    void ask (Film);
-    void ask (std::shared_ptr<Film>, const std::filesystem::path& begin);
-    void saveOrAskAgain (std::shared_ptr<Film>, const std::filesystem::path&);
+    void ask (Film, std::function<void()> then = {});
+    void ask (std::shared_ptr<Film>, const std::filesystem::path& begin, std::function<void()> then);
+    void saveOrAskAgain (std::shared_ptr<Film>, const std::filesystem::path&, const std::function<void()>& then);
     void label (const juce::String&);
     FilmTape& tape() const { return playback.current().film(); }
     void finish();
@@ -58,6 +62,7 @@ private:
     double length_s = 10.0;
     std::optional<std::uint64_t> first_tick;   // while it films
     std::unique_ptr<FilmJob> job;
+    bool is_saved = false;
 };
 
 }   // namespace tactus::host

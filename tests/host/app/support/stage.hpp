@@ -142,6 +142,12 @@ public:
             key (juce::KeyPress (static_cast<int> (*c), {}, *c));
     }
 
+    /// Another program gets the keyboard, as by Alt+Tab.
+    void loseKeyboard() { static_cast<Peer*> (getPeer())->loseFocus(); }
+    /// The window has it again.
+    void regainKeyboard() { getPeer()->grabFocus(); }
+    bool hasKeyboard() const { return getPeer()->isFocused(); }
+
     /// What is on the screen: like a window manager, it repaints only the places that asked for it.
     const juce::Image& screen()
     {
@@ -212,6 +218,10 @@ private:
         {
             if (std::exchange (has_focus, true)) return;
             handleFocusGain();
+        }
+        void loseFocus()
+        {
+            if (std::exchange (has_focus, false)) handleFocusLoss();
         }
         void repaint (const juce::Rectangle<int>& area) override { stale.add (area); }
         void performAnyPendingRepaintsNow() override {}

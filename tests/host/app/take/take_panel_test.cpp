@@ -43,7 +43,10 @@ struct TakeRig
             chosen = folder / name;
             then (chosen);
         };
-        panel->onClip = [this] (const Clip& c, const Messages&, std::optional<double>, const fs::path&) { clip = c; };
+        panel->onClip = [this] (const Clip& c, const Messages&, std::optional<double>, const fs::path&) {
+            clip = c;
+            return true;
+        };
         panel->onSaid = [this] (const juce::String& title, const juce::String& text, const std::function<void()>&) { said = title + ": " + text; };
     }
 

@@ -124,6 +124,28 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     d.checkKeys ("the panel of a focused field was hidden");
 }
 
+TEST_CASE ("another program gets the keyboard while the palette is open\\, and keeps it until the user comes back", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    w.stage->grabKeyboardFocus();
+    d.select ("drag");
+    WindowRig::settle();
+    for (const char* keys : { "spacebar", "ctrl + k" })
+    {
+        INFO (keys);
+        w.key (keys);
+        REQUIRE (w.titled ("Palette") != nullptr);
+        w.stage->loseKeyboard();
+        WindowRig::settle();
+        CHECK (w.titled ("Palette") == nullptr);
+        CHECK_FALSE (w.stage->hasKeyboard());   // else, a B for the other program would bypass the node
+        CHECK (WindowRig::focused() == nullptr);
+        w.stage->regainKeyboard();
+        d.checkKeys (std::string ("another program, ") + keys);
+    }
+}
+
 TEST_CASE ("the keyboard alone leads from the welcome page to a force, and through all panels", "[app][keyboard]")
 {
     WindowRig w ({}, 1280, 720, false);

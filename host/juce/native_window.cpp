@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module of JUCE for windows, compiled together with setRepaintRate(): the class of a native window is known only inside of this module.
+// The module of JUCE for windows, compiled together with what needs its private parts: the class of a native window, and the
+// functions of X11 that it calls, are known only inside of this module.
 #include <juce_gui_basics/juce_gui_basics.cpp>
 
-#include "repaint_rate.hpp"
+#include "native_window.hpp"
+
+#include <utility>
 
 namespace tactus::host
 {
@@ -31,10 +34,31 @@ void setRepaintRate (juce::ComponentPeer& peer, std::optional<int> per_second)
     if (! per_second) return followDisplay (*window);
     if (timer.getTimerInterval() != 1000 / *per_second) timer.startTimer (1000 / *per_second);
 }
+
+namespace
+{
+juce::X11Symbols::XNextEvent next_event_of_x = nullptr;
+
+int nextEvent (::Display* display, XEvent* event)
+{
+    const int result = next_event_of_x (display, event);
+    if (event->type == juce::KeyPressEventType || event->type == KeyRelease) juce::updateKeyModifiers (static_cast<int> (event->xkey.state));
+    return result;
+}
+}   // namespace
+
+void takeHeldKeysFromEvents()
+{
+    juce::XWindowSystem::getInstance();   // loads the functions of X11
+    auto& next = juce::X11Symbols::getInstance()->xNextEvent;
+    if (next != &nextEvent) next_event_of_x = std::exchange (next, &nextEvent);
+}
 #else
 void setRepaintRate (juce::ComponentPeer&, std::optional<int>)
 {
 }
+
+void takeHeldKeysFromEvents() {}
 #endif
 
 }   // namespace tactus::host

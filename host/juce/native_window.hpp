@@ -13,4 +13,9 @@ namespace tactus::host
 /// and without a display. [message thread]
 void setRepaintRate (juce::ComponentPeer&, std::optional<int> per_second);
 
+/// From now on, each key event says which of Shift, Ctrl and Alt are held. JUCE itself counts their presses and releases, but a release does not
+/// reach the window while another program has the keyboard: after Alt+Tab back to the same window, or after Alt+F4 and a question, Alt counts as held
+/// until the mouse moves, and no key does what it should. Call it once. Does nothing on systems without X11. [message thread]
+void takeHeldKeysFromEvents();
+
 }   // namespace tactus::host

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Closing the window, or opening another graph, loses no film and no take without a question.
+#include "host/app/support/wait_for.hpp"
+
+#include <host/assets/file_assets.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/run/log/stretch.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::waitFor;
+using tactus::host::test::WindowRig;
+namespace fs = std::filesystem;
+
+namespace
+{
+/// A window with a graph that runs. Files are saved in a folder of the test under the names that the window proposes.
+struct Closing
+{
+    TemporaryFolder folder;
+    WindowRig w;
+    int closed = 0;
+    fs::path chosen;   // the latest file
+
+    explicit Closing (const std::string& preset = "dry_wood.json") : w (preset, 1280, 720, false)
+    {
+        w.view->chooseFile = [this] (bool, const fs::path& begin, const std::function<void (const fs::path&)>& then) {
+            chosen = folder / begin.filename().string();
+            then (chosen);
+        };
+    }
+    ~Closing() { w.view->run().letGo(); }
+
+    Question& question() { return w.view->asked(); }
+    FilmButton& film() { return w.view->handPanel().film(); }
+    Take& take() { return w.view->takePanel().take(); }
+    void close()
+    {
+        w.view->closeWhenSaved ([this] { ++closed; });
+    }
+
+    void filmSomething()
+    {
+        film().begin();
+        REQUIRE (waitFor ([&] { return film().filmed() > 0.3; }));
+    }
+
+    /// Whether a film is being saved changes only while messages are handled.
+    void saveFilm()
+    {
+        filmSomething();
+        film().end();
+        REQUIRE (film().isSaving());
+    }
+
+    void record()
+    {
+        w.click ("Take");
+        w.click ("Record");
+        REQUIRE (waitFor ([&] { return take().state() == Take::State::recording && w.view->takePanel().plot().length() > 0.05; }));
+    }
+
+    void stopRecording()
+    {
+        w.click ("Stop");
+        REQUIRE (waitFor ([&] { return take().state() == Take::State::ready; }));
+    }
+};
+}   // namespace
+
+TEST_CASE ("closing while a film is being saved waits for it\\, with progress", "[app][closing]")
+{
+    Closing c;
+    c.saveFilm();
+    c.close();
+    REQUIRE (c.question().isOpen());
+    CHECK (c.closed == 0);
+    CHECK (c.question().title() == "A film is being saved");
+    CHECK (c.question().getDescription().contains (" %"));
+    SECTION ("by a choice, with the question closed")
+    {
+        c.question().answer (0);
+        CHECK_FALSE (c.question().isOpen());
+        CHECK (c.closed == 0);
+    }
+    SECTION ("with the question open") {}
+    REQUIRE (waitFor ([&] { return c.closed > 0; }));
+    CHECK_FALSE (c.film().isSaving());
+    const auto table = readTable (filmFile (c.chosen, ".csv"));
+    REQUIRE (table);
+    CHECK (table->rows() > 100);
+    CHECK (fs::exists (filmFile (c.chosen, ".png")));
+    WindowRig::settle (100);
+    CHECK (c.closed == 1);
+}
+
+TEST_CASE ("Cancel keeps the window\\, and the film is saved\\; so does a film that cannot be saved", "[app][closing]")
+{
+    Closing c;
+    SECTION ("cancelled")
+    {
+        c.saveFilm();
+        c.close();
+        c.w.stage->key ("escape");
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        CHECK (c.film().isSaved());
+        CHECK (fs::exists (c.chosen));
+    }
+    SECTION ("failed")
+    {
+        c.folder.write ("in the way", "");
+        c.w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) { then (c.folder / "in the way" / "film.png"); };
+        c.saveFilm();
+        c.close();
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        CHECK_FALSE (c.film().isSaved());
+        CHECK (c.w.view->statusText().isNotEmpty());   // why
+    }
+    WindowRig::settle (100);
+    CHECK_FALSE (c.question().isOpen());
+    CHECK (c.closed == 0);
+}
+
+TEST_CASE ("a film can be discarded at closing\\, and what was changed while it was saved is asked about", "[app][closing]")
+{
+    Closing c;
+    SECTION ("discarded")
+    {
+        c.saveFilm();
+        c.close();
+        c.question().answer (1);
+        CHECK (c.closed == 1);
+    }
+    SECTION ("an answer about the graph counts")
+    {
+        REQUIRE (c.w.view->document().perform (graph::SetHeader { .about = "before" }));
+        c.saveFilm();
+        c.close();
+        c.question().answer (1);   // Don't save
+        REQUIRE (c.question().title() == "A film is being saved");
+        REQUIRE (waitFor ([&] { return c.closed > 0; }));
+    }
+    SECTION ("until the graph is changed")
+    {
+        c.saveFilm();
+        c.close();
+        c.question().answer (0);
+        REQUIRE (c.w.view->document().perform (graph::SetHeader { .about = "meanwhile" }));
+        REQUIRE (waitFor ([&] { return c.question().isOpen(); }));
+        CHECK (c.question().title().startsWith ("Save changes to"));
+        CHECK (c.closed == 0);
+        c.question().answer (1);
+        CHECK (c.closed == 1);
+    }
+}
+
+TEST_CASE ("what is being filmed is saved before the window closes or another graph is opened", "[app][closing]")
+{
+    Closing c;
+    c.filmSomething();
+    SECTION ("closing, and Cancel")
+    {
+        c.close();
+        REQUIRE (c.question().title().startsWith ("Save the film"));
+        c.w.stage->key ("escape");
+        WindowRig::settle();
+        CHECK (c.film().isFilming());
+        CHECK (c.closed == 0);
+    }
+    SECTION ("closing, and Save")
+    {
+        c.close();
+        c.question().answer (0);
+        REQUIRE (c.question().title() == "A film is being saved");
+        REQUIRE (waitFor ([&] { return c.closed > 0; }));
+        CHECK (fs::exists (c.chosen));
+    }
+    SECTION ("another graph")
+    {
+        c.w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+        CHECK (c.w.graph().name == "Soft pad");
+        CHECK_FALSE (c.film().isFilming());
+        REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+        const auto table = readTable (filmFile (c.chosen, ".csv"));
+        REQUIRE (table);
+        CHECK (table->rows() > 100);
+    }
+}
+
+TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it so that it can be played again", "[app][closing][take]")
+{
+    Closing c { "pebbled_leather.json" };   // it reads a picture, which the saved take must find
+    c.record();
+    const bool is_complete = GENERATE (true, false);
+    if (is_complete) c.stopRecording();
+    c.close();
+    REQUIRE (c.question().isOpen());
+    CHECK (c.question().title().startsWith ("Save the take"));
+    SECTION ("Cancel")
+    {
+        c.w.key ("escape");
+        WindowRig::settle (50);
+        CHECK (c.closed == 0);
+        CHECK (c.w.view->takePanel().isUnsaved());
+        CHECK ((c.take().state() == Take::State::recording) == ! is_complete);
+    }
+    SECTION ("Don't save")
+    {
+        c.question().answer (1);
+        CHECK (c.closed == 1);
+    }
+    SECTION ("Save")
+    {
+        c.question().answer (0);
+        CHECK (c.closed == 1);
+        CHECK (c.chosen == c.folder / "take.jsonl");
+        FileAssets assets;
+        Messages warnings;
+        const auto played = readStretch (c.chosen.string(), { .assets = &assets, .program = c.take().program }, warnings);
+        INFO ((played ? "" : describe (played.error())));
+        REQUIRE (played);
+        const auto original = readStretch (c.take().log().string(), { .assets = &assets, .program = c.take().program }, warnings);
+        REQUIRE (original);
+        CHECK (played->ticks() > 40);
+        CHECK (played->values == original->values);
+        c.close();   // now it is saved
+        CHECK (c.closed == 2);
+    }
+}
+
+TEST_CASE ("a take of which something was made needs no question\\; a new graph keeps a take\\, and a new take the one before", "[app][closing][take]")
+{
+    Closing c;
+    c.record();
+    SECTION ("something was made of it")
+    {
+        c.stopRecording();
+        c.w.click ("Make a gesture...");
+        REQUIRE (waitFor ([&] { return c.question().isOpen(); }));
+        c.w.click ("Close");
+        c.close();
+        CHECK_FALSE (c.question().isOpen());
+        CHECK (c.closed == 1);
+    }
+    SECTION ("undone")
+    {
+        c.stopRecording();
+        c.w.view->document().undo();
+        c.close();
+        CHECK (c.closed == 1);
+    }
+    SECTION ("a new graph")
+    {
+        const bool is_complete = GENERATE (true, false);
+        if (is_complete) c.stopRecording();
+        const auto log = c.take().log();
+        is_complete ? c.w.key ("ctrl + n") : c.w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+        REQUIRE (waitFor ([&] { return c.take().state() == Take::State::ready; }));
+        CHECK (c.w.graph().name != "Dry wood");
+        CHECK (c.take().log() == log);
+        CHECK (fs::exists (log));
+        REQUIRE (waitFor ([&] { return c.w.view->takePanel().plot().length() > 0.05; }));
+        c.close();
+        CHECK (c.question().title().startsWith ("Save the take"));
+        CHECK (c.closed == 0);
+    }
+    SECTION ("a new take")
+    {
+        c.stopRecording();
+        const auto first = c.take().log();
+        c.record();
+        c.stopRecording();
+        CHECK (c.take().log() != first);
+        c.w.view->document().undo();
+        CHECK (c.take().log() == first);
+        CHECK (c.w.view->takePanel().isUnsaved());
+    }
+}
