@@ -52,11 +52,42 @@ bool CanvasCommands::perform (graph::Command command, graph::Step step)
     return document.perform (std::move (all), step);
 }
 
-graph::Graph CanvasCommands::graphAsShown() const
+graph::Graph CanvasCommands::graphWithPlaces() const
 {
-    auto shown = withValuesInEffect (document.graph(), canvas.seen(), canvas.types());
+    auto shown = document.graph();
     if (const auto stored = storePositions()) (void)graph::apply (shown, *stored);
     return shown;
+}
+
+Selection CanvasCommands::performPlaced (graph::Command command)
+{
+    auto then = graphWithPlaces();
+    graph::Batch all { graph::nameOf (command), { command } };
+    std::vector<std::pair<graph::Id, juce::Point<float>>> places;
+    if (graph::apply (then, command))
+    {
+        const auto* patch = findPatch (then, canvas.patch());
+        const auto scene = canvas.sceneOf (then);
+        for (const auto& n : scene->nodes())
+            if (const auto* node = patch->find (n.name); node != nullptr && ! positionOf (*node)) places.emplace_back (n.id, n.at);
+        if (! places.empty()) all.commands.push_back (placeNodes (then, canvas.patch(), places));
+    }
+    if (! perform (std::move (all))) return {};
+    Selection made;
+    juce::Rectangle<float> area;
+    for (const auto& [id, place] : places)
+        if (const auto* node = canvas.scene().find (id))
+        {
+            made.insert (id);
+            area = area.isEmpty() ? node->bounds() : area.getUnion (node->bounds());
+        }
+    if (! made.empty()) canvas.bringIntoView (area);
+    return made;
+}
+
+graph::Graph CanvasCommands::graphAsShown() const
+{
+    return withValuesInEffect (graphWithPlaces(), canvas.seen(), canvas.types());
 }
 
 void CanvasCommands::removeSelection()
