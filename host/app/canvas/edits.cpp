@@ -145,14 +145,26 @@ void CanvasCommands::groupSelection()
     juce::Rectangle<float> all;
     for (const auto* n : selectedNodes())
         all = all.isEmpty() ? n->bounds() : all.getUnion (n->bounds());
-    if (! perform (std::move (*command))) return;
+    auto then = graphWithPlaces();
+    graph::Batch batch { graph::nameOf (*command), { *command } };
+    if (graph::apply (then, *command))
+    {
+        const auto scene = canvas.sceneOf (then);
+        const SceneNode* made = nullptr;
+        std::vector<juce::Rectangle<float>> others;
+        for (const auto& n : scene->nodes())
+            n.name == name ? void (made = &n) : others.push_back (n.bounds());
+        if (made != nullptr)   // where they were
+            batch.commands.push_back (
+                placeNodes (then, canvas.patch(), { { made->id, clearPlace (made->bounds().withCentre (all.getCentre()), others) } }));
+    }
+    if (! perform (std::move (batch))) return;
     const auto& nodes = canvas.scene().nodes();
-    const auto made = std::ranges::find (nodes, name, &SceneNode::name);
-    if (made == nodes.end()) return;
-    const auto id = made->id;
-    const auto corner = (made->bounds().withCentre (all.getCentre()).getPosition() / Box::grid).roundToInt().toFloat() * Box::grid;
-    perform (placeNodes (document.graph(), canvas.patch(), { { id, freePlace (canvas.scene(), corner) } }), graph::Step::joined);   // where they were
-    canvas.select ({ id });
+    if (const auto made = std::ranges::find (nodes, name, &SceneNode::name); made != nodes.end())
+    {
+        canvas.select ({ made->id });
+        canvas.bringIntoView (made->bounds());
+    }
 }
 
 void CanvasCommands::expandSelection()

@@ -75,9 +75,12 @@ void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const grap
 void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
                       const TextWidth& widthOf)
 {
-    std::map<std::string_view, std::vector<const graph::Wire*>> wires_to;   // by node
+    std::map<std::string_view, std::vector<const graph::Endpoint*>> ends_at;   // by node: where wires end, and what is exposed
     for (const auto& w : patch.wires)
-        wires_to[w.to.node].push_back (&w);
+        ends_at[w.to.node].push_back (&w.to);
+    for (const auto* exposed : { &patch.expose.inputs, &patch.expose.params })
+        for (const auto& [name, end] : *exposed)
+            ends_at[end.node].push_back (&end);
     for (const auto& node : patch.nodes)
     {
         auto& made = all_nodes.emplace_back();
@@ -86,8 +89,8 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.type = node.type;
         made.bypass = node.bypass;
         made.face = std::make_shared<const Face> (faceOf (graph, patch, node, catalogue));
-        const auto wired = [&, &its = wires_to[node.name]] (const FacePort& p) {
-            return std::ranges::any_of (its, [&] (const graph::Wire* w) { return made.face->endOf (w->to) == &p; });
+        const auto wired = [&, &its = ends_at[node.name]] (const FacePort& p) {
+            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; });
         };
         made.curve = curves.of (graph, seen, node, *made.face);
         made.box = boxOf (
@@ -210,11 +213,11 @@ void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
             if (n < 0) continue;
             const auto& node = all_nodes[at (n)];
             const auto* port = role == Role::output ? node.face->startOf (end) : node.face->endOf (end);
-            const auto* socket = port == nullptr ? nullptr : node.box.find (port->role, port->id);
-            if (socket == nullptr) continue;
-            const auto place = node.placeOf (*socket);
+            const auto* socket = port == nullptr || end.node != node.name ? nullptr : node.box.find (port->role, port->id);
+            const auto place = node.at + (socket != nullptr ? socket->at : besideHeader (node, role == Role::output));
             const float width = widthOf (name, text_size, true) + padding, x = role == Role::output ? place.x + stem : place.x - stem - width;
-            all_exposed.push_back ({ place, role, name, node.quantityOf (*port), { x, place.y - height / 2, width, height } });
+            const auto quantity = socket != nullptr ? node.quantityOf (*port) : Quantity::any;
+            all_exposed.push_back ({ place, role, name, quantity, { x, place.y - height / 2, width, height } });
         }
     };
     add (patch.expose.inputs, Role::input);
