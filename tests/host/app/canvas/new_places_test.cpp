@@ -171,6 +171,62 @@ TEST_CASE ("Add a hand, Add a motor and Wire in the Problems panel leave the oth
     CHECK (writeGraph (w.graph()) == text);
 }
 
+TEST_CASE ("a fit that is added to the graph gets a free place and its wires, in view, as one undo", "[app][canvas][places][fit]")
+{
+    const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
+    const bool has_moved_view = GENERATE (false, true);
+    WindowRig w ("dry_wood.json", width, height);
+    auto& canvas = w.view->canvas();
+    if (has_moved_view) canvas.view().origin += juce::Point<float> (3000.0f, 0.0f);
+    Random random { 3 };
+    std::ostringstream rows;
+    rows << "position,force,load\n";
+    double d = 0.0, last = 0.0;
+    for (int i = 0; i < 1200; ++i)
+    {
+        const double phase = std::fmod (i / 400.0, 1.0), x = 1e-3 * (1.0 - std::abs (2.0 * phase - 1.0));
+        d = std::clamp (d + x - last, -1e-4, 1e-4);
+        last = x;
+        rows << x << "," << -0.8 * d / 1e-4 + 0.02 * random.normal() << ",2\n";
+    }
+    std::ofstream (w.home / "strokes.csv") << rows.str();
+    const auto before = placesIn (canvas.scene());
+    const auto text = writeGraph (w.graph());
+    const auto position = w.view->document().history().position();
+    w.view->fitRecordingIn (w.home / "strokes.csv");
+    for (int i = 0; i < 4000 && ! w.view->fitPanel().fitted(); ++i)
+        WindowRig::settle (5);
+    REQUIRE (w.view->fitPanel().fitted());
+    w.click ("Add to this graph");
+    CHECK (latestStep (w.view->document()).starts_with ("add fit"));
+    CHECK (w.view->document().history().position() == position + 1);
+    Selection made;
+    for (const auto& n : canvas.scene().nodes())
+    {
+        if (before.contains (n.id)) CHECK (before.at (n.id) == n.at);
+        if (! before.contains (n.id)) made.insert (n.id);
+    }
+    REQUIRE (made.size() == 1);
+    CHECK (canvas.selection() == made);
+    const auto& node = *canvas.scene().find (*made.begin());
+    CHECK (node.type == "friction.elasto_plastic");
+    std::set<std::string> wires;
+    for (const auto& wire : canvas.scene().wires())
+        if (made.contains (canvas.scene().nodes()[static_cast<std::size_t> (wire.start)].id) || made.contains (canvas.scene().nodes()[static_cast<std::size_t> (wire.end)].id))
+            wires.insert (wire.text);
+    CHECK (wires == std::set<std::string> { "hand.position -> " + node.name + ".position", "board.resistance -> " + node.name + ".normal_force", node.name + ".force -> motor.force" });
+    CHECK (overlaps (canvas.scene(), made) == std::vector<std::string> {});
+    CHECK (hiddenWires (canvas.scene(), made) == std::vector<std::string> {});
+    CHECK (isInView (canvas, node.bounds()));
+    CHECK (unfelt (w.graph(), catalogue()).empty());
+    canvas.grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK (writeGraph (w.graph()) == text);
+    w.key ("ctrl + y");
+    CHECK (canvas.scene().nodes().size() == before.size() + 1);
+    CHECK (isInView (canvas, canvas.scene().find (*made.begin())->bounds()));
+}
+
 TEST_CASE ("new boxes go between what feeds them and what they feed, clear of boxes and wires", "[app][canvas][places]")
 {
     using Area = juce::Rectangle<float>;
