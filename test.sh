@@ -39,7 +39,7 @@ case $mode in
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
+packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool openbox x11-utils)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac

@@ -141,7 +141,8 @@ struct RenameSubgraph
 };
 
 /// Moves nodes of a patch, with the wires between them, into a new subgraph, and replaces them by one node that uses it. Wires from
-/// outside reach them through exposed ports; all other references are adapted. Nodes and wires keep their ids.
+/// outside, and the ports that the patch itself exposes, reach them through exposed ports; all other references are adapted. Nodes and
+/// wires keep their ids.
 struct CollapseNodes
 {
     std::string patch;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/storage/language.hpp>
+#include <host/app/window/frame_room.hpp>
 #include <host/app/window/main_view.hpp>
 #include <host/app/window/places.hpp>
 #include <host/juce/native_window.hpp>
@@ -49,7 +50,7 @@ public:
         const auto frame = has_frame || getPeer() == nullptr ? juce::ComponentPeer::OptionalBorderSize {} : getPeer()->getFrameSizeIfPresent();
         if (! frame || *frame == juce::BorderSize<int> {}) return;
         has_frame = true;
-        if (getBounds() == usable()) setBounds (frame->subtractedFrom (usable()));   // not yet moved by the user
+        if (const auto place = besideFrame (getBounds(), usable(), *frame, getDesktopScaleFactor())) setBounds (*place);
     }
 
 private:

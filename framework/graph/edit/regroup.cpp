@@ -42,10 +42,17 @@ public:
     void run()
     {
         auto wires = std::exchange (patchOf (graph, command.patch).wires, {});
+        auto shown = std::exchange (patchOf (graph, command.patch).expose, {});
         forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p) {
             if (p.patch == &patchOf (graph, command.patch) && members.contains (p.name)) e.node.insert (p.begin, command.name + "/");
             return true;
         });
+
+        // In a subgraph, what it exposes of these nodes, the new one exposes, too.
+        expose (shown.params, inner.expose.params);
+        expose (shown.inputs, inner.expose.inputs);
+        expose (shown.outputs, inner.expose.outputs);
+        patchOf (graph, command.patch).expose = std::move (shown);
 
         for (auto& wire : wires)
         {
@@ -56,7 +63,7 @@ public:
                 continue;
             }
             if (starts) wire.from = exposed (wire.from, inner.expose.outputs);
-            if (ends) wire.to = exposed (wire.to, inner.expose.inputs);
+            if (ends) wire.to = exposed (wire.to, isExposedParam (wire.to) ? inner.expose.params : inner.expose.inputs);
             patchOf (graph, command.patch).wires.push_back (std::move (wire));
         }
         moveNodes();
@@ -64,14 +71,27 @@ public:
     }
 
 private:
+    using Exposed = std::vector<std::pair<std::string, Endpoint>>;
+
     bool isInside (const Endpoint& e) const { return members.contains (firstNameOf (e.node)); }
+
+    bool isExposedParam (const Endpoint& e) const
+    {
+        return std::ranges::count (inner.expose.params, Endpoint { e.node, e.port }, &Exposed::value_type::second) > 0;
+    }
+
+    void expose (Exposed& shown, Exposed& list)
+    {
+        for (auto& [name, e] : shown)
+            if (isInside (e)) e = exposed (e, list);
+    }
 
     /// The port of the new node that exposes an inner port. The new node always exposes the whole port; the outer endpoint selects
     /// the entry or component.
-    Endpoint exposed (const Endpoint& e, std::vector<std::pair<std::string, Endpoint>>& list)
+    Endpoint exposed (const Endpoint& e, Exposed& list)
     {
         const Endpoint whole { e.node, e.port };
-        auto port = std::ranges::find (list, whole, &std::pair<std::string, Endpoint>::second);
+        auto port = std::ranges::find (list, whole, &Exposed::value_type::second);
         if (port == list.end())
         {
             const auto isTaken = [&] (const std::string& name) { return used.contains (name); };

@@ -139,12 +139,12 @@ std::optional<graph::Command> group (const graph::Graph& g, const std::string& n
     return graph::CollapseNodes { name, std::move (names), freeName (patch, {}, subgraph), subgraph };
 }
 
-graph::Command addNode (const graph::Graph& g, const std::string& patch, const std::string& type, juce::Point<float> at, graph::Id& made)
+graph::Command addNode (const graph::Graph& g, const std::string& patch, const std::string& type, std::optional<juce::Point<float>> at, graph::Id& made)
 {
     graph::Node node;
     node.name = freeName (patchOf (g, patch), {}, usualName (type));
     node.type = type;
-    node.extra["ui"] = Json { { "at", toJson (at) } };
+    if (at) node.extra["ui"] = Json { { "at", toJson (*at) } };
     made = node.id;
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
     // A device node needs a device role. If the graph has none, also adds one: a simulated stylus, moved by a

@@ -46,8 +46,8 @@ graph::Command toggleBypass (const graph::Graph&, const std::string& patch, cons
 /// Collapses the selected nodes into a subgraph with a free name.
 std::optional<graph::Command> group (const graph::Graph&, const std::string& patch, const Selection&);
 
-/// Adds a node of a type, with a free name derived from the type. `made` receives its id.
-graph::Command addNode (const graph::Graph&, const std::string& patch, const std::string& type, juce::Point<float>, graph::Id& made);
+/// Adds a node of a type, with a free name derived from the type. Without a place, the canvas finds one. `made` receives its id.
+graph::Command addNode (const graph::Graph&, const std::string& patch, const std::string& type, std::optional<juce::Point<float>>, graph::Id& made);
 
 /// Copies the selected nodes and notes next to the originals, with the wires between them and their incoming wires. Empty if
 /// nothing selected can be copied.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrange.hpp"
 
+#include <tactus/kit/at.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +18,6 @@ constexpr float between_columns = 88.0f, per_wire = 8.0f;   // where many wires 
 constexpr int few_wires = 2, many_wires = 10;
 
 using Wires = std::vector<std::pair<int, int>>;
-
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
 /// Drops the wires that close a loop, by depth-first search from the first box.
 Wires withoutLoops (std::size_t size, const Wires& wires)

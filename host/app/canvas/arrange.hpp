@@ -14,4 +14,18 @@ namespace tactus::host
 /// long wires have lanes. Wires that close a loop are ignored. No coordinate is negative.
 std::vector<juce::Point<float>> arrange (const std::vector<juce::Point<float>>& sizes, const std::vector<std::pair<int, int>>& wires);
 
+/// A wire between two boxes: where it leaves the first and enters the second, relative to their upper left corners.
+struct Lead
+{
+    int from = 0, to = 0;
+    juce::Point<float> out, in;
+};
+
+/// Moves the boxes that are not placed yet to free places among the others, which stay where they are: between the boxes that feed them and those
+/// that they feed, where their wires are short and meet neither boxes nor other wires. A box without wires to the others gets below them.
+void placeAmong (std::vector<juce::Rectangle<float>>& boxes, std::vector<bool> placed, const std::vector<Lead>& leads);
+
+/// The place nearest to that of a box, straight above or below it, where it is clear of the others.
+juce::Point<float> clearPlace (juce::Rectangle<float> box, const std::vector<juce::Rectangle<float>>& others);
+
 }   // namespace tactus::host

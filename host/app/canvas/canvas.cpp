@@ -58,15 +58,22 @@ void Canvas::documentChanged()
     if (onSelection) onSelection();
 }
 
+TextWidth Canvas::textWidth() const
+{
+    return [&look = lookOf (*this)] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); };
+}
+
 void Canvas::rebuild()
 {
-    const auto& look = lookOf (*this);
-    const TextWidth width = [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); };
     ++scenes_made;
     const bool is_only_moved = shown != nullptr && shown_of == std::pair (document.version(), seen());
-    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), width)
-                          : std::make_shared<const Scene> (document.graph(), seen(), catalogue, curves, width);
+    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), textWidth()) : sceneOf (document.graph());
     shown_of = { document.version(), seen() };
+}
+
+std::shared_ptr<const Scene> Canvas::sceneOf (const graph::Graph& g)
+{
+    return std::make_shared<const Scene> (g, seen(), catalogue, curves, textWidth());
 }
 
 void Canvas::hint (const juce::String& text)
@@ -110,6 +117,19 @@ void Canvas::frameAround (juce::Rectangle<float> focus)
     framed = window;
     framed_around = focus;
     repaint();
+}
+
+void Canvas::bringIntoView (juce::Rectangle<float> area)
+{
+    const auto canvas = getLocalBounds().toFloat();
+    const juce::Rectangle<float> pixels (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight()));
+    if (canvas.contains (pixels)) return;
+    if (pixels.getWidth() < canvas.getWidth() && pixels.getHeight() < canvas.getHeight())
+        window.centreOn (area.getCentre(), canvas);
+    else
+        window.frame (area, canvas);
+    repaint();
+    endEdit();
 }
 
 void Canvas::toggleMap()

@@ -68,6 +68,12 @@ public:
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
 
+    /// Moves the view there, unless it shows it already. The move belongs to the latest edit.
+    void bringIntoView (juce::Rectangle<float>);
+
+    /// The current patch as it would look in another graph.
+    std::shared_ptr<const Scene> sceneOf (const graph::Graph&);
+
     /// The full path of a port in the current patch: "grain/wave.value"; with the numbers of the chosen instances: "finger[2]/drag.force".
     std::string address (const std::string& port) const;
 
@@ -166,6 +172,7 @@ private:
     void beginEdit();   ///< call before the view follows an edit
     void followStep (const Scene& before);
     void rebuild();
+    TextWidth textWidth() const;
     void repaintEdit (const Scene& before);   ///< what differs from the scene before an edit
     void repaintAround (juce::Rectangle<float> area);
     void repaintAlong (const juce::Path&);

@@ -44,6 +44,10 @@ public:
     /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);
 
+    /// As perform(). New nodes without a position get a free place where their wires are short, and come into view. Returns their ids; none if the
+    /// edit is refused.
+    Selection performPlaced (graph::Command);
+
     std::vector<const SceneNode*> selectedNodes() const;
     void selectAll();
     void selectNext (juce::Point<float> direction);   ///< selects the nearest node in that direction
@@ -93,6 +97,7 @@ private:
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
+    graph::Graph graphWithPlaces() const;                   ///< stores in the nodes of the patch where they are
     graph::Graph graphAsShown() const;                      ///< stores in the nodes of the patch where they are, and what controls set them to
 
     Canvas& canvas;

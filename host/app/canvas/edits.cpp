@@ -52,11 +52,42 @@ bool CanvasCommands::perform (graph::Command command, graph::Step step)
     return document.perform (std::move (all), step);
 }
 
-graph::Graph CanvasCommands::graphAsShown() const
+graph::Graph CanvasCommands::graphWithPlaces() const
 {
-    auto shown = withValuesInEffect (document.graph(), canvas.seen(), canvas.types());
+    auto shown = document.graph();
     if (const auto stored = storePositions()) (void)graph::apply (shown, *stored);
     return shown;
+}
+
+Selection CanvasCommands::performPlaced (graph::Command command)
+{
+    auto then = graphWithPlaces();
+    graph::Batch all { graph::nameOf (command), { command } };
+    std::vector<std::pair<graph::Id, juce::Point<float>>> places;
+    if (graph::apply (then, command))
+    {
+        const auto* patch = findPatch (then, canvas.patch());
+        const auto scene = canvas.sceneOf (then);
+        for (const auto& n : scene->nodes())
+            if (const auto* node = patch->find (n.name); node != nullptr && ! positionOf (*node)) places.emplace_back (n.id, n.at);
+        if (! places.empty()) all.commands.push_back (placeNodes (then, canvas.patch(), places));
+    }
+    if (! perform (std::move (all))) return {};
+    Selection made;
+    juce::Rectangle<float> area;
+    for (const auto& [id, place] : places)
+        if (const auto* node = canvas.scene().find (id))
+        {
+            made.insert (id);
+            area = area.isEmpty() ? node->bounds() : area.getUnion (node->bounds());
+        }
+    if (! made.empty()) canvas.bringIntoView (area);
+    return made;
+}
+
+graph::Graph CanvasCommands::graphAsShown() const
+{
+    return withValuesInEffect (graphWithPlaces(), canvas.seen(), canvas.types());
 }
 
 void CanvasCommands::removeSelection()
@@ -114,14 +145,26 @@ void CanvasCommands::groupSelection()
     juce::Rectangle<float> all;
     for (const auto* n : selectedNodes())
         all = all.isEmpty() ? n->bounds() : all.getUnion (n->bounds());
-    if (! perform (std::move (*command))) return;
+    auto then = graphWithPlaces();
+    graph::Batch batch { graph::nameOf (*command), { *command } };
+    if (graph::apply (then, *command))
+    {
+        const auto scene = canvas.sceneOf (then);
+        const SceneNode* made = nullptr;
+        std::vector<juce::Rectangle<float>> others;
+        for (const auto& n : scene->nodes())
+            n.name == name ? void (made = &n) : others.push_back (n.bounds());
+        if (made != nullptr)   // where they were
+            batch.commands.push_back (
+                placeNodes (then, canvas.patch(), { { made->id, clearPlace (made->bounds().withCentre (all.getCentre()), others) } }));
+    }
+    if (! perform (std::move (batch))) return;
     const auto& nodes = canvas.scene().nodes();
-    const auto made = std::ranges::find (nodes, name, &SceneNode::name);
-    if (made == nodes.end()) return;
-    const auto id = made->id;
-    const auto corner = (made->bounds().withCentre (all.getCentre()).getPosition() / Box::grid).roundToInt().toFloat() * Box::grid;
-    perform (placeNodes (document.graph(), canvas.patch(), { { id, freePlace (canvas.scene(), corner) } }), graph::Step::joined);   // where they were
-    canvas.select ({ id });
+    if (const auto made = std::ranges::find (nodes, name, &SceneNode::name); made != nodes.end())
+    {
+        canvas.select ({ made->id });
+        canvas.bringIntoView (made->bounds());
+    }
 }
 
 void CanvasCommands::expandSelection()

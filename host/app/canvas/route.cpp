@@ -17,6 +17,8 @@ void curveTo (juce::Path& path, juce::Point<float> from, juce::Point<float> to)
     path.cubicTo (from.translated (reach, 0.0f), to.translated (-reach, 0.0f), to);
 }
 
+}   // namespace
+
 bool runsThrough (const juce::Path& path, juce::Rectangle<float> box)
 {
     constexpr float step = 8.0f;
@@ -25,7 +27,6 @@ bool runsThrough (const juce::Path& path, juce::Rectangle<float> box)
         if (box.contains (path.getPointAlongPath (at))) return true;
     return false;
 }
-}   // namespace
 
 juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to)
 {
@@ -119,7 +120,7 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
 
     // A bend around one box may lead through another one, which then counts as met, too. A box above or below one of the two nodes cannot be
     // avoided there: the wire runs straight past it.
-    constexpr int most_looks = 3;
+    constexpr int most_looks = 8;
     std::vector<juce::Rectangle<float>> met;
     std::vector<juce::Point<float>> by;
     auto bends_from = from, bends_to = to;

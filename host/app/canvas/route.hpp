@@ -13,6 +13,8 @@ namespace tactus::host
 std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
                                              const std::vector<juce::Rectangle<float>>& obstacles);
 
+bool runsThrough (const juce::Path&, juce::Rectangle<float> box);
+
 /// A smooth curve through all of these points, which is level at each of them.
 juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to);
 

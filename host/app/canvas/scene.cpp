@@ -7,6 +7,7 @@
 #include <host/app/model/quantities.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/kit/at.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,10 @@ namespace tactus::host
 
 namespace
 {
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
 constexpr std::size_t most_routed = 300;   // nodes; routing a larger patch would slow down every edit
+
+/// Where something connects to a node that does not show its port, such as one deeper inside a subgraph; relative to the node.
+juce::Point<float> besideHeader (const SceneNode& n, bool is_output) { return { is_output ? n.box.width : 0.0f, Box::header_height / 2 }; }
 }   // namespace
 
 Quantity SceneNode::quantityOf (const FacePort& port) const
@@ -41,12 +43,9 @@ Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue&
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
     addNodes (graph, seen, *patch, catalogue, curves, widthOf);
-    place (*patch);
     findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
-    routeWires();
-    addExposed (*patch, widthOf);
-    all_notes = notesOf (graph, seen.name);
+    layOut (graph, seen, *patch, widthOf);
 }
 
 Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, const TextWidth& widthOf)
@@ -54,23 +53,34 @@ Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& s
 {
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
-    place (*patch);
+    for (auto& w : all_wires)
+        if (! w.has_bends) w.waypoints.clear();
+    layOut (graph, seen, *patch, widthOf);
+}
+
+void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const TextWidth& widthOf)
+{
+    all_notes = notesOf (graph, seen.name);
+    place (patch);
     for (auto& w : all_wires)
     {
-        if (! w.has_bends) w.waypoints.clear();
-        placeEnds (w);
+        const auto &a = all_nodes[at (w.start)], &b = all_nodes[at (w.end)];
+        w.from = a.at + leaveOf (w);
+        w.to = b.at + entryOf (w);
     }
     routeWires();
-    addExposed (*patch, widthOf);
-    all_notes = notesOf (graph, seen.name);
+    addExposed (patch, widthOf);
 }
 
 void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
                       const TextWidth& widthOf)
 {
-    std::map<std::string_view, std::vector<const graph::Wire*>> wires_to;   // by node
+    std::map<std::string_view, std::vector<const graph::Endpoint*>> ends_at;   // by node: where wires end, and what is exposed
     for (const auto& w : patch.wires)
-        wires_to[w.to.node].push_back (&w);
+        ends_at[w.to.node].push_back (&w.to);
+    for (const auto* exposed : { &patch.expose.inputs, &patch.expose.params })
+        for (const auto& [name, end] : *exposed)
+            ends_at[end.node].push_back (&end);
     for (const auto& node : patch.nodes)
     {
         auto& made = all_nodes.emplace_back();
@@ -79,8 +89,8 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.type = node.type;
         made.bypass = node.bypass;
         made.face = std::make_shared<const Face> (faceOf (graph, patch, node, catalogue));
-        const auto wired = [&, &its = wires_to[node.name]] (const FacePort& p) {
-            return std::ranges::any_of (its, [&] (const graph::Wire* w) { return made.face->endOf (w->to) == &p; });
+        const auto wired = [&, &its = ends_at[node.name]] (const FacePort& p) {
+            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; });
         };
         made.curve = curves.of (graph, seen, node, *made.face);
         made.box = boxOf (
@@ -100,59 +110,32 @@ void Scene::place (const graph::Patch& patch)
             placed[i] = true;
         }
     if (std::ranges::count (placed, false) == 0) return;
+    if (std::ranges::count (placed, true) > 0) return placeAmongOthers (std::move (placed));
     std::vector<juce::Point<float>> sizes;
     std::vector<std::pair<int, int>> wires;
     for (const auto& n : all_nodes)
         sizes.emplace_back (n.box.width, n.box.height);
-    for (const auto& w : patch.wires)
-        if (const int from = indexOf (w.from.node), to = indexOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
+    for (const auto& w : all_wires)
+        if (w.delay == 0) wires.emplace_back (w.start, w.end);
     const auto places = arrange (sizes, wires);
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
-        if (! placed[i]) all_nodes[i].at = places[i];
-    if (std::ranges::count (placed, true) > 0) placeAmong (std::move (placed), wires);
+        all_nodes[i].at = places[i];
 }
 
-/// Places the other nodes among those that are placed: left of what they feed, else right of what feeds them. Their neighbours come first.
-void Scene::placeAmong (std::vector<bool> placed, const std::vector<std::pair<int, int>>& wires)
+void Scene::placeAmongOthers (std::vector<bool> placed)
 {
-    constexpr float gap = 64.0f;
-    const auto placeOne = [&] {
-        for (const auto& [from, to] : wires)
-            if (auto& node = all_nodes[at (from)]; ! placed[at (from)] && placed[at (to)])
-            {
-                node.at = all_nodes[at (to)].at.translated (-gap - node.box.width, 0.0f);
-                return at (from);
-            }
-        for (const auto& [from, to] : wires)
-            if (placed[at (from)] && ! placed[at (to)])
-            {
-                all_nodes[at (to)].at = all_nodes[at (from)].bounds().getTopRight().translated (gap, 0.0f);
-                return at (to);
-            }
-        return static_cast<std::size_t> (std::ranges::find (placed, false) - placed.begin());
-    };
-    for (auto left = std::ranges::count (placed, false); left > 0; --left)
-    {
-        const auto i = placeOne();
-        all_nodes[i].at = freePlaceNear (i, placed);
-        placed[i] = true;
-    }
-}
-
-/// The nearest place above or below where a node is, with room to all placed nodes.
-juce::Point<float> Scene::freePlaceNear (std::size_t i, const std::vector<bool>& placed) const
-{
-    constexpr float room = 3 * Box::grid;
-    const auto isFree = [&] (juce::Point<float> p) {
-        const auto area = all_nodes[i].bounds().withPosition (p).expanded (room);
-        for (std::size_t k = 0; k < all_nodes.size(); ++k)
-            if (placed[k] && all_nodes[k].bounds().intersects (area)) return false;
-        return true;
-    };
-    const auto from = all_nodes[i].at;
-    for (float way = 0.0f;; way += Box::grid)   // ends, because there are nodes only in a finite area
-        for (const float y : { from.y + way, from.y - way })
-            if (isFree ({ from.x, y })) return { from.x, y };
+    std::vector<juce::Rectangle<float>> boxes;
+    std::vector<Lead> leads;
+    for (const auto& n : all_nodes)
+        boxes.push_back (n.bounds());
+    for (const auto& n : all_notes)
+        if (! n.isRegion()) boxes.push_back (n.area);
+    placed.resize (boxes.size(), true);
+    for (const auto& w : all_wires)
+        if (w.delay == 0) leads.push_back ({ w.start, w.end, leaveOf (w), entryOf (w) });
+    placeAmong (boxes, std::move (placed), leads);
+    for (std::size_t i = 0; i < all_nodes.size(); ++i)
+        all_nodes[i].at = boxes[i].getPosition();
 }
 
 /// A generic port takes on the quantity wired to it.
@@ -201,18 +184,23 @@ void Scene::addWires (const graph::Patch& patch)
         for (const auto& b : bendsOf (w))
             wire.waypoints.push_back (b.toFloat());
         wire.has_bends = ! wire.waypoints.empty();
-        placeEnds (wire);
         all_wires.push_back (std::move (wire));
     }
 }
 
-/// Beside the header of a node, if it does not show the port.
-void Scene::placeEnds (SceneWire& w) const
+/// Where a wire leaves its first node, relative to this.
+juce::Point<float> Scene::leaveOf (const SceneWire& w) const
 {
-    const auto &a = all_nodes[at (w.start)], &b = all_nodes[at (w.end)];
-    const auto *out = a.box.find (Role::output, w.out), *in = b.box.find (w.in_role, w.in);
-    w.from = out == nullptr ? a.bounds().getTopRight().translated (0.0f, Box::header_height / 2) : a.placeOf (*out);
-    w.to = in == nullptr ? b.at.translated (0.0f, Box::header_height / 2) : b.placeOf (*in);
+    const auto& node = all_nodes[at (w.start)];
+    const auto* socket = node.box.find (Role::output, w.out);
+    return socket == nullptr ? besideHeader (node, true) : socket->at;
+}
+
+juce::Point<float> Scene::entryOf (const SceneWire& w) const
+{
+    const auto& node = all_nodes[at (w.end)];
+    const auto* socket = node.box.find (w.in_role, w.in);
+    return socket == nullptr ? besideHeader (node, false) : socket->at;
 }
 
 void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
@@ -225,11 +213,11 @@ void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
             if (n < 0) continue;
             const auto& node = all_nodes[at (n)];
             const auto* port = role == Role::output ? node.face->startOf (end) : node.face->endOf (end);
-            const auto* socket = port == nullptr ? nullptr : node.box.find (port->role, port->id);
-            if (socket == nullptr) continue;
-            const auto place = node.placeOf (*socket);
+            const auto* socket = port == nullptr || end.node != node.name ? nullptr : node.box.find (port->role, port->id);
+            const auto place = node.at + (socket != nullptr ? socket->at : besideHeader (node, role == Role::output));
             const float width = widthOf (name, text_size, true) + padding, x = role == Role::output ? place.x + stem : place.x - stem - width;
-            all_exposed.push_back ({ place, role, name, node.quantityOf (*port), { x, place.y - height / 2, width, height } });
+            const auto quantity = socket != nullptr ? node.quantityOf (*port) : Quantity::any;
+            all_exposed.push_back ({ place, role, name, quantity, { x, place.y - height / 2, width, height } });
         }
     };
     add (patch.expose.inputs, Role::input);

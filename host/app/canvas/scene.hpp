@@ -139,12 +139,13 @@ public:
 
 private:
     void addNodes (const graph::Graph&, const SeenPatch&, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
+    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, const TextWidth&);
     void place (const graph::Patch&);
-    void placeAmong (std::vector<bool> placed, const std::vector<std::pair<int, int>>& wires);
-    juce::Point<float> freePlaceNear (std::size_t node, const std::vector<bool>& placed) const;
+    void placeAmongOthers (std::vector<bool> placed);
     void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);
-    void placeEnds (SceneWire&) const;
+    juce::Point<float> leaveOf (const SceneWire&) const;
+    juce::Point<float> entryOf (const SceneWire&) const;
     void routeWires();
     void addExposed (const graph::Patch&, const TextWidth&);
     int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node

@@ -3,12 +3,48 @@
 #include "devices_panel.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <host/sessions/audio_settings.hpp>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace tactus::host
 {
+
+/// A step that can be undone. What undo leaves is what redo brings back: a limit that was changed in between stays.
+void DevicesPanel::bind (const std::string& role, const std::string& label)
+{
+    const auto* choice = choiceOf (role, label);
+    if (choice == nullptr) return;
+    const auto profile = choice->numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice->numbers);
+    const auto before = boundNow (role);
+    edit ([role, to = choice->description, profile] (DeviceSession& s) {
+        const auto* now = s.binding (role);
+        if (to.is_null())
+            s.unbind (role);
+        else
+            s.bind (role, rebound (now, profile ? simulationOf (*profile, now) : to));
+    });
+    if (boundNow (role) == before) return;
+    const auto exchange = [safe = SafePointer (this), role, other = std::make_shared<Json> (before)] {
+        if (safe != nullptr) *other = safe->putDevice (role, *other);
+    };
+    document.addWindowStep (filled (TRANS ("device of %1"), role).toStdString(), exchange, exchange);
+}
+
+/// Gives a role an earlier device; null: that of the graph. Returns the binding before. Its guard stays, unless one of the two is of another kind.
+Json DevicesPanel::putDevice (const std::string& role, Json binding)
+{
+    const auto before = boundNow (role);
+    edit ([&] (DeviceSession& s) {
+        if (binding.is_null()) return s.unbind (role);
+        const bool is_same_kind = before.is_object() && ! audio::isAudio (before) && ! audio::isAudio (binding);
+        if (is_same_kind) binding.erase ("guard");
+        s.bind (role, rebound (is_same_kind ? &before : nullptr, std::move (binding)));
+    });
+    return before;
+}
 
 void DevicesPanel::moveOrigin (const std::string& role, const Vec3& origin)
 {
@@ -23,8 +59,7 @@ void DevicesPanel::moveOrigin (const std::string& role, const Vec3& origin)
     change (role, std::move (binding), TRANS ("offset"));
 }
 
-/// Changes a binding if it has no errors. A change of the workspace is a step that can be undone. Nothing else in the panel is: undo takes back no limit
-/// and no device that you have chosen.
+/// Changes a binding if it has no errors. A change of the workspace is a step that can be undone. That of a limit is not: undo takes back no limit.
 void DevicesPanel::change (const std::string& role, Json binding, const juce::String& what)
 {
     if (complain (checkBinding (binding, setup.session().file.parent_path(), setup.profiles()))) return;

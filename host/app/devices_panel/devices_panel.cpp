@@ -196,20 +196,6 @@ const BindingChoice* DevicesPanel::choiceNow (const std::string& role) const
     return choice == choices.end() ? nullptr : &*choice;
 }
 
-void DevicesPanel::bind (const std::string& role, const std::string& label)
-{
-    const auto* choice = choiceOf (role, label);
-    if (choice == nullptr) return;
-    const auto profile = choice->numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice->numbers);
-    edit ([role, to = choice->description, profile] (DeviceSession& s) {
-        const auto* before = s.binding (role);
-        if (to.is_null())
-            s.unbind (role);
-        else
-            s.bind (role, rebound (before, profile ? simulationOf (*profile, before) : to));
-    });
-}
-
 void DevicesPanel::setPart (const std::string& role, const std::string& pointer, const juce::String& text)
 {
     const auto* before = bindingOf (role);

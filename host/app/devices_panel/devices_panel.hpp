@@ -14,7 +14,7 @@ namespace tactus::host
 
 /// The devices for the roles of the graph. For each role: what it needs, what it is bound to and whether that fits, its status, its
 /// workspace, and the limits of its guard. Also the clock of the run, and what the sound card plays. Edits change the session, not the
-/// graph. Those of a workspace are steps that can be undone.
+/// graph. Those of a device and of a workspace are steps that can be undone.
 class DevicesPanel final : public juce::Component
 {
 public:
@@ -61,6 +61,12 @@ private:
     const Json* bindingOf (const std::string& role) const { return setup.session().session.binding (role); }
     void edit (const std::function<void (DeviceSession&)>&);
     void change (const std::string& role, Json binding, const juce::String& what);
+    Json boundNow (const std::string& role) const   // null if the role is not bound
+    {
+        const auto* now = bindingOf (role);
+        return now != nullptr ? *now : Json();
+    }
+    Json putDevice (const std::string& role, Json binding);
     void putWorkspace (const std::string& role, const Json& workspace);
     void update();
     bool complain (const Messages&) const;   // shows the first error; returns true if there is one

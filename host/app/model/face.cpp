@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face.hpp"
 
-#include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/inside.hpp>
+#include <tactus/graph/instances.hpp>
 
 #include <algorithm>
 
@@ -92,15 +92,24 @@ FacePort exposedPort (graph::Inside inside, Role role, const std::string& name, 
 {
     FacePort port { role, name, {}, UnitRule (UnitRule::Kind::open), 1, nullptr };
     bool is_component = false;
+    std::string_view path = end->node;   // the rest of it: an exposed port may be deeper inside
     for (int depth = 0; end != nullptr && depth < deepest_subgraph; ++depth)
     {
-        const auto* node = end->node.find ('/') == std::string::npos ? inside.patch->find (graph::firstNameOf (end->node)) : nullptr;
+        const auto step = graph::firstStep (path);
+        const auto* node = inside.patch->find (step.name);
         if (node == nullptr) break;
+        const auto deeper = graph::insideOf (*inside.owner, *node);
+        if (deeper)
+        {
+            inside = deeper;
+            path = step.rest;
+            if (! path.empty()) continue;
+        }
         is_component |= end->component >= 0;
-        if (const auto deeper = graph::insideOf (*inside.owner, *node))
+        if (deeper)
         {
             end = exposed (*deeper.patch, role, idOf (*end));
-            inside = deeper;
+            if (end != nullptr) path = end->node;
             continue;
         }
         const auto face = innermost (*inside.patch, *node, catalogue);

@@ -2,6 +2,7 @@
 #include "quantities.hpp"
 
 #include <tactus/graph/inside.hpp>
+#include <tactus/kit/at.hpp>
 
 namespace tactus::host
 {
@@ -13,8 +14,6 @@ bool follows (const UnitRule& rule) { return rule.kind == UnitRule::Kind::same &
 
 /// Drops the index: "in[2]" becomes "in".
 std::string_view withoutIndex (std::string_view id) { return id.substr (0, id.find ('[')); }
-
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
 template <typename Visit>
 void eachPort (const Face& face, Visit visit)

@@ -64,17 +64,11 @@ std::string likelyType (const std::string& unknown)
     return std::string (ids[static_cast<std::size_t> (std::ranges::find (ends, end) - ends.begin())]);
 }
 
-/// A node of this type next to the others, with its wires: on their left if it is a hand, on their right if it is a motor.
-Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, const char* step, bool on_the_left)
+/// A node of this type with its wires. The canvas finds a place for it.
+Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, const char* step)
 {
-    constexpr float distance = 240.0f;
-    std::optional<juce::Point<float>> place;
-    for (const auto& node : g.root.nodes)
-        if (const auto at = positionOf (node))
-            if (! place || (on_the_left ? at->x < place->x : at->x > place->x)) place = juce::Point<double> (at->x, at->y).toFloat();
-    const auto beside = place ? *place + juce::Point<float> (on_the_left ? -distance : distance, 0.0f) : juce::Point<float>();
     graph::Id made = 0;
-    graph::Batch all { step, { addNode (g, {}, type, beside, made) } };
+    graph::Batch all { step, { addNode (g, {}, type, {}, made) } };
     auto with = g;
     if (graph::apply (with, all))
         all.commands.push_back (wiring::obviousWires (with, {}, std::ranges::find (with.root.nodes, made, &graph::Node::id)->name, catalogue()));
@@ -144,8 +138,8 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         return Fix { TRANS ("Delay wire by a tick").toStdString(),
                      graph::Batch { NEEDS_TRANS ("break loop"), { graph::ChangeWire { location.patch, location.id, std::move (delayed) } } } };
     }
-    if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"), true);
-    if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"), false);
+    if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"));
+    if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"));
     if (m.id == "node/no_effect") return leadToMotor (g, location);
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));

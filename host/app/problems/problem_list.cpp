@@ -32,7 +32,7 @@ public:
         button->onClick = [this, lacks_file] {
             if (lacks_file && list.onChooseFile) return list.onChooseFile (message);
             // The graph may have changed since the button was made.
-            if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
+            if (auto now = fixOf (list.document.graph(), message)) list.onFix (std::move (now->command));
         };
         addAndMakeVisible (*button);
         button_width = std::max (least_button_width, button->getBestWidthForHeight (28));

@@ -25,6 +25,7 @@ public:
     const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const ProblemLocation&)> onShow;
+    std::function<void (graph::Command)> onFix;          ///< carries out a fix
     std::function<void (const Message&)> onChooseFile;   ///< asks for the file that is missing, see missingFileOf()
 
     void paint (juce::Graphics&) override;

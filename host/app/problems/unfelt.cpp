@@ -61,6 +61,9 @@ public:
             for (const auto& w : any.wires)
                 for (const auto* e : { &w.from, &w.to })
                     note (*e);
+            for (const auto* exposed : { &any.expose.inputs, &any.expose.outputs })
+                for (const auto& [id, e] : *exposed)
+                    note (e);
         };
         noteAll (g.root);
         for (const auto& [id, any] : g.graphs)
@@ -68,7 +71,7 @@ public:
         for (const auto* exposed : { &patch.expose.inputs, &patch.expose.outputs })
             for (const auto& [id, e] : *exposed)
             {
-                sources.insert (e.node);
+                sources.insert (graph::firstNameOf (e.node));
                 ends[graph::firstNameOf (e.node)].push_back (&e);
             }
     }
@@ -99,7 +102,7 @@ private:
     const graph::Patch& patch;
     std::set<std::string, std::less<>> sources;                                     ///< nodes at which a wire begins, or that are exposed
     std::map<std::string, std::vector<const graph::Endpoint*>, std::less<>> ends;   ///< by node: where wires end, and what is exposed
-    std::set<std::string, std::less<>> named_outside;                               ///< nodes that a wire outside of this patch names
+    std::set<std::string, std::less<>> named_outside;                               ///< nodes that a wire or an exposed port outside of this patch names
 
     static bool hasClip (const graph::Node& n)
     {

@@ -3,9 +3,9 @@
 #include "main_view.hpp"
 
 #include <host/app/canvas/picture/save_picture.hpp>
+#include <host/app/fit_panel/fitted_nodes.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/model/fragment.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -121,22 +121,18 @@ void MainView::openFitted (const FittedGraph& made)
 
 void MainView::insertFitted (const FittedGraph& made)
 {
-    auto source = made.preset;
-    auto place = (patching.commands().pointerOrCentre() / Box::grid).roundToInt() * static_cast<int> (Box::grid);
-    std::set<graph::Id> ids;
-    for (auto& node : source.root.nodes)
-    {
-        if (std::ranges::count (made.nodes, node.name) == 0) continue;
-        node.extra["ui"]["at"] = Json::array ({ place.x, place.y });
-        place.y += 120;
-        ids.insert (node.id);
-    }
     Selection added;
-    auto command = paste (edited.graph(), patching.patch(), copyText (source, {}, ids), {}, added);
+    auto command = addFitted (edited.graph(), patching.patch(), made, patching.types(), added);
     if (! command) return status.notify (fromUtf8 (command.error().text));
-    if (! patching.commands().perform (*std::move (command))) return;
+    if (patching.commands().performPlaced (*std::move (command)).empty()) return;
     patching.select (added);
-    status.notify (TRANS ("Added the fitted node. Wire it to feel it."));
+    const auto isWired = [&] (const SceneWire& w) {
+        return added.contains (patching.scene().nodes()[static_cast<std::size_t> (w.start)].id)
+               != added.contains (patching.scene().nodes()[static_cast<std::size_t> (w.end)].id);
+    };
+    status.notify (std::ranges::any_of (patching.scene().wires(), isWired)
+                       ? TRANS ("Added the fitted node, with the wires that go without saying. One undo takes it away.")
+                       : TRANS ("Added the fitted node. Wire it to feel it."));
 }
 
 void MainView::rememberScene()

@@ -90,6 +90,7 @@ void MainView::connectRun()
         turnTo (patching);
         patching.show (c.patch, c.id);
     };
+    problems.onFix = [this] (graph::Command fix) { patching.commands().performPlaced (std::move (fix)); };
     problems.onChooseFile = [this] (const Message& m) { askForMissing (m); };
     live.limits = &limits;
 

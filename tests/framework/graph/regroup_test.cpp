@@ -35,7 +35,8 @@ TEST_CASE ("when nodes are collapsed to a subgraph, all references to them follo
 
     perform (g, CollapseNodes { "grain", { "wave" }, "inner", "wavelet" });
     CHECK (toText (g.find ("grain")->wires[0]) == "inner.value -> gain.in");
-    CHECK (toText (g.find ("grain")->expose.inputs[0].second) == "inner/wave.position");
+    CHECK (toText (g.find ("grain")->expose.inputs[0].second) == "inner.position");
+    CHECK (toText (g.find ("wavelet")->expose.inputs[0].second) == "wave.position");
     CHECK (g.controls[0].to[0].path == "wood/grain/inner/wave.amplitude");
     CHECK (g.find ("block")->find ("grain")->overrides.contains ("[1]/inner/wave.angle"));
     CHECK (toText (g.find ("block")->expose.inputs[1].second) == "grain[1]/inner/wave.position");

@@ -189,6 +189,66 @@ TEST_CASE ("a role's workspace is typed in the Devices panel, saved with the ses
     CHECK_FALSE (document.isChanged());
 }
 
+TEST_CASE ("the choice of a device is one undo, which leaves the edits before it and every limit alone", "[app][sessions][undo]")
+{
+    Bench w;
+    auto& document = w.view->document();
+    w.click ("Devices");
+    auto* device = dynamic_cast<juce::ComboBox*> (WindowRig::titledIn (w.panel(), "device"));
+    REQUIRE (device != nullptr);
+    // An edit of the graph, by the keyboard: friction is bypassed.
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("b");
+    REQUIRE (w.graph().root.find ("drag")->bypass);
+    const auto edited = writeGraph (w.graph());
+    const auto before = document.history().position();
+
+    const auto bound = w.binding();
+    const auto chosen = device->getText();
+    const auto target = device->getItemText (1);   // the simulated tool
+    REQUIRE (target != chosen);
+    w.choose (w.middleOf (*device), 2, juce::ModifierKeys::leftButtonModifier);
+    const auto now = w.binding();
+    REQUIRE (now != bound);
+    CHECK (now["guard"] == bound["guard"]);
+    CHECK (document.history().position() == before + 1);
+    CHECK (latestStep (document) == "device of stylus");
+
+    w.type ("max force", "1 N");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK (document.history().position() == before);
+    auto with_limit = bound;
+    with_limit["guard"]["max_force"] = "1 N";
+    CHECK (w.binding() == with_limit);
+    CHECK (writeGraph (w.graph()) == edited);   // friction is still bypassed
+    w.key ("ctrl + y");
+    with_limit = now;
+    with_limit["guard"]["max_force"] = "1 N";
+    CHECK (w.binding() == with_limit);
+
+    // Back to the device of the graph, which has its own limits; undo brings back the device with the limit that it had.
+    w.click ("Devices");
+    w.panel().bind ("stylus", "as in the graph");
+    CHECK_FALSE (w.saved()["roles"].contains ("stylus"));
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + z");
+    CHECK (w.binding() == with_limit);
+    w.key ("ctrl + y");
+    CHECK_FALSE (w.saved().value ("roles", Json::object()).contains ("stylus"));
+    w.key ("ctrl + z");
+    CHECK (w.binding() == with_limit);
+
+    // The same device again is no step.
+    const auto position = document.history().position();
+    w.panel().bind ("stylus", target.toStdString());
+    CHECK (document.history().position() == position);
+    for (int i = 0; i < 2; ++i)
+        w.key ("ctrl + z");
+    CHECK_FALSE (w.graph().root.find ("drag")->bypass);
+}
+
 TEST_CASE ("a workspace that is typed while the graph runs moves the tool without a step of the force", "[app][sessions][undo]")
 {
     Bench w;

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups of nodes within groups, made with the mouse and the keyboard.
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/problems/unfelt.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/plan/rules/unheard.hpp>
+
+#include <bit>
+#include <set>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+struct GroupBench : WindowRig
+{
+    GroupBench (int width, int height) : WindowRig ("dry_wood.json", width, height) { canvas().grabKeyboardFocus(); }
+
+    Canvas& canvas() { return view->canvas(); }
+    const Scene& scene() { return canvas().scene(); }
+    std::string text() { return writeGraph (graph()); }
+
+    const SceneNode& node (const std::string& name)
+    {
+        INFO (name);
+        const auto found = std::ranges::find (scene().nodes(), name, &SceneNode::name);
+        REQUIRE (found != scene().nodes().end());
+        return *found;
+    }
+
+    bool isInView (juce::Rectangle<float> area)
+    {
+        const auto& v = canvas().view();
+        return canvas().getLocalBounds().toFloat().contains (juce::Rectangle<float> (v.toPixels (area.getTopLeft()), v.toPixels (area.getBottomRight())));
+    }
+
+    void select (const std::vector<std::string>& names)
+    {
+        canvas().select ({});
+        for (const auto& name : names)
+        {
+            const auto at = canvas().view().toPixels (node (name).at + juce::Point<float> (20.0f, Box::header_height / 2));
+            const auto on_stage = stage->getLocalPoint (&canvas(), at);
+            REQUIRE (stage->getComponentAt (on_stage.roundToInt()) == &canvas());
+            stage->click (on_stage, juce::ModifierKeys::leftButtonModifier, canvas().selection().empty() ? 0 : juce::ModifierKeys::shiftModifier);
+        }
+        settle();
+        REQUIRE (canvas().selection().size() == names.size());
+    }
+
+    /// What the canvas shows of the graph alone.
+    juce::Image picture()
+    {
+        stage->move ({ 2.0f, 2.0f });   // away from every wire
+        settle();
+        canvas().select ({});
+        return canvas().createComponentSnapshot (canvas().getLocalBounds());
+    }
+
+    /// What the Problems panel is told about the graph.
+    std::multiset<std::string> problems()
+    {
+        std::multiset<std::string> all;
+        const auto add = [&] (const Messages& messages) {
+            for (const auto& m : messages)
+                all.insert (m.id + ' ' + m.where + ' ' + m.text);
+        };
+        add (unfelt (graph(), catalogue()));
+        add (plan::unheardNodes (graph(), catalogue()));
+        add (compile (graph(), catalogue()).messages);
+        return all;
+    }
+
+    /// The bits of the force along a stroke.
+    std::vector<std::uint64_t> force()
+    {
+        const auto compiled = compile (graph(), catalogue());
+        REQUIRE (compiled.plan != nullptr);
+        auto& role = compiled.plan->roles().front();
+        std::vector<std::uint64_t> bits;
+        for (int i = 0; i < 2000; ++i)
+        {
+            role.state->reading.position = Vec3 (1e-5 * i, 3e-6 * i, -1e-6 * (i % 300));
+            compiled.plan->tick();
+            Vec3 sum = Vec3::Zero();
+            for (const auto& sink : role.sinks)
+                sum += sink.effort (sink.node).force;
+            for (const double f : { sum.x(), sum.y(), sum.z() })
+                bits.push_back (std::bit_cast<std::uint64_t> (f));
+        }
+        return bits;
+    }
+};
+
+bool isSamePicture (const juce::Image& a, const juce::Image& b)
+{
+    if (a.getBounds() != b.getBounds()) return false;
+    for (int y = 0; y < a.getHeight(); ++y)
+        for (int x = 0; x < a.getWidth(); ++x)
+            if (a.getPixelAt (x, y) != b.getPixelAt (x, y)) return false;
+    return true;
+}
+}   // namespace
+
+TEST_CASE ("groups within groups show their ports at every depth\\, are no problem\\, and stay in view", "[app][canvas][groups][undo]")
+{
+    const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
+    GroupBench w (width, height);
+    const bool has_moved_view = GENERATE (false, true);
+    const auto text = w.text();
+    const auto force = w.force();
+    const auto problems = w.problems();
+    CHECK (problems.empty());
+
+    struct Level
+    {
+        std::string text;
+        juce::Image outside, inside;
+    };
+    std::vector<Level> levels;
+    std::vector<std::string> members { "board", "drag", "touch", "grain", "grain_felt" };
+    const auto begin = w.view->document().history().position();
+    for (std::size_t depth = 1; members.size() > 1; ++depth, members.pop_back())
+    {
+        INFO ("depth " << depth);
+        if (has_moved_view) w.stage->wheel (w.middleOf (w.canvas()), -0.2f, false);
+        w.select (members);
+        w.key ("g");
+        const auto name = depth == 1 ? std::string ("group") : "group_" + std::to_string (depth);
+        CHECK (w.view->document().history().position() == begin + depth);
+        CHECK (w.isInView (w.node (name).bounds()));
+        CHECK (w.canvas().selection() == Selection { w.node (name).id });
+        for (const auto& other : w.scene().nodes())
+            if (other.name != name) CHECK_FALSE (other.bounds().intersects (w.node (name).bounds()));
+        CHECK (w.problems() == problems);
+        CHECK (w.force() == force);
+        levels.push_back ({ w.text(), w.picture(), {} });
+
+        w.select ({ name });
+        w.key ("return");
+        REQUIRE (w.canvas().patch() == name);
+        CHECK (w.scene().nodes().size() == members.size());
+        CHECK (w.canvas().view().zoom >= View::readable);
+        for (const auto& n : w.scene().nodes())
+            CHECK (w.isInView (n.bounds()));
+        // Each port of the node outside is a label inside, and none is missing.
+        const auto* inside = w.graph().find (name);
+        REQUIRE (inside != nullptr);
+        CHECK (w.scene().exposed().size() == inside->expose.inputs.size() + inside->expose.outputs.size() + inside->expose.params.size());
+        CHECK (inside->expose.inputs.size() >= 1);
+        CHECK (inside->expose.outputs.size() >= 1);
+        for (const auto& e : w.scene().exposed())
+        {
+            INFO (e.name);
+            CHECK (w.isInView (e.label));
+            CHECK (e.quantity != Quantity::any);
+            for (const auto& n : w.scene().nodes())
+                CHECK_FALSE (n.bounds().intersects (e.label));
+        }
+        levels.back().inside = w.picture();
+    }
+    REQUIRE (levels.size() == 4);
+
+    // Undo from the innermost group leads out of each, and to the same text; redo to the same pictures.
+    for (std::size_t i = levels.size(); i-- > 0;)
+    {
+        w.key ("ctrl + z");
+        CHECK (w.text() == (i == 0 ? text : levels[i - 1].text));
+        CHECK (w.canvas().breadcrumbs().size() <= i);
+        CHECK (w.problems() == problems);
+        CHECK (w.force() == force);
+    }
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+        w.key ("ctrl + y");
+        INFO ("redo " << i);
+        CHECK (w.text() == levels[i].text);
+        CHECK (w.force() == force);
+        const auto name = i == 0 ? std::string ("group") : "group_" + std::to_string (i + 1);
+        CHECK (w.isInView (w.node (name).bounds()));
+        w.select ({ name });
+        w.key ("return");
+        CHECK (isSamePicture (w.picture(), levels[i].inside));
+    }
+
+    // Ungrouped one by one, the wires are what they were.
+    for (std::size_t i = levels.size(); i-- > 0;)
+    {
+        w.key ("u");
+        w.key ("shift + g");
+        CHECK (w.force() == force);
+        CHECK (w.problems() == problems);
+    }
+    CHECK (w.graph().graphs.empty());
+}
