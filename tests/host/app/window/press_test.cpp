@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Presses of the mouse that last, and presses where there is nothing to feel yet.
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+bool showsText (juce::Component& in, const juce::String& text)
+{
+    return std::ranges::any_of (tactus::host::test::readTexts (in), [&] (const auto& t) { return t.text == text; });
+}
+}   // namespace
+
+TEST_CASE ("a right press opens the menu however long it is held\\, and moves the canvas if the mouse moves", "[app][mouse]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    const auto& node = canvas.scene().nodes().front();
+    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.bounds().getCentre()));
+    const auto open = [] { return juce::Component::getNumCurrentlyModalComponents(); };
+    w.stage->move (at);
+    w.stage->press (juce::ModifierKeys::rightButtonModifier);
+    w.stage->hold();
+    w.stage->release();
+    for (int i = 0; i < 100 && open() == 0; ++i)
+        WindowRig::settle (1);
+    CHECK (open() == 1);
+    CHECK (canvas.selection() == Selection { node.id });
+    w.key ("escape");
+    WindowRig::settle();
+    REQUIRE (open() == 0);
+
+    const auto before = canvas.view().toPixels ({});
+    w.stage->drag (at, at.translated (60.0f, 0.0f), juce::ModifierKeys::rightButtonModifier);
+    WindowRig::settle();
+    CHECK (open() == 0);
+    CHECK (canvas.view().toPixels ({}).x == Approx (before.x + 60.0f).margin (2.0));
+}
+
+TEST_CASE ("a slow click on a problem shows its node", "[app][mouse][problems]")
+{
+    WindowRig w ("dry_wood.json");
+    REQUIRE (w.view->document().perform (graph::SetParam { {}, "drag", "mu", Json ("many") }));
+    WindowRig::settle (100);
+    w.view->canvas().select ({});
+    const auto tab = WindowRig::tabIn (*w.view, *w.stage, "Problems 1");
+    REQUIRE (tab);
+    w.stage->click (*tab);
+    WindowRig::settle();
+    auto* list = w.titled ("Problems");
+    REQUIRE (list != nullptr);
+    w.stage->move (w.stage->getLocalPoint (list, juce::Point<float> (60.0f, 24.0f)));
+    w.stage->press();
+    w.stage->hold();
+    w.stage->release();
+    WindowRig::settle();
+    CHECK (w.view->canvas().selection() == Selection { w.graph().root.find ("drag")->id });
+}
