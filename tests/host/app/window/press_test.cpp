@@ -60,3 +60,23 @@ TEST_CASE ("a slow click on a problem shows its node", "[app][mouse][problems]")
     WindowRig::settle();
     CHECK (w.view->canvas().selection() == Selection { w.graph().root.find ("drag")->id });
 }
+
+TEST_CASE ("pressing the surface before there is a graph starts nothing", "[app][mouse]")
+{
+    WindowRig w ({}, 1280, 720, false);
+    REQUIRE (w.view->welcomePage().isVisible());
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = w.middleOf (*surface);
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle (100);
+    CHECK_FALSE (w.view->run().isWanted());
+    CHECK (w.view->welcomePage().isVisible());
+    CHECK (showsText (*w.titled ("Hand"), "Nothing to feel yet: choose a preset, or add a node."));
+
+    w.click ("Dry wood");
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (w.view->run().isWanted());
+    w.view->run().letGo();
+}
