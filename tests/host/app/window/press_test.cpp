@@ -80,3 +80,29 @@ TEST_CASE ("pressing the surface before there is a graph starts nothing", "[app]
     CHECK (w.view->run().isWanted());
     w.view->run().letGo();
 }
+
+TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspector]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    w.key ("ctrl + a");
+    WindowRig::settle();
+    const auto& root = w.graph().root;
+    CHECK (showsText (w.view->inspected(), juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
+    const auto from = root.find (root.wires.front().from.node)->id, to = root.find (root.wires.front().to.node)->id;
+    const auto between = std::ranges::count_if (root.wires, [&] (const graph::Wire& v) {
+        const std::set<graph::Id> ends { root.find (v.from.node)->id, root.find (v.to.node)->id };
+        return std::ranges::includes (std::set { from, to }, ends);
+    });
+    canvas.select ({ from, to });
+    WindowRig::settle();
+    const auto wires = [&] (auto count) { return "2 nodes, " + juce::String (static_cast<int> (count)) + " wires"; };
+    CHECK (showsText (w.view->inspected(), wires (between)));
+    const auto& other = *std::ranges::find_if (root.wires, [&] (const graph::Wire& v) { return root.find (v.from.node)->id != from; });
+    canvas.select ({ from, to, other.id });
+    WindowRig::settle();
+    CHECK (showsText (w.view->inspected(), wires (between + 1)));
+    REQUIRE (w.view->document().perform (graph::RemoveWire { {}, other.id }));
+    WindowRig::settle();
+    CHECK (showsText (w.view->inspected(), wires (between)));
+}
