@@ -107,6 +107,7 @@ private:
         watchForStop();
         giveUpBlockedOutputs();
         window->view().onRefresh = [this] { refresh(); };
+        window->view().onQuit = [this] { systemRequestedQuit(); };
     }
 
     void giveUp (const Message& why)
