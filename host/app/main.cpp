@@ -108,6 +108,7 @@ private:
         watchForStop();
         giveUpBlockedOutputs();
         window->view().onRefresh = [this] { refresh(); };
+        window->view().onQuit = [this] { systemRequestedQuit(); };
     }
 
     void giveUp (const Message& why)

@@ -97,7 +97,7 @@ void Canvas::mouseDrag (const juce::MouseEvent& e)
 void Canvas::mouseUp (const juce::MouseEvent& e)
 {
     if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
-    if (e.mods.isRightButtonDown() && ! e.mouseWasDraggedSinceMouseDown())
+    if (e.mods.isRightButtonDown() && ! e.source.hasMovedSignificantlySincePressed())   // however long it was held
     {
         const auto at = window.toCanvas (e.position);
         const auto* node = shown->nodeAt (at);

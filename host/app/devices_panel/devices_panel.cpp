@@ -395,19 +395,24 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
 std::unique_ptr<Block> DevicesPanel::cardRow (const char* pointer, const char* label, const char* about)
 {
     const std::string at (pointer);
-    const auto now = [this, at = JsonPointer (pointer)] {
-        const auto* sound = setup.session().session.audio();
-        return sound != nullptr && sound->contains (at) ? written (sound->at (at)).toStdString() : anyCard();
+    const auto isOffered = [&at] (const audio::ListedCard& c) {
+        return at == "/type" || ! (at == "/output" ? c.outputs : c.inputs).empty() || ! c.trouble.empty();
     };
-    std::vector<std::string> choices { anyCard() };
+    const bool has_none = has_listed && std::ranges::none_of (sound_cards, isOffered);
+    const auto any = has_none ? TRANS ("automatic (none found)").toStdString() : anyCard();
+    const auto now = [this, any, at = JsonPointer (pointer)] {
+        const auto* sound = setup.session().session.audio();
+        return sound != nullptr && sound->contains (at) ? written (sound->at (at)).toStdString() : any;
+    };
+    std::vector<std::string> choices { any };
     const auto offer = [&] (const std::string& choice) {
         if (std::ranges::count (choices, choice) == 0) choices.push_back (choice);
     };
     for (const auto& c : sound_cards)
-        if (at == "/type" || ! (at == "/output" ? c.outputs : c.inputs).empty() || ! c.trouble.empty()) offer (at == "/type" ? c.type : c.name);
+        if (isOffered (c)) offer (at == "/type" ? c.type : c.name);
     offer (now());   // a card that is not plugged in, or a part of a name
     return choiceRow (
-        juce::translate (label), choices, now, [this, at] (const std::string& to) { setCard (at, to == anyCard() ? juce::String() : fromUtf8 (to)); },
+        juce::translate (label), choices, now, [this, at, any] (const std::string& to) { setCard (at, to == any ? juce::String() : fromUtf8 (to)); },
         juce::translate (about));
 }
 

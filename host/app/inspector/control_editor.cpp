@@ -9,6 +9,8 @@
 #include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/inside.hpp>
 
 #include <algorithm>
 
@@ -139,14 +141,25 @@ protected:
     }
 
 private:
+    /// The datasheet row of a parameter, which may be inside of subgraphs, as in "grain/wave/drag.mu".
     PortSheet sheetOfTarget (const std::string& path) const
     {
-        if (const auto end = graph::parseEndpoint (path))
-            if (const auto* node = document.graph().root.find (end->node))
+        const auto end = graph::parseEndpoint (path);
+        graph::Inside in { &document.graph(), &document.graph().root };
+        for (auto names = end ? end->node : std::string(); in && ! names.empty();)
+        {
+            const auto* node = in.patch->find (graph::firstNameOf (names));
+            if (node == nullptr) break;
+            if (const auto slash = names.find ('/'); slash != std::string::npos)
             {
-                const auto face = faceOf (document.graph(), document.graph().root, *node, catalogue);
-                if (const auto* port = face.endOf (*end); port != nullptr && port->sheet != nullptr) return *port->sheet;
+                names.erase (0, slash + 1);
+                in = graph::insideOf (*in.owner, *node);
+                continue;
             }
+            const auto face = faceOf (*in.owner, *in.patch, *node, catalogue);
+            if (const auto* port = face.endOf (*end); port != nullptr && port->sheet != nullptr) return *port->sheet;
+            break;
+        }
         return sheetOfNumber ("value", UnitRule (UnitRule::Kind::open), path, {}, 0.0);
     }
 

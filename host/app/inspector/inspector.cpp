@@ -4,9 +4,12 @@
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string_view>
 
 namespace tactus::host
 {
@@ -73,10 +76,20 @@ Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const
     {
         for (const auto& n : in->nodes)
             if (selection.contains (n.id)) s.nodes.push_back (&n);
+        std::set<std::string_view> names;
+        for (const auto* n : s.nodes)
+            names.insert (n->name);
+        const auto isIn = [&names] (const graph::Endpoint& end) { return names.size() > 1 && names.contains (graph::firstNameOf (end.node)); };
         for (const auto& w : in->wires)
+        {
             if (selection.contains (w.id)) s.wires.push_back (w.id);
+            if (selection.contains (w.id) || (isIn (w.from) && isIn (w.to))) ++s.wire_count;
+        }
     }
-    s.key = patch.name + '|' + patch.path + '|' + std::to_string (s.nodes.size()) + '|' + std::to_string (s.wires.size()) + (help ? "?" : "");
+    s.key = patch.name + '|' + patch.path;
+    for (const auto count : { s.nodes.size(), s.wires.size(), s.wire_count })
+        s.key += '|' + std::to_string (count);
+    if (help) s.key += '?';
     if (s.nodes.size() == 1) s.key += shapeOf (at, *s.nodes[0]);
     if (s.isOneWire()) s.key += std::to_string (s.wires[0]);
     if (! s.isEmpty()) return s;
@@ -98,7 +111,7 @@ std::unique_ptr<Column> Inspector::makeColumn (const InspectorContext& at, const
         describeGraph (at, *made);
     else
     {
-        made->add (filled (TRANS ("%1 nodes, %2 wires"), s.nodes.size(), s.wires.size()), TextBlock::Kind::title);
+        made->add (filled (TRANS ("%1 nodes, %2 wires"), s.nodes.size(), s.wire_count), TextBlock::Kind::title);
         made->add (TRANS ("Drag to move, B to bypass, G to group into a subgraph, Delete to delete."), TextBlock::Kind::small);
     }
     made->onHeight = [this] { resized(); };

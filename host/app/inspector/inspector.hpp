@@ -62,7 +62,8 @@ private:
     {
         std::vector<const graph::Node*> nodes;
         std::vector<graph::Id> wires;
-        std::string key;   // changes when the column has to be rebuilt
+        std::size_t wire_count = 0;   // these, and those between the nodes
+        std::string key;              // changes when the column has to be rebuilt
 
         bool isEmpty() const noexcept { return nodes.empty() && wires.empty(); }
         bool isOneWire() const noexcept { return nodes.empty() && wires.size() == 1; }

@@ -104,13 +104,6 @@ Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, co
     return addLayer (g, at, catalogue, std::string (clip_type), file, gain);
 }
 
-bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)
-{
-    const auto* patch = mixing::patchOf (g, at.patch);
-    const auto* w = wireInto (g, at, layer);
-    return patch != nullptr && w != nullptr && wiring::gateOf (*patch, *w) != nullptr;
-}
-
 Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
 {
     const auto* patch = mixing::patchOf (g, at.patch);
@@ -120,7 +113,11 @@ Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, con
         return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
                                TRANS ("wire something into it first").toStdString());
     const auto* product = wiring::gateOf (*patch, *w);
-    if (on == (product != nullptr)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
+    if (on == isGated (g, at, layer)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
+
+    if (! on && product == nullptr)
+        return Message::error ("mixer/gate_elsewhere", {}, TRANS ("the gate of this layer and its contact window are not in one group").toStdString(),
+                               TRANS ("expand the group between them").toStdString());
 
     graph::Batch batch { on ? NEEDS_TRANS ("gate a layer by contact") : NEEDS_TRANS ("open the gate of a layer"), {} };
     auto changed = *w;

@@ -81,10 +81,10 @@ const std::vector<LayerKind>& layerKinds();
 /// The types that can be a layer: textures and vibrations with a force output; for a mixer of vectors, also friction.
 std::vector<const NodeType*> layerTypes (const Catalogue&, bool vectors = false);
 
-/// True if a layer is multiplied by the gain of a contact window.
+/// True if a layer is multiplied by the gain of a contact window. The product and the window may be inside or outside of a group.
 bool isGated (const graph::Graph&, const MixerPlace&, int layer);
 
-/// Makes a layer felt only in contact, or always. Ids: mixer/gone, mixer/empty, mixer/no_contact.
+/// Makes a layer felt only in contact, or always. Ids: mixer/gone, mixer/empty, mixer/no_contact, mixer/gate_elsewhere.
 Result<graph::Command> setGate (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, bool on);
 
 /// Removes a layer and its wires; the layers after it move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.

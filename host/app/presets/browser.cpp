@@ -279,7 +279,8 @@ void PresetBrowser::resized()
     chips.setBounds (area.removeFromTop (std::min (wanted, area.getHeight() / 2)));
     area.removeFromTop (4);
     int below = is_low ? picture_and_text : 176;   // the description of a preset gives way to the list of presets
-    if (area.getHeight() - below < 4 * row_height) below = area.getHeight() - two_lines < 3 * row_height ? 0 : two_lines;
+    const int rows = own.empty() ? 4 : 6;          // with own graphs, there are two headings, too
+    if (area.getHeight() - below < rows * row_height) below = area.getHeight() - two_lines < (rows - 1) * row_height ? 0 : two_lines;
     footer = area.removeFromBottom (below);
     area.removeFromBottom (4);
     list.setBounds (area);

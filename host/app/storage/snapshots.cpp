@@ -30,6 +30,24 @@ Json valuesOf (const graph::Patch& patch)
     return nodes;
 }
 
+/// True if recall() would change nothing. The nodes of a snapshot usually have the order of the patch, so most are found without a search.
+bool isAt (const graph::Patch& patch, const Json& nodes)
+{
+    if (! nodes.is_object()) return true;
+    auto next = nodes.begin();
+    for (const auto& n : patch.nodes)
+    {
+        if (next == nodes.end() || next.key() != n.name) next = nodes.find (n.name);
+        if (next == nodes.end()) continue;
+        const auto& then = next.value();
+        ++next;
+        if (at (then, "type") != n.type) continue;
+        const auto isSame = [] (const Json& now, const Json& before) { return ! before.is_object() || now == before; };
+        if (! isSame (n.params, at (then, "params")) || ! isSame (n.overrides, at (then, "overrides"))) return false;
+    }
+    return true;
+}
+
 /// Calls change() for each key whose value differs, with the old value and its position.
 void differences (const Json& now, const Json& then, const std::function<void (const std::string&, std::optional<Json>, graph::Place)>& change)
 {
@@ -96,6 +114,18 @@ std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
             batch.commands.push_back (graph::ChangeControl { c.id, std::move (to) });
         }
     return batch.commands.empty() ? std::nullopt : std::optional<graph::Command> (std::move (batch));
+}
+
+bool isAtSnapshot (const graph::Graph& g, int number)
+{
+    if (! hasSnapshot (g, number)) return false;
+    const auto& then = snapshot (g, number);
+    const auto isHeld = [&] (const graph::Control& c) {
+        const auto& value = at (at (then, "controls"), c.id);
+        return ! value.is_number() || value == c.value;
+    };
+    return std::ranges::all_of (g.controls, isHeld) && isAt (g.root, at (then, "nodes"))
+           && std::ranges::all_of (g.graphs, [&] (const auto& named) { return isAt (named.second, at (at (then, "graphs"), named.first)); });
 }
 
 }   // namespace tactus::host

@@ -20,4 +20,7 @@ graph::Command storeSnapshot (const graph::Graph&, int number);
 /// Restores the values of everything that still exists. One undo step. Empty if nothing would change.
 std::optional<graph::Command> recallSnapshot (const graph::Graph&, int number);
 
+/// True if the snapshot exists, and all values are those that it holds, so that recalling it would change nothing.
+bool isAtSnapshot (const graph::Graph&, int number);
+
 }   // namespace tactus::host

@@ -262,8 +262,8 @@ void MainView::showProblems()
     if (live_nodes) all.insert (all.begin(), live_nodes->messages().begin(), live_nodes->messages().end());
     std::ranges::copy (missing, std::back_inserter (all));
     const bool is_error = hasErrors (all);
-    const auto count = all.size();   // without the limits, which the strip counts
     std::ranges::copy (limits.messages(), std::back_inserter (all));
+    const auto count = all.size();
     problems.show (all);
     bottom.rename (problems, count == 0 ? TRANS ("Problems") : filled (TRANS ("Problems %1"), count), is_error);
     strip.limitLight().show (limits.list());

@@ -108,6 +108,7 @@ public:
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
     std::function<void (const juce::String&)> onTitle;
+    std::function<void()> onQuit;      ///< called when the user chooses Quit, which there is only if this is set
     std::function<void()> onRefresh;   ///< Called a few times a second, also while nothing changes.
 
     void paint (juce::Graphics&) override;
@@ -198,6 +199,7 @@ private:
     juce::PopupMenu languageMenu();
     juce::PopupMenu windowMenu();
     void openMenu (juce::Component& at);
+    void tellAboutOsc();
     struct Action;   ///< what a click would do
     void addEdits (std::vector<Action>&);
     void addTabsAndButtons (std::vector<Action>&);

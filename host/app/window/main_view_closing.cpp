@@ -30,7 +30,8 @@ void MainView::closeWithTake (const std::function<void()>& close)
     if (! takes.isUnsaved()) return closeWithFilm (close);
     const auto length = juce::String (takes.take().seconds(), 1);
     question.ask (filled (TRANS ("Save the take of %1 s before closing Tactus?"), length),
-                  TRANS ("Nothing has been made of it, and it is kept only while Tactus is open. `tactus capture` makes clips, gestures and tests of a saved take."),
+                  TRANS ("Nothing has been made of it, and it is kept only while Tactus is open. `tactus capture` makes clips, gestures and tests of a "
+                         "saved take."),
                   { { TRANS ("Save"), [this, close] { takes.save ([this, close] { closeWithFilm (close); }); } },
                     { TRANS ("Don't save"), [this, close] { closeWithFilm (close); } },
                     { TRANS ("Cancel"), {} } });

@@ -153,6 +153,8 @@ bool MainView::fileKey (const juce::KeyPress& key)
         files.save();
     else if (is ("ctrl + shift + s"))
         files.saveAs();
+    else if (is ("ctrl + q") && onQuit)
+        onQuit();
     else
         return false;
     return true;

@@ -166,7 +166,21 @@ juce::PopupMenu MainView::windowMenu()
     menu.addItem (menuItem (TRANS ("Guided tour"), keyText ("shift + F1"), [this] { beginTour(); }));
     menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
     menu.addItem (menuItem (TRANS ("Find a command ..."), keyText ("ctrl + k"), [this] { findAction(); }));
+    menu.addItem (menuItem (TRANS ("Remote control (OSC) ..."), {}, [this] { tellAboutOsc(); }));
+    if (! onQuit) return menu;
+    menu.addSeparator();
+    menu.addItem (menuItem (TRANS ("Quit"), keyText ("ctrl + q"), onQuit));
     return menu;
+}
+
+void MainView::tellAboutOsc()
+{
+    const auto text = osc_server == nullptr
+                          ? TRANS ("No OSC messages are received. Another program may have the port. `tactus-host --osc 0` takes any free port.")
+                          : filled (TRANS ("OSC messages to the UDP port %1 set parameters, turn controls, probe ports, and stop the run: "
+                                           "`tactus set roughness=0.5`, or /tactus/control with a name and a number from 0 to 1. docs/osc.md lists them."),
+                                    osc_server->port());
+    tell (TRANS ("Remote control (OSC)"), text);
 }
 
 void MainView::openMenu (juce::Component& at)

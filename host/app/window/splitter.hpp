@@ -59,7 +59,8 @@ public:
     juce::Rectangle<int> take (juce::Rectangle<int>& area, int least_rest)
     {
         const int room = edge == Edge::top ? area.getHeight() : area.getWidth();
-        const int n = std::clamp (extent(), 0, std::max (0, room - least_rest));
+        most_extent = std::max (0, room - least_rest);
+        const int n = std::clamp (extent(), 0, most_extent);
         juce::Rectangle<int> panel;
         switch (edge)
         {
@@ -91,14 +92,14 @@ public:
 
     void mouseEnter (const juce::MouseEvent&) override { repaint(); }
     void mouseExit (const juce::MouseEvent&) override { repaint(); }
-    void mouseDown (const juce::MouseEvent&) override { grabbed = extent(); }
+    void mouseDown (const juce::MouseEvent&) override { grabbed = std::min (extent(), most_extent); }
 
     void mouseDrag (const juce::MouseEvent& e) override
     {
         const auto way = e.getEventRelativeTo (getParentComponent()).getOffsetFromDragStart();
         const int grown = edge == Edge::top ? -way.y : way.x;
         const int wanted = grabbed + (edge == Edge::left ? -grown : grown);
-        setShare (folds && wanted < least_extent / 2 ? 0.0 : static_cast<double> (std::max (wanted, least_extent)) / whole());
+        setShare (folds && wanted < least_extent / 2 ? 0.0 : static_cast<double> (std::max (std::min (wanted, most_extent), least_extent)) / whole());
         if (onMove) onMove();
     }
 
@@ -134,6 +135,7 @@ private:
     const int least_extent;
     std::optional<double> dragged;   // the share of the window
     bool is_folded = false;
+    int most_extent = 0;   // that the rest of the window leaves, as of the last layout
     int grabbed = 0;
 };
 

@@ -49,18 +49,19 @@ juce::Path bars()
 juce::String captionText() { return TRANS ("Snapshots"); }
 }   // namespace
 
-/// A snapshot button, filled if the snapshot has been stored.
+/// A snapshot button, filled if the snapshot has been stored, and brightly if all values are those of the snapshot.
 class TopBar::Slot final : public juce::Button
 {
 public:
     explicit Slot (int n) : Button (filled (TRANS ("Snapshot %1"), n)), number (n) { setWantsKeyboardFocus (false); }
 
-    void setStored (bool s)
+    void show (bool s, bool is_at)
     {
         is_stored = s;
-        setTooltip (filled (s ? TRANS ("Snapshot %1: click or press %1 to recall it, Shift+click or press Ctrl+%1 to overwrite it")
-                              : TRANS ("Snapshot %1 is empty: click or press Ctrl+%1 to store all values in it"),
-                            number));
+        setToggleState (is_at, juce::dontSendNotification);
+        const auto stored = is_at ? TRANS ("Snapshot %1: all values are those that it holds")
+                                  : TRANS ("Snapshot %1: click or press %1 to recall it, Shift+click or press Ctrl+%1 to overwrite it");
+        setTooltip (filled (s ? stored : TRANS ("Snapshot %1 is empty: click or press Ctrl+%1 to store all values in it"), number));
         repaint();
     }
     bool isStored() const noexcept { return is_stored; }
@@ -73,12 +74,13 @@ public:
         if (is_stored)
         {
             const float alpha = over ? 0.45f : 0.3f;
-            g.setColour (theme.accent.withAlpha (down ? 0.6f : alpha));
+            g.setColour (getToggleState() ? theme.accent : theme.accent.withAlpha (down ? 0.6f : alpha));
             g.fillRoundedRectangle (area, 4.0f);
         }
         g.setColour (over ? theme.dim : theme.hairline);
         g.drawRoundedRectangle (area, 4.0f, 1.0f);
-        g.setColour (is_stored ? theme.text : theme.dim);
+        const auto text = is_stored ? theme.text : theme.dim;
+        g.setColour (getToggleState() ? theme.canvas : text);
         g.setFont (look.font (12.0f, is_stored));
         g.drawText (juce::String (number), getLocalBounds(), juce::Justification::centred, false);
     }
@@ -132,7 +134,7 @@ void TopBar::show (std::vector<juce::String> t, std::optional<Instance> i)
     if (shown) instance.setButtonText (filled (TRANS ("Instance [%1] of %2"), shown->number, shown->count));
     resized();
     for (int n = 1; n <= snapshot_count; ++n)
-        slots[static_cast<std::size_t> (n - 1)]->setStored (hasSnapshot (document.graph(), n));
+        slots[static_cast<std::size_t> (n - 1)]->show (hasSnapshot (document.graph(), n), isAtSnapshot (document.graph(), n));
     const auto done = document.history().position(), steps = document.history().size();
     undo->setEnabled (done > 0);
     undo->setTooltip (done == 0 ? TRANS ("Nothing to undo") : filled (TRANS ("Undo: %1 (Ctrl+Z)"), document.stepName (done - 1)));

@@ -65,7 +65,8 @@ void HandView::point (const juce::MouseEvent& e)
     const double scale = 2.0 * half_width_m / static_cast<double> (area.getWidth());
     const auto from_centre = e.position - area.getCentre();
     target = { static_cast<double> (from_centre.x) * scale, -static_cast<double> (from_centre.y) * scale, pressed ? -press_depth : hover_m };
-    if (! by_pointer && pressed) playback.moveBy (LiveRun::Hand::pointer());
+    const bool has_nothing = playback.current().edited().root.nodes.empty();   // there is no tool to move, as on the welcome page
+    if (! by_pointer && pressed && ! has_nothing) playback.moveBy (LiveRun::Hand::pointer());
     moveTool();
     repaint();
 }

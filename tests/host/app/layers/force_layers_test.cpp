@@ -157,6 +157,29 @@ TEST_CASE ("the contact gate of a layer can be added and removed, and leaves not
     }
 }
 
+TEST_CASE ("a layer is gated by contact wherever the gate and the contact window are", "[layers]")
+{
+    const std::vector<std::vector<std::string>> groups {
+        { "grating", "grating_felt" }, { "grating", "grating_felt", "touch" }, { "touch" }, { "desk", "grating_felt" }
+    };
+    for (const auto& members : groups)
+    {
+        INFO (members.front() << ", " << members.size());
+        MixedForces wood ("dry_wood.json");
+        wood.add ("texture.grating");
+        REQUIRE (isGated (wood.history.graph(), wood.mixer, 3));
+        REQUIRE (wood.history.perform (graph::CollapseNodes { {}, members, "box", "box" }));
+        REQUIRE (wood.history.perform (graph::CollapseNodes { {}, { "box" }, "outer", "outer" }));
+        wood.mixer = mixersOf (wood.history.graph()).front();
+        CHECK (isGated (wood.history.graph(), wood.mixer, 3));
+        CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 1));   // friction
+        CHECK (wood.compiles());
+        const auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
+        REQUIRE_FALSE (off);
+        CHECK (off.error().id == "mixer/gate_elsewhere");
+    }
+}
+
 TEST_CASE ("without a surface, a layer cannot have a contact gate", "[layers]")
 {
     tactus::test::Sketch sketch;

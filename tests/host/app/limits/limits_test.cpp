@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/limits/limit_light.hpp>
@@ -16,6 +17,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
+using tactus::host::test::WindowRig;
 
 namespace
 {
@@ -255,4 +257,18 @@ TEST_CASE ("closing stops a running check, and a series of edits ends with a che
     CHECK (watch.list().is_checked);
     CHECK (watch.list().limits.empty());
     rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 });
+}
+
+TEST_CASE ("the title of the Problems tab counts the limits that it lists", "[app][limits][problems]")
+{
+    const TemporaryFolder folder;
+    REQUIRE (saveGraph (wall ("\"damping\": 0.4"), folder / "broken.json"));
+    REQUIRE (saveGraph (wall ("\"damping\": 1"), folder / "fine.json"));
+    WindowRig w ((folder / "broken.json").string());
+    const auto hasTab = [&] (const char* text) {
+        return tactus::host::test::waitFor ([&] { return WindowRig::tabIn (*w.view, *w.stage, text).has_value(); });
+    };
+    CHECK (hasTab ("Problems 1"));
+    w.view->open (folder / "fine.json");
+    CHECK (hasTab ("Problems"));
 }

@@ -132,3 +132,43 @@ TEST_CASE ("malformed snapshots in a file do no harm")
         CHECK (hasSnapshot (h.graph(), 1));
     }
 }
+
+TEST_CASE ("a graph is at a snapshot exactly if recalling it changes nothing", "[snapshots]")
+{
+    for (const auto* name : { "dry_wood.json", "layered_cloth.json", "liver.json" })
+    {
+        INFO (name);
+        graph::History h (graphOf (name));
+        CHECK_FALSE (isAtSnapshot (h.graph(), 1));   // there is none
+        mustPerform (h, storeSnapshot (h.graph(), 1));
+        CHECK (isAtSnapshot (h.graph(), 1));
+        std::vector<graph::Command> edits;
+        for (const auto& c : h.graph().controls)
+        {
+            auto to = c;
+            to.value = c.value < 0.5 ? 0.9 : 0.1;
+            edits.emplace_back (graph::ChangeControl { c.id, to });
+        }
+        const auto change = [&] (const std::string& patch, const graph::Patch& in) {
+            for (const auto& n : in.nodes)
+            {
+                if (! n.params.empty()) edits.emplace_back (graph::SetParam { patch, n.name, n.params.items().begin()->first, std::nullopt });
+                if (! n.overrides.empty()) edits.emplace_back (graph::SetOverride { patch, n.name, n.overrides.items().begin()->first, std::nullopt });
+            }
+        };
+        change ({}, h.graph().root);
+        for (const auto& [patch, in] : h.graph().graphs)
+            change (patch, in);
+        CHECK (edits.size() > 1);
+        for (const auto& edit : edits)
+        {
+            mustPerform (h, edit);
+            CHECK_FALSE (isAtSnapshot (h.graph(), 1));
+            CHECK (recallSnapshot (h.graph(), 1));
+            h.undo();
+            CHECK (isAtSnapshot (h.graph(), 1));
+        }
+        mustPerform (h, graph::RemoveNode { {}, h.graph().root.nodes.front().name });
+        CHECK (isAtSnapshot (h.graph(), 1) == ! recallSnapshot (h.graph(), 1).has_value());
+    }
+}

@@ -66,6 +66,9 @@ public:
         send (200);
     }
 
+    /// The button stays down for a second.
+    void hold() { later (1000); }
+
     void release()
     {
         down = 0;

@@ -81,6 +81,36 @@ TEST_CASE ("copies have the values that the controls set", "[app][controls]")
     }
 }
 
+TEST_CASE ("the range of a control keeps its unit when its parameter gets into a group", "[app][controls]")
+{
+    Cloth c;
+    auto& canvas = c.w->view->canvas();
+    const auto ranges = [&] {
+        canvas.select ({});
+        WindowRig::settle();
+        std::vector<juce::String> texts;
+        const std::function<void (juce::Component&)> look = [&] (juce::Component& at) {
+            if (const auto* field = dynamic_cast<NumberField*> (&at)) texts.push_back (field->spokenValue());
+            for (auto* child : at.getChildren())
+                look (*child);
+        };
+        look (c.w->view->inspected());
+        return texts;
+    };
+    const auto before = ranges();
+    REQUIRE (std::ranges::any_of (before, [] (const juce::String& t) { return t.endsWith ("mm"); }));
+    for (int depth = 1; depth <= 2; ++depth)
+    {
+        INFO (depth);
+        canvas.grabKeyboardFocus();
+        depth == 1 ? c.select ("drag") : canvas.select ({ c.w->graph().root.nodes.back().id });
+        c.key ("g");
+        if (WindowRig::focused() != &canvas) c.key ("return");   // its name
+        REQUIRE (c.w->graph().controls[1].to[0].path != "drag.d_max");
+        CHECK (ranges() == before);
+    }
+}
+
 TEST_CASE ("a control that is deleted leaves its values\\, and one more parameter moves none", "[app][controls]")
 {
     Cloth c;

@@ -21,3 +21,38 @@ TEST_CASE ("the snapshots have a caption, which never covers the name of the gra
             CHECK (tactus::host::test::overlaps (texts, bar).isEmpty());
         }
 }
+
+TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto lit = [&] {
+        WindowRig::settle();
+        std::string numbers;
+        for (int n = 1; n <= snapshot_count; ++n)
+            if (const auto* slot = dynamic_cast<juce::Button*> (w.titled ("Snapshot " + juce::String (n))); slot != nullptr && slot->getToggleState())
+                numbers += std::to_string (n);
+        return numbers;
+    };
+    CHECK (lit().empty());
+    w.key ("ctrl + 1");
+    CHECK (lit() == "1");
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    CHECK (lit().empty());
+    w.key ("ctrl + 2");
+    CHECK (lit() == "2");
+    w.key ("1");
+    CHECK (lit() == "1");
+    const auto colour = [&] (int n) {
+        auto* slot = w.titled ("Snapshot " + juce::String (n));
+        return slot->createComponentSnapshot (slot->getLocalBounds()).getPixelAt (6, slot->getHeight() / 2);
+    };
+    CHECK (colour (1) == themeOf (*w.view).accent);
+    CHECK (colour (2) != colour (1));
+    CHECK (colour (2) != colour (3));
+    auto turned = w.graph().controls[0];
+    turned.value = 0.25;
+    REQUIRE (w.view->document().perform (graph::ChangeControl { turned.id, turned }));
+    CHECK (lit().empty());
+    w.key ("ctrl + z");
+    CHECK (lit() == "1");
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Presses of the mouse that last, and presses where there is nothing to feel yet.
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+bool showsText (juce::Component& in, const juce::String& text)
+{
+    return std::ranges::any_of (tactus::host::test::readTexts (in), [&] (const auto& t) { return t.text == text; });
+}
+}   // namespace
+
+TEST_CASE ("a right press opens the menu however long it is held\\, and moves the canvas if the mouse moves", "[app][mouse]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    const auto& node = canvas.scene().nodes().front();
+    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.bounds().getCentre()));
+    const auto open = [] { return juce::Component::getNumCurrentlyModalComponents(); };
+    w.stage->move (at);
+    w.stage->press (juce::ModifierKeys::rightButtonModifier);
+    w.stage->hold();
+    w.stage->release();
+    for (int i = 0; i < 100 && open() == 0; ++i)
+        WindowRig::settle (1);
+    CHECK (open() == 1);
+    CHECK (canvas.selection() == Selection { node.id });
+    w.key ("escape");
+    WindowRig::settle();
+    REQUIRE (open() == 0);
+
+    const auto before = canvas.view().toPixels ({});
+    w.stage->drag (at, at.translated (60.0f, 0.0f), juce::ModifierKeys::rightButtonModifier);
+    WindowRig::settle();
+    CHECK (open() == 0);
+    CHECK (canvas.view().toPixels ({}).x == Approx (before.x + 60.0f).margin (2.0));
+}
+
+TEST_CASE ("a slow click on a problem shows its node", "[app][mouse][problems]")
+{
+    WindowRig w ("dry_wood.json");
+    REQUIRE (w.view->document().perform (graph::SetParam { {}, "drag", "mu", Json ("many") }));
+    WindowRig::settle (100);
+    w.view->canvas().select ({});
+    const auto tab = WindowRig::tabIn (*w.view, *w.stage, "Problems 1");
+    REQUIRE (tab);
+    w.stage->click (*tab);
+    WindowRig::settle();
+    auto* list = w.titled ("Problems");
+    REQUIRE (list != nullptr);
+    w.stage->move (w.stage->getLocalPoint (list, juce::Point<float> (60.0f, 24.0f)));
+    w.stage->press();
+    w.stage->hold();
+    w.stage->release();
+    WindowRig::settle();
+    CHECK (w.view->canvas().selection() == Selection { w.graph().root.find ("drag")->id });
+}
+
+TEST_CASE ("pressing the surface before there is a graph starts nothing", "[app][mouse]")
+{
+    WindowRig w ({}, 1280, 720, false);
+    REQUIRE (w.view->welcomePage().isVisible());
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = w.middleOf (*surface);
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle (100);
+    CHECK_FALSE (w.view->run().isWanted());
+    CHECK (w.view->welcomePage().isVisible());
+    CHECK (showsText (*w.titled ("Hand"), "Nothing to feel yet: choose a preset, or add a node."));
+
+    w.click ("Dry wood");
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (w.view->run().isWanted());
+    w.view->run().letGo();
+}
+
+TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspector]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    w.key ("ctrl + a");
+    WindowRig::settle();
+    const auto& root = w.graph().root;
+    CHECK (showsText (w.view->inspected(), juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
+    const auto from = root.find (root.wires.front().from.node)->id, to = root.find (root.wires.front().to.node)->id;
+    const auto between = std::ranges::count_if (root.wires, [&] (const graph::Wire& v) {
+        const std::set<graph::Id> ends { root.find (v.from.node)->id, root.find (v.to.node)->id };
+        return std::ranges::includes (std::set { from, to }, ends);
+    });
+    canvas.select ({ from, to });
+    WindowRig::settle();
+    const auto wires = [&] (auto count) { return "2 nodes, " + juce::String (static_cast<int> (count)) + " wires"; };
+    CHECK (showsText (w.view->inspected(), wires (between)));
+    const auto& other = *std::ranges::find_if (root.wires, [&] (const graph::Wire& v) { return root.find (v.from.node)->id != from; });
+    canvas.select ({ from, to, other.id });
+    WindowRig::settle();
+    CHECK (showsText (w.view->inspected(), wires (between + 1)));
+    REQUIRE (w.view->document().perform (graph::RemoveWire { {}, other.id }));
+    WindowRig::settle();
+    CHECK (showsText (w.view->inspected(), wires (between)));
+}
