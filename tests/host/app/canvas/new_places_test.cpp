@@ -211,10 +211,12 @@ TEST_CASE ("a fit that is added to the graph gets a free place and its wires, in
     const auto& node = *canvas.scene().find (*made.begin());
     CHECK (node.type == "friction.elasto_plastic");
     std::set<std::string> wires;
+    const auto isNew = [&] (int i) { return made.contains (canvas.scene().nodes()[static_cast<std::size_t> (i)].id); };
     for (const auto& wire : canvas.scene().wires())
-        if (made.contains (canvas.scene().nodes()[static_cast<std::size_t> (wire.start)].id) || made.contains (canvas.scene().nodes()[static_cast<std::size_t> (wire.end)].id))
-            wires.insert (wire.text);
-    CHECK (wires == std::set<std::string> { "hand.position -> " + node.name + ".position", "board.resistance -> " + node.name + ".normal_force", node.name + ".force -> motor.force" });
+        if (isNew (wire.start) || isNew (wire.end)) wires.insert (wire.text);
+    CHECK (wires
+           == std::set<std::string> { "hand.position -> " + node.name + ".position", "board.resistance -> " + node.name + ".normal_force",
+                                      node.name + ".force -> motor.force" });
     CHECK (overlaps (canvas.scene(), made) == std::vector<std::string> {});
     CHECK (hiddenWires (canvas.scene(), made) == std::vector<std::string> {});
     CHECK (isInView (canvas, node.bounds()));
@@ -258,7 +260,9 @@ TEST_CASE ("new boxes go between what feeds them and what they feed, clear of bo
             std::vector<bool> placed;
             for (std::size_t i = 0; i < count; ++i)
             {
-                boxes.emplace_back (static_cast<float> (std::round (60.0 * random.normal()) * 8.0), static_cast<float> (std::round (40.0 * random.normal()) * 8.0), 120.0f, 80.0f);
+                const auto onGrid = [&] (double spread) { return static_cast<float> (8.0 * std::round (spread * random.normal())); };
+                const float x = onGrid (60.0);
+                boxes.emplace_back (x, onGrid (40.0), 120.0f, 80.0f);
                 placed.push_back (i % 4 != 0);
             }
             std::vector<Lead> leads;
