@@ -123,7 +123,6 @@ SafetyStrip::SafetyStrip (Playback& p)
         else if (! button->isTooSoon())   // the second click of a double click on STOP must not restart the run
             playback.restart();
     };
-    button->setTooltip (TRANS ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph keeps running."));
     addAndMakeVisible (*button);
     addChildComponent (limits);
 }
@@ -136,6 +135,9 @@ void SafetyStrip::refresh()
     auto now = stateOf (playback.current());
     if (now == shown) return;
     button->show (now.running ? TRANS ("STOP") : TRANS ("START"), now.running);
+    button->setTooltip (now.running ? TRANS ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph "
+                                             "keeps running.")
+                                    : TRANS ("Runs the graph. So does F5. The forces rise slowly."));
     rearm->setVisible (now.stopped_for_good);
     shown = std::move (now);
     repaint();
