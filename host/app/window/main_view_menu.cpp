@@ -66,6 +66,8 @@ public:
         return ! file.hasFileExtension (".json") || file.getSize() > most || isClipFile (file.getFullPathName().toStdString());
     }
 };
+/// A path may be relative, which juce::File does not take.
+juce::File fileAt (const std::filesystem::path& path) { return juce::File::getCurrentWorkingDirectory().getChildFile (fromUtf8 (path.string())); }
 }   // namespace
 
 /// The title of a dialog in which a file is saved, and the files that it shows.
@@ -193,7 +195,7 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 {
     if (saves) return askWhereToSave (SaveWords::of (begin), begin, std::move (chosen));
     using Choice = juce::FileBrowserComponent;
-    launchChooser (TRANS ("Open graph or clip"), graphs_and_clips, juce::File (begin.string()), Choice::openMode | Choice::canSelectFiles, std::move (chosen));
+    launchChooser (TRANS ("Open graph or clip"), graphs_and_clips, fileAt (begin), Choice::openMode | Choice::canSelectFiles, std::move (chosen));
 }
 
 /// A name without one of the endings gets that of the proposed name: in "film v1.2", the dot is part of the name.
@@ -201,7 +203,7 @@ void MainView::askWhereToSave (const SaveWords& words, const std::filesystem::pa
 {
     using Choice = juce::FileBrowserComponent;
     const auto ask = [this, words, begin, chosen = std::move (chosen)] (std::filesystem::path file) {
-        if (! juce::WildcardFileFilter (words.patterns, "*", {}).isFileSuitable (juce::File (fromUtf8 (file.string())))) file += begin.extension();
+        if (! juce::WildcardFileFilter (words.patterns, "*", {}).isFileSuitable (fileAt (file))) file += begin.extension();
         std::error_code failed;
         if (! std::filesystem::exists (file, failed)) return chosen (file);
         question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
@@ -209,7 +211,7 @@ void MainView::askWhereToSave (const SaveWords& words, const std::filesystem::pa
                         { TRANS ("Choose another name ..."), [this, words, file, chosen] { askWhereToSave (words, file, chosen); } },
                         { TRANS ("Cancel"), {} } });
     };
-    launchChooser (words.title, words.patterns, juce::File (begin.string()), Choice::saveMode | Choice::canSelectFiles, ask);
+    launchChooser (words.title, words.patterns, fileAt (begin), Choice::saveMode | Choice::canSelectFiles, ask);
 }
 
 void MainView::askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
@@ -217,7 +219,7 @@ void MainView::askForSetting (const juce::String& patterns, const std::filesyste
     static const ClipFilter only_clips;
     using Choice = juce::FileBrowserComponent;
     const auto folder = begin.empty() ? ownFolder() : begin;
-    launchChooser (TRANS ("Choose a file"), patterns, juce::File::getCurrentWorkingDirectory().getChildFile (fromUtf8 (folder.string())),
+    launchChooser (TRANS ("Choose a file"), patterns, fileAt (folder),
                    Choice::openMode | Choice::canSelectFiles, std::move (chosen));
     auto* dialog = getCurrentlyModalComponent();
     if (auto* browser = dialog != nullptr && patterns == clip_patterns ? browserIn (*dialog) : nullptr)
@@ -232,7 +234,7 @@ void MainView::askForRecording()
     const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory);
     launchChooser (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", recordings.isDirectory() ? recordings : home_folder,
                    juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const std::filesystem::path& file) {
-                       recordings = juce::File (file.parent_path().string());
+                       recordings = fileAt (file.parent_path());
                        fitRecordingIn (file);
                    });
 }
@@ -244,7 +246,7 @@ void MainView::askForMissing (const Message& m)
     if (! missing) return;
     auto begin = missing->expected.empty() ? std::filesystem::path (edited.graph().folder) : missing->expected.parent_path();
     if (std::error_code failed; ! std::filesystem::is_directory (begin, failed)) begin = ownFolder();
-    launchChooser (TRANS ("Choose a file"), patternsOf (missing->kind), juce::File (begin.string()),
+    launchChooser (TRANS ("Choose a file"), patternsOf (missing->kind), fileAt (begin),
                    juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this, m] (const std::filesystem::path& file) {
                        if (const auto now = missingFileOf (edited.graph(), m)) edited.perform (useFile (edited.graph(), *now, file));
                    });
@@ -271,6 +273,9 @@ void MainView::launchChooser (const juce::String& title, const juce::String& pat
     dialog->setBounds (dialog->getBounds().constrainedWithin (getLocalBounds().withTrimmedTop (SafetyStrip::height)));   // STOP stays within reach
     if (auto* browser = browserIn (*dialog))
     {
+        // JUCE takes what is typed into its list of places for an absolute path; a path can be typed as the name.
+        for (auto* child : browser->getChildren())
+            if (auto* places = dynamic_cast<juce::ComboBox*> (child)) places->setEditableText (false);
         path_keys = std::make_unique<PathKeys> (*browser);
         name->addKeyListener (path_keys.get());
     }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace tactus::host
@@ -225,7 +226,7 @@ void HandPanel::showSource (const LiveRun::Hand& hand)
         if (hand.kind == Kind::path && gestures()[i].id == hand.path) id = first_gesture + static_cast<int> (i);
     if (id == by_recording)
     {
-        const auto name = filled (TRANS ("Recording: %1"), juce::File (hand.path).getFileName());
+        const auto name = filled (TRANS ("Recording: %1"), fromUtf8 (std::filesystem::path (hand.path).filename().string()));
         source.indexOfItemId (by_recording) < 0 ? source.addItem (name, by_recording) : source.changeItemText (by_recording, name);
     }
     if (source.getSelectedId() != id) source.setSelectedId (id, juce::dontSendNotification);
