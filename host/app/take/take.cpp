@@ -41,16 +41,12 @@ void Take::record()
     playback.run().logNextTo (current->file, program);
     playback.startAgain();
     began = std::chrono::steady_clock::now();
-    hand = playback.run().hand();
-    is_ended = false;
     now = State::recording;
 }
 
 void Take::stop()
 {
-    if (now != State::recording) return;
-    is_ended = true;
-    playback.run().stopLogging();
+    if (now == State::recording) playback.run().stopLogging();
 }
 
 double Take::seconds() const noexcept
@@ -78,12 +74,6 @@ void Take::poll()
     {
         if (seconds() > longest_s) stop();
         if (playback.run().isLogging()) return;
-        if (! is_ended && playback.run().isRunning() && playback.run().hand() != hand)
-        {
-            record();
-            if (onBegunAgain) onBegunAgain();
-            return;
-        }
         std::error_code failed;
         const bool is_there = std::filesystem::file_size (current->file, failed) > 0 && ! failed;
         current->length_s = seconds();

@@ -47,9 +47,8 @@ public:
         bool is_saved = false;   ///< it was saved, or something was made of it
     };
 
-    /// Starts the run again, and records it. If the user takes the tool with another hand meanwhile, the recording begins again with that hand.
-    void record();
-    void stop();   ///< ends the recording; the run goes on
+    void record();   ///< starts the run again, and records it
+    void stop();     ///< ends the recording; the run goes on
 
     State state() const noexcept { return now; }
     double seconds() const noexcept;   ///< the length so far, or of the complete recording
@@ -59,8 +58,7 @@ public:
 
     void poll();   ///< call many times a second
 
-    std::function<void()> onRecorded;     ///< called when a recording is complete
-    std::function<void()> onBegunAgain;   ///< called when a recording has begun again with another hand
+    std::function<void()> onRecorded;   ///< called when a recording is complete
 
     /// The recording, complete or not; null if there is none.
     const std::shared_ptr<Recording>& recorded() const noexcept { return current; }
@@ -82,8 +80,6 @@ private:
     State now = State::empty;
     std::shared_ptr<Recording> current;
     std::chrono::steady_clock::time_point began;
-    LiveRun::Hand hand {};   // that moves the tool of the recording
-    bool is_ended = false;   // by stop()
     std::unique_ptr<StretchReader> reader;
     std::function<void (Result<Stretch>)> done;
 };

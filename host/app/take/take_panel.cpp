@@ -61,9 +61,6 @@ TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (
     };
     curve.setText (juce::translate (how_to));
     recording.onRecorded = [this] { recorded(); };
-    recording.onBegunAgain = [this] {
-        if (onHint) onHint (TRANS ("The take begins again with this hand"));
-    };
     for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &ports, &from, &until, &clip, &gesture, &test })
         addAndMakeVisible (child);
     document.add (*this);

@@ -3,14 +3,15 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <cmath>
 #include <optional>
 
 namespace tactus::host
 {
 
 /// Where a window that opened as large as the screen goes when its frame is known, so that the title bar and the lower edge are on the screen, too.
-/// By then the window manager may have moved the window. Empty if it has another size: whoever gave it that has seen the frame. `scale` is the number
-/// of pixels in which the frame is measured per unit of the other arguments.
+/// The window manager may have moved the window by then. Empty if the window no longer has the size of the screen: then the user or the window manager
+/// has resized it. `scale`: pixels of the frame per unit of the other arguments.
 inline std::optional<juce::Rectangle<int>> besideFrame (juce::Rectangle<int> window, juce::Rectangle<int> screen, juce::BorderSize<int> frame, double scale)
 {
     if (window.withZeroOrigin() != screen.withZeroOrigin()) return {};

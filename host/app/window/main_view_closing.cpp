@@ -21,7 +21,7 @@ juce::String waitingText (double part)
 
 void MainView::closeWhenSaved (std::function<void()> close)
 {
-    close_after_film = nullptr;   // the questions begin anew
+    close_after_film = nullptr;   // the questions start again
     files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] { closeWithTake (close); });
 }
 

@@ -74,30 +74,6 @@ TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take an
     unsetenv ("TACTUS_GRAPHS");
 }
 
-TEST_CASE ("who presses the surface during a take takes the tool\\, and the take begins again with that hand", "[app][take]")
-{
-    WindowRig w ("dry_wood.json", 1280, 720, false);
-    auto& run = w.view->run();
-    auto& take = w.view->takePanel().take();
-    w.click ("Take");
-    w.click ("Record");
-    REQUIRE (waitFor ([&] { return run.isLogging() && run.isRunning(); }));
-    REQUIRE (run.hand().kind == LiveRun::Hand::Kind::described);
-    const auto first = take.recorded();
-    auto* surface = w.titled ("Surface");
-    REQUIRE (surface != nullptr);
-    const auto at = [&] (float x) { return w.stage->getLocalPoint (surface, juce::Point<float> (x, surface->getLocalBounds().toFloat().getCentreY())); };
-    w.stage->drag (at (40.0f), at (80.0f));
-    REQUIRE (waitFor ([&] { return run.hand().kind == LiveRun::Hand::Kind::pointer && take.recorded() != first; }));
-    CHECK (take.state() == Take::State::recording);
-    REQUIRE (waitFor ([&] { return run.isLogging() && w.view->takePanel().plot().length() > 0.05; }));
-    w.click ("Stop");
-    REQUIRE (waitFor ([&] { return take.state() == Take::State::ready; }));
-    CHECK (run.isRunning());
-    CHECK (take.recorded()->length_s > 0.05);
-    run.letGo();
-}
-
 TEST_CASE ("a take can be undone\\, which brings back the one before", "[app][take]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
