@@ -61,7 +61,7 @@ void Take::read (StretchReader::Options options, std::function<void (Result<Stre
     options.assets = &assets;
     options.services.nearest_triangle = nearestByEmbree;
     options.program = program;
-    auto opened = StretchReader::open (current->file.string(), std::move (options));
+    auto opened = StretchReader::open (current->file.string(), options);
     if (! opened) return then (std::move (opened).error());
     reader = std::move (*opened);
     done = std::move (then);
