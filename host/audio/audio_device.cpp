@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "audio_device.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace tactus::host::audio
 {
 
 void AudioDevice::prepare (double dt_s)
 {
+    constexpr double open_s = 0.2;
+    shuts = dt_s / Guard::fade_s;
+    opens = dt_s / open_s;
+    gate = 1.0;
     filters.clear();
     for (const auto& use : role.outputs)
         filters.emplace_back (use.high_pass_hz, 1.0 / dt_s);
@@ -19,13 +26,27 @@ Reading AudioDevice::read() noexcept
     return reading;
 }
 
+/// Without the gate, a steady signal that the filter has removed would come back as a push while the guard fades it out. So the gate takes what
+/// was played last to zero, and the filter starts anew behind it. Once it begins to shut, it shuts.
 void AudioDevice::write (const Effort& guarded) noexcept
 {
+    const double before = gate;
+    is_shutting = std::exchange (is_withheld, false) || (is_shutting && before > 0.0);
+    gate = is_shutting ? std::max (0.0, before - shuts) : std::min (1.0, before + opens);
     for (std::size_t i = 0; i < filters.size(); ++i)
     {
         const auto& use = role.outputs[i];
         const auto at = static_cast<int> (i);
-        samples.set (at, filters[i](use.gain * guarded.signals[at] / use.full_scale.value));
+        const double sample = use.gain * guarded.signals[at] / use.full_scale.value;
+        if (! filters[i].isOn())
+            samples.set (at, sample);
+        else if (is_shutting)
+        {
+            filters[i].reset();
+            samples.set (at, before > 0.0 ? samples[at] * (gate / before) : 0.0);
+        }
+        else
+            samples.set (at, gate * filters[i](sample));
     }
 }
 

@@ -18,6 +18,7 @@ namespace tactus::host::audio
 
 /// The signal inputs and outputs of a role on the run's sound card, between the guard and the streams. While the card is
 /// away, readings are not valid, so the guard holds the signals at zero; when the card is back, they ramp up.
+/// An output with a high-pass filter has a gate behind the filter. It shuts within Guard::fade_s when the guard stops, and reopens within 0.2 s.
 class AudioDevice final : public Device
 {
 public:
@@ -34,6 +35,7 @@ public:
     void limitSignals (double max, double max_slew) override;
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
+    void withhold() noexcept override { is_withheld = true; }
     DeviceLayout layout() const override
     {
         return { .signal_inputs = static_cast<int> (role.inputs.size()), .signal_outputs = static_cast<int> (role.outputs.size()) };
@@ -57,6 +59,9 @@ private:
     const std::function<void (const AudioDevice&)> on_end;
     std::vector<HighPass> filters;
     Channels heard, samples;
+    double shuts = 0.0, opens = 0.0;   // change of the gate's gain per tick
+    double gate = 1.0;                 // of outputs with a filter
+    bool is_withheld = false, is_shutting = false;
     std::span<ChannelLimit> limited;   // the channels of the card, once it is chosen   [main thread]
     double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
 };

@@ -24,6 +24,9 @@ public:
         filter = Biquad { b0 / a0, b1 / a0, b0 / a0, -2.0 * c / a0, (1.0 - alpha) / a0 };
     }
 
+    bool isOn() const noexcept { return filter.has_value(); }
+    void reset() noexcept { state = {}; }   ///< forgets earlier input
+
     double operator() (double in) noexcept { return filter ? state (*filter, in) : in; }
 
 private:

@@ -5,13 +5,16 @@
 
 #include "support/sketch.hpp"
 
+#include <host/audio/audio_device.hpp>
 #include <host/audio/open_audio.hpp>
+#include <support/property.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,6 +188,56 @@ TEST_CASE ("the overshoot of a high-pass filter stays within the limits of the r
     slow.run (1.0);
     CHECK (slow.peak() <= most);
     CHECK (slow.steepest() <= slew * 1.001);
+}
+
+TEST_CASE ("a stop does not push through a high-pass filter that has removed a steady signal", "[audio][safety]")
+{
+    for (const auto* cutoff : { "20 Hz", "5 Hz" })
+    {
+        INFO (cutoff);
+        const auto output = R"({ "channel": 1, "full_scale": "4 N", "high_pass": ")" + std::string (cutoff) + R"(" })";
+        auto wave = constant (2.0);
+        Bench b { addOut (wave, "out", 1, "stylus", "wave.out"), { { "stylus", roleOn (output, "") } } };
+        b.run (1.0);
+        REQUIRE (std::abs (b.card.played[0].back()) < 1e-3f);   // the filter has removed it
+        const auto from = b.card.played[0].size();
+        b.engine->emergencyStop();
+        b.run (0.5);
+        for (auto i = from; i < b.card.played[0].size(); ++i)
+            REQUIRE (std::abs (b.card.played[0][i]) < 1e-3f);   // 0.3 without the gate
+        b.engine->rearm();
+        b.run (0.5);
+        CHECK (b.peak() < 2.5);   // at the first start; never a step by twice the signal
+    }
+}
+
+TEST_CASE ("a filtered output of a role falls to zero within the time of the guard, from whatever it played", "[audio][safety]")
+{
+    test::property ("for any signal and any stops", [] {
+        constexpr double dt = 1.0 / 4000.0;
+        AudioRole role;
+        role.outputs.push_back ({ .channel = 1, .high_pass_hz = *rc::gen::elementOf (std::vector { 1.0, 20.0, 300.0 }) });
+        const std::atomic<bool> plays = true;
+        AudioDevice device { role, plays, [] (const AudioDevice&) {} };
+        device.prepare (dt);
+        const auto stops = *rc::gen::container<std::vector<bool>> (40, rc::gen::arbitrary<bool>());   // 50 ticks each
+        const double frequency = *rc::gen::elementOf (std::vector { 0.0, 7.0, 150.0 });
+        double open = 0.0, before = 0.0;
+        for (std::size_t k = 0; k < 50 * stops.size(); ++k)
+        {
+            const bool is_stopped = stops[k / 50];
+            open = is_stopped ? std::max (0.0, open - dt / Guard::fade_s) : std::min (1.0, open + dt / 0.05);
+            Effort effort;
+            effort.signals.set (0, 2.0 * open * std::cos (2.0 * std::numbers::pi * frequency * static_cast<double> (k) * dt));
+            if (is_stopped) device.withhold();
+            device.write (effort);
+            double played = 0.0;
+            device.addTo ({ &played, 1 });
+            if (is_stopped) RC_ASSERT (std::abs (played) <= std::abs (before));
+            if (is_stopped && k % 50 > 20) RC_ASSERT (played == 0.0);
+            before = played;
+        }
+    });
 }
 
 TEST_CASE ("a route onto the channel of a role obeys the limits of the role; other channels are unchanged, bit for bit", "[audio][safety]")
