@@ -6,6 +6,7 @@
 #include <tactus/run/engine.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -258,6 +259,17 @@ std::string bytesField (int field, const std::string& content)
     return varint (static_cast<std::uint64_t> (field << 3 | 2)) + varint (content.size()) + content;
 }
 
+/// The zone in the middle of a detent in which the knob does not pull, to each side.
+double deadZone (const KnobConfig& config) { return std::min (0.2 * config.width, turn / 360.0); }
+
+/// The largest torque that a knob with this configuration gives, in N m. Beyond a stop it rises to the most volts.
+double strongestOf (const KnobConfig& config, double torque_per_volt)
+{
+    const double volts = KnobLaw::volts_per_rad * config.detent_strength * (config.snap_point * config.width - deadZone (config));
+    const bool has_stops = config.hasEnds() && config.endstop_strength > 0.0;
+    return torque_per_volt * (has_stops ? KnobLaw::most_volts : std::min (volts, KnobLaw::most_volts));
+}
+
 std::uint32_t crcOf (const std::string& text) { return hid::crc32 ({ reinterpret_cast<const std::uint8_t*> (text.data()), text.size() }); }
 
 /// Not all of it can be chosen by a graph: the colour, and a lean of the snap point, stay 0.
@@ -275,7 +287,6 @@ KnobLaw::KnobLaw (const KnobConfig& c) noexcept : config (c), centre (c.sub_posi
 
 KnobLaw::Pull KnobLaw::operator() (double angle) noexcept
 {
-    constexpr double dead_share = 0.2, dead_angle = turn / 360.0;
     double off = angle - centre;
     const double snap = config.width * config.snap_point;
     if (off > snap && (! config.hasEnds() || position > config.min_position))
@@ -290,12 +301,12 @@ KnobLaw::Pull KnobLaw::operator() (double angle) noexcept
         off += config.width;
         ++position;
     }
-    const double dead = std::min (dead_share * config.width, dead_angle);
+    const double dead = deadZone (config);
     const bool at_end = config.hasEnds() && ((off > 0.0 && position == config.min_position) || (off < 0.0 && position == config.max_position));
     return { .angle = std::clamp (off, -dead, dead) - off, .at_end = at_end };
 }
 
-Result<KnobFit> fitKnob (const std::shared_ptr<Plan>& plan, const KnobOptions& options)
+Result<KnobFit> fitKnob (const std::shared_ptr<Plan>& plan, const KnobOptions& options, double max_torque)
 {
     if (plan->roles().size() != 1)
         return refusal ("smartknob/role", "a SmartKnob has one axis, but the graph has " + std::to_string (plan->roles().size()) + " roles",
@@ -338,6 +349,11 @@ Result<KnobFit> fitKnob (const std::shared_ptr<Plan>& plan, const KnobOptions& o
                         "the detents need " + roundedText (most_volts, 3) + " V at a motor of " + roundedText (fit.torque_per_volt, 3)
                             + " N*m per volt; the knob gives at most " + roundedText (KnobLaw::most_volts, 3) + " V",
                         "make the detents weaker, or say how strong the motor is: --torque-per-volt \"5 mN*m\"");
+    if (const double strongest = strongestOf (fit.config, fit.torque_per_volt); strongest > max_torque)
+        return refusal ("smartknob/limit",
+                        "the knob could give " + roundedText (strongest, 3) + " N*m" + (fit.config.hasEnds() ? " at its stops" : "") + ", but the role "
+                            + quote (plan->roles().front().name) + " is limited to " + roundedText (max_torque, 3) + " N*m, and no guard comes after a SmartKnob",
+                        fit.config.hasEnds() ? "allow the role more, or leave out the stops" : "make the detents weaker, or allow the role more");
     if (off > 0.5 * all)
         return refusal ("smartknob/shape",
                         "the torque differs from the closest that a SmartKnob can do by " + percent (std::sqrt (off / all))
@@ -390,6 +406,7 @@ std::vector<std::pair<std::string, std::string>> knobFiles (const std::string& s
     readme += "| difference of the knob's torque, root mean square | " + inMillinewtons (fit.rms) + " |\n";
     readme += "| torque of the motor per volt | " + inMillinewtons (fit.torque_per_volt) + (is_guess ? ", a guess" : "") + " |\n\n";
     readme += "The knob damps its own motion, and lets its detents follow a knob that rests; neither is in these numbers.\n";
+    readme += "Of the limits of the role, the export keeps the largest torque. The firmware has no guard: it does not keep the others.\n";
     return { { stem + ".json", json.dump (2) + "\n" }, { stem + ".bin", knobMessage (config) }, { "README.md", readme } };
 }
 

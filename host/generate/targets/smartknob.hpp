@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/plan/compile.hpp>
+#include <tactus/run/guard.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/result.hpp>
 
@@ -69,8 +70,9 @@ struct KnobFit
 /// Turns the knob of a graph by half a turn to each side and back, so slowly that all torques settle, and finds the configuration whose torques come
 /// closest. The graph must have one role, whose torque about z depends on its rotation about z alone. Ids, all errors: smartknob/role,
 /// smartknob/moves (the torque does not settle), smartknob/no_detent, smartknob/uneven, smartknob/fine, smartknob/shape (less than half of the power
-/// of the torque is the knob's), smartknob/strong. [main thread]
-Result<KnobFit> fitKnob (const std::shared_ptr<Plan>&, const KnobOptions&);
+/// of the torque is the knob's), smartknob/strong, smartknob/limit (the knob could give more than `max_torque` of the role: no guard comes after it).
+/// [main thread]
+Result<KnobFit> fitKnob (const std::shared_ptr<Plan>&, const KnobOptions&, double max_torque = GuardLimits::none);
 
 /// The files of an export: the configuration as JSON, a message that sets it, as it goes on the serial line, and how to use them. Appends warnings:
 /// smartknob/shape, smartknob/torque.

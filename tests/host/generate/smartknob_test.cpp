@@ -221,6 +221,15 @@ TEST_CASE ("what a SmartKnob cannot do is refused with a remedy, and a guessed m
                                 "copy": { "type": "signal.expression", "settings": { "inputs": 1, "text": "in0" } })";
     CHECK (problemOf (knobWith (springs, second, R"(, "other.rotation.z -> copy.in[0]", "copy.out -> push.torque.z")")) == "smartknob/role");
 
+    // A limit of the role that the knob, which has no guard, could exceed.
+    const auto limited = [&] (const std::string& formula, const char* most) {
+        auto graph = knobWith (formula);
+        graph.devices.front().second["guard"] = { { "max_torque", most } };
+        return problemOf (graph);
+    };
+    CHECK (limited (springs, "2 mN*m") == "smartknob/limit");
+    CHECK (limited (springs, "100 mN*m").empty());
+
     const auto guessed = knobOf (knobWith (springs), 0.0);
     REQUIRE (guessed.messages.size() == 1);
     CHECK (guessed.messages[0].id == "smartknob/torque");
