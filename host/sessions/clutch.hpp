@@ -17,7 +17,8 @@ namespace tactus::host
 ///
 /// moveTo() puts the workspace elsewhere by the same steps, so that the tool is at another place of the graph. Then signals have to be zero, too, and
 /// the reading is not valid for at least one tick: the guard takes what comes after it for a device that is somewhere else now, not for one that has
-/// moved at a great speed, and its ramp begins. Allocates nothing. [tick thread]
+/// moved at a great speed, and its ramp begins. Nodes of other roles that use this position see it jump, without a ramp: a run with several roles must begin
+/// again instead. Allocates nothing. [tick thread]
 class Clutch
 {
 public:

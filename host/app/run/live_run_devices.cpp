@@ -112,7 +112,7 @@ bool LiveRun::holdWorkspace (bool is_held)
 }
 
 /// Moves the devices whose offset is all that differs between the session of the run and this one. False if more differs, so that the run has to begin
-/// again.
+/// again. Also false if there is another role: the place of the tool steps for its nodes, too, and only the guard of the role that moves knows.
 bool LiveRun::moveWorkspaces (const DeviceSession& now)
 {
     const auto withoutOffset = [] (const Json* binding) {
@@ -135,6 +135,7 @@ bool LiveRun::moveWorkspaces (const DeviceSession& now)
         if (hasErrors (binding->messages)) return false;
         moves.emplace_back (device, binding->workspace.offset);
     }
+    if (! moves.empty() && session->engine().newest().roles().size() > 1) return false;
     for (const auto& [device, offset] : moves)
         device->moveTo (offset);
     return true;

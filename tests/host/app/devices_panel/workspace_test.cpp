@@ -31,10 +31,10 @@ constexpr double ramp_s = 0.05, strongest = 4.0;
 /// The window with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
 struct Bench : WindowRig
 {
-    Bench() : WindowRig ("dry_wood.json", 1600, 1000)
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
     {
         click ("Devices");
-        panel().bind ("stylus", "simulated PHANTOM 1.0");
+        panel().bind (role, "simulated PHANTOM 1.0");
         set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
         set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
         REQUIRE (binding().contains ("hand"));
@@ -45,12 +45,14 @@ struct Bench : WindowRig
     Bench (const Bench&) = delete;
     Bench& operator= (const Bench&) = delete;
 
+    const std::string role;
+
     DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
     SceneView& scene() { return *partIn<SceneView> (*view); }
-    void set (const char* pointer, const char* text) { panel().setPart ("stylus", pointer, text); }
+    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
-    Json binding() const { return saved()["roles"]["stylus"]; }
+    Json binding() const { return saved()["roles"][role]; }
     Json workspace() const { return binding().value ("workspace", Json()); }
 
     template <typename F>
@@ -69,7 +71,7 @@ struct Bench : WindowRig
         REQUIRE (until ([&] { return view->run().tool() && force() > 0.0 && ticks() > 0; }));
     }
     double force() { return view->run().tool() ? view->run().tool()->force.norm() : 0.0; }
-    Vec3 origin() { return view->run().workspaceOf ("stylus")->offset; }
+    Vec3 origin() { return view->run().workspaceOf (role)->offset; }
 
     /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
     juce::TextEditor& field (const juce::String& label)
@@ -266,6 +268,21 @@ TEST_CASE ("a workspace that is typed while the graph runs moves the tool withou
     w.type ("axes", "-x y z");
     CHECK (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
     w.checkSteps();
+}
+
+TEST_CASE ("where there are two hands, a workspace that is moved begins another run: the guard of the other hand would not know of it",
+           "[app][sessions][safety]")
+{
+    Bench w { "two_fingers.json", "thumb" };
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F5");
+    REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.ticks() > 0; }));
+    const auto begun = w.view->run().film().last (60.0).ticks.front().tick;
+    w.type ("offset", "[0, 0, \"-1 mm\"]");
+    CHECK (w.until ([&] {
+        const auto film = w.view->run().film().last (60.0);
+        return w.view->run().isRunning() && w.origin() == Vec3 (0.0, 0.0, -0.001) && ! film.ticks.empty() && film.ticks.front().tick != begun;
+    }));
 }
 
 TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves it while the graph runs", "[app][scene][sessions][undo]")
