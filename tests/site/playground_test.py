@@ -62,6 +62,7 @@ class Board extends EventTarget
 window.board = new Board();
 Object.defineProperty (navigator, 'hid', { value: Object.assign (new EventTarget(), {
     requestDevice: async options => { window.filters = options.filters; return [window.board]; } }) });
+window.AudioContext = class extends AudioContext { constructor (options) { super (options); window.sound = this; } };
 """
 
 UNNAMED = """
@@ -241,10 +242,19 @@ class Playground(unittest.TestCase):
         self.id_click("stop")
         self.until_force("force === 0")
         self.release()
+        self.open("preset=dry_wood")
+        self.id("stop").click()   # before there is an engine
+        self.record(self.press_only)
+        self.release()
+        self.assertEqual(self.force(), 0.0)
+        self.assertIn("you stopped it", self.id("status").text)
+        self.id("rearm").click()
+        self.press()
+        self.release()
 
-    def press_only(self):
+    def press_only(self, depth=0.49):
         pad = self.id("pad")
-        ActionChains(self.page).move_to_element(pad).click_and_hold().move_by_offset(10, int(0.49 * pad.size["height"])).perform()
+        ActionChains(self.page).move_to_element(pad).click_and_hold().move_by_offset(10, int(depth * pad.size["height"])).perform()
 
     def touch(self, kind, *points):
         self.page.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
@@ -295,6 +305,70 @@ class Playground(unittest.TestCase):
         self.id("disconnect").click()
         self.until("return window.board.is_closed === true")
         self.assertEqual(self.run_script("return window.board.last().drives"), 0)
+
+    def connect(self, preset, z):
+        """Connects the board with the first role of a preset, and waits for its force."""
+        self.open(f"preset={preset}")
+        self.id("connect").click()
+        self.until("return ! document.getElementById ('disconnect').hidden")
+        self.run_script("window.board.z = arguments[0]", z)
+        self.until("return window.board.sent.length > 0 && window.board.last().force > 0.3")
+
+    def let_pass(self, count):
+        """Waits for this many more reports to the board, and returns their forces."""
+        before = self.run_script("return window.board.sent.length")
+        self.until("return window.board.sent.length >= arguments[0]", before + count)
+        return self.run_script("return window.board.sent.slice (arguments[0]).map (bytes => { const data = new DataView (Uint8Array.from (bytes).buffer);"
+                               "return Math.hypot (...[8, 12, 16].map (at => data.getInt32 (at, true) * 1e-6)); })", before)
+
+    def test_a_board_keeps_its_role_when_another_hand_is_chosen(self):
+        self.connect("two_fingers", -0.003)
+        self.assertIn("as index", self.id("device").text)
+        self.run_script("window.board.z = 0.003")
+        self.until("return window.board.last().force === 0")
+        self.run_script("const hand = document.getElementById ('hand'); hand.value = 1; hand.dispatchEvent (new Event ('change'))")
+        self.press_only(0.2)
+        self.until_force("force > 0.5")
+        self.assertLess(max(self.let_pass(50)), 0.5)   # the cork creaks, which both fingers feel
+        self.run_script("window.board.z = -0.003")
+        self.until("return window.board.last().force > 0.3")
+        self.assertLessEqual(max(self.let_pass(50)), 2.00001)
+        self.run_script("window.board.is_silent = true")   # the watchdog of its own role
+        self.until("return window.board.last().force === 0")
+        self.assertEqual(max(self.let_pass(50)), 0.0)
+        self.until_force("force > 0.5")
+        self.release()
+
+    def test_a_latched_stop_lasts_until_start(self):
+        self.connect("dry_wood", -0.0005)
+        self.until("window.board.z = window.board.z > 0 ? -0.0005 : 0.1;"   # faster than the profile of the board allows
+                   "return document.getElementById ('status').textContent.includes ('too fast')")
+        self.run_script("window.board.z = -0.0005")
+        self.until("return window.board.last().force === 0")
+        self.record(lambda: self.assertEqual(max(self.let_pass(50)), 0.0))
+        self.assertTrue(self.id("rearm").is_displayed())
+        for preset in ("two_fingers", "dry_wood"):
+            self.run_script("const list = document.getElementById ('preset'); list.value = arguments[0]; list.dispatchEvent (new Event ('change'))", preset)
+            self.until("return location.hash.includes (arguments[0]) && document.getElementById ('status').textContent.includes ('too fast')", preset)
+            self.assertEqual(max(self.let_pass(50)), 0.0)
+        self.id("disconnect").click()
+        self.until("return window.board.is_closed === true")
+        self.id("connect").click()
+        self.until("return ! document.getElementById ('disconnect').hidden")
+        self.assertEqual(max(self.let_pass(50)), 0.0)
+        self.id("rearm").click()
+        self.until("return window.board.last().force > 0.3")
+
+    def test_a_silence_brings_the_board_to_rest(self):
+        self.connect("dry_wood", -0.0005)
+        before = self.run_script("for (const end = performance.now() + 150; performance.now() < end;); return window.board.sent.length")   # the page stalls
+        self.until("return window.board.sent.length > arguments[0]", before)
+        self.assertIn(0, self.run_script("return [-1, 0].map (i => window.board.sent[arguments[0] + i][2] & 1)", before))   # -1: it rested already
+        self.until("return window.board.last().force > 0.3")
+        self.run_script("window.sound.suspend()")
+        self.until("return window.board.last().drives === 0")
+        self.run_script("window.sound.resume()")
+        self.until("return window.board.last().force > 0.3")
 
     def test_every_preset_is_what_render_computes(self):
         for preset in json.loads((self.site / "presets.json").read_text())["presets"]:
@@ -352,5 +426,6 @@ if __name__ == "__main__":
         print("skipped: needs chromium, chromium-driver and python3-selenium")
         sys.exit(77)
     Playground.tactus, Playground.site = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    subprocess.run(["node", HERE / "reports_test.mjs", Playground.site], check=True)
+    for test in ("reports_test.mjs", "playground_device_test.mjs"):
+        subprocess.run(["node", HERE / test, Playground.site], check=True)
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

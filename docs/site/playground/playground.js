@@ -7,12 +7,14 @@ import { heightsOf } from './scene.js';
 const $ = id => document.getElementById (id);
 const pad = $('pad'), scope = $('scope');
 const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow',
-                released: 'a button is released', halted: 'it is halted', speed: 'the hand was too fast', impulse: 'it pushed for too long',
+                released: 'a button is released', halted: 'the device comes to rest first', speed: 'the hand was too fast', impulse: 'it pushed for too long',
                 energy: 'it gave too much energy', emergency: 'you stopped it' };
 
+const longest_rumble_ms = 100;
+
 let presets = [], preset = null, about = null, module_bytes = null;
-let engine = null, context = null, device = null, recording = false;
-let state = { positions: [], efforts: [], stops: [], rumble: 0 };
+let engine = null, context = null, device = null, recording = false, is_stopped = false;
+let state = { positions: [], efforts: [], stops: [], rumble: 0 }, reason;
 let heights = null, wanted = [], chosen = 0, pressing = new Map(), forces = [], trail = [];
 
 function say (text) { $('status').textContent = text; }
@@ -43,6 +45,7 @@ async function choose (id)
     about = loaded;
     wanted = about.roles.map (role => start (role.name));
     state = { positions: wanted.map (one => [...one]), efforts: [], stops: [], rumble: 0 };
+    reason = undefined;
     trail = [];
     forces = [];
     makeKnobs();
@@ -126,32 +129,36 @@ async function begin()
 
 function load()
 {
+    if (is_stopped) engine.port.postMessage ({ stop: true });
     engine.port.postMessage ({ load: { bytes: module_bytes, about, knobs: knobs(), starts: wanted } });
     engine.port.postMessage ({ show: chosen });
     engine.port.postMessage ({ volume: Number ($('volume').value) });
-    if (device?.hasForce) useDevice();
+    useDevice();
 }
 
 function receive (data)
 {
     if (data.loaded === about.name) say (`${about.title} is running.`);
     if (data.recorded) keepRecording (data.recorded);
-    if (! data.state || data.state.positions.length !== about.roles.length) return;
-    const before = state.stops[chosen];
+    if (! data.state) return;
+    device?.receive (data.state);
+    if (data.state.positions.length !== about.roles.length) return;
     state = data.state;
     for (let i = 0; i < state.scope.length; i += 3)
         forces.push (state.scope.slice (i, i + 3));
     forces.splice (0, Math.max (0, forces.length - 2000));
-    device?.write (state.efforts[chosen], state.rumble);
-    const now = state.stops[chosen];
-    if (now === before) return;
-    $('rearm').hidden = ! ['speed', 'impulse', 'energy', 'emergency'].includes (now);
+    const now = state.latched ?? state.stops[device?.role ?? chosen];
+    if (now === reason || (now === 'halted' && ! device)) return;
+    if (now !== 'none') quiet();
+    $('rearm').hidden = ! state.latched;
     if (now !== 'none') say (`No force: ${words[now]}.`);
-    else if (before !== undefined) say (`${about.title} is running.`);
+    else if (reason !== undefined) say (`${about.title} is running.`);
+    reason = now;
 }
 
 function stop()
 {
+    is_stopped = true;
     device?.stop();
     engine?.port.postMessage ({ stop: true });
     $('rearm').hidden = false;
@@ -161,9 +168,11 @@ function stop()
 
 function rearm()
 {
+    is_stopped = false;
     device?.rearm();
     engine?.port.postMessage ({ rearm: true });
     $('rearm').hidden = true;
+    reason = undefined;   // a stop that has not ended is shown again
     say (about ? `${about.title} is running.` : '');
 }
 
@@ -264,15 +273,21 @@ function gamepads()
     if (! one || ! about) return;
     $('pads').textContent = `${one.id.split (' (')[0]} moves the hand with its left stick${one.vibrationActuator ? ' and rumbles' : '; it cannot rumble here'}.`;
     const [x, y] = one.axes;
-    if (Math.hypot (x, y) > 0.15 && pressing.size === 0 && ! device?.hasForce) moveHand (chosen, 0.5 + 0.5 * x, 0.5 + 0.5 * y);
+    if (Math.hypot (x, y) > 0.15 && pressing.size === 0 && ! device?.hasForce)
+        moveHand (chosen, 0.5 + 0.5 * x, 0.5 + 0.5 * y);
     if (one.buttons[1]?.pressed) stop();
-    if (state.rumble > 0.02 && state.stops[chosen] === 'none')
-        one.vibrationActuator?.playEffect ('dual-rumble', { duration: 100, strongMagnitude: state.rumble, weakMagnitude: state.rumble });
+    if (state.rumble > 0.02 && reason === 'none' && Date.now() - state.at < longest_rumble_ms)
+        one.vibrationActuator?.playEffect ('dual-rumble', { duration: longest_rumble_ms, strongMagnitude: state.rumble, weakMagnitude: state.rumble });
 }
 
+/** A device that has a force stays in the role that it gets here, whichever hand is chosen later. */
 function useDevice()
 {
-    engine?.port.postMessage ({ device: { role: chosen, limits: device.limits (about.limits) } });
+    if (! device) return;
+    device.role = device.hasForce ? chosen : undefined;
+    device.use (message => engine.port.postMessage (message), device.role, about.limits);
+    const role = about.roles.length > 1 && device.hasForce ? ` as ${about.roles[chosen].name}` : '';
+    $('device').textContent = `${device.profile.name} is connected${role}.`;
 }
 
 async function connect()
@@ -282,14 +297,14 @@ async function connect()
     await begin();
     const found = await HidDevice.request (profiles);
     if (! found) return;
+    if (device) await disconnect();
     device = found;
     device.onreading = reading => {
-        if (device?.hasForce) engine.port.postMessage ({ reading });
+        if (found.hasForce) engine.port.postMessage ({ reading });
         else if (Math.hypot (...reading.stick) > 0.15) moveHand (chosen, 0.5 + 0.5 * reading.stick[0], 0.5 - 0.5 * reading.stick[1]);
     };
-    if (! $('rearm').hidden) device.stop();
-    if (device.hasForce) useDevice();
-    $('device').textContent = `${device.profile.name} is connected.`;
+    if (is_stopped) device.stop();
+    useDevice();
     $('disconnect').hidden = false;
 }
 
@@ -297,7 +312,6 @@ async function disconnect()
 {
     const gone = device;
     device = null;
-    engine?.port.postMessage ({ device: null });
     $('disconnect').hidden = true;
     $('device').textContent = '';
     await gone?.close();
