@@ -256,8 +256,8 @@ int OpenedDevice::write (const Effort& effort, DriverReport& why) noexcept
     if (of->entry.write == nullptr) return TACTUS_DEVICE_OK;
     tactus_effort given {};
     given.size = sizeof given;
-    if (described.force) std::copy_n (effort.force.data(), 3, given.force);
-    if (described.torque) std::copy_n (effort.torque.data(), 3, given.torque);
+    Vec3::Map (given.force) = described.renderedForce (effort.force);
+    Vec3::Map (given.torque) = described.renderedTorque (effort.torque);
     // The driver gets what it has named, whatever the graph wires: nothing else has a limit.
     given.axis_count = static_cast<std::uint32_t> (described.layout.efforts.size());
     given.signal_count = static_cast<std::uint32_t> (described.layout.signal_outputs);

@@ -127,7 +127,7 @@ bool DriverAbout::isLike (const DriverAbout& other) const
 {
     const auto tool = [] (const DriverAbout& a) { return std::array { a.position, a.rotation, a.pressure, a.force, a.torque }; };
     return tool (*this) == tool (other) && layout == other.layout && rate_hz == other.rate_hz && limits == other.limits
-           && rest_reports.empty() == other.rest_reports.empty() && device_watchdog_s == other.device_watchdog_s;
+           && rest_reports.empty() == other.rest_reports.empty() && device_watchdog_s == other.device_watchdog_s && unrendered == other.unrendered;
 }
 
 DriverAbout readAbout (const tactus_device_about& given, bool can_write, Messages& messages)
@@ -141,6 +141,10 @@ DriverAbout readAbout (const tactus_device_about& given, bool can_write, Message
     a.force = has (TACTUS_DEVICE_FORCE);
     a.torque = has (TACTUS_DEVICE_TORQUE);
     if (given.tool >= 2 * TACTUS_DEVICE_TORQUE) check.bad ("gives its tool a part that this version of Tactus does not know");
+    constexpr std::uint32_t no_force = TACTUS_DEVICE_NO_FORCE_X | TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_FORCE_Z,
+                            no_torque = TACTUS_DEVICE_NO_TORQUE_X | TACTUS_DEVICE_NO_TORQUE_Y | TACTUS_DEVICE_NO_TORQUE_Z;
+    if (given.unrendered > (no_force | no_torque)) check.bad ("names a direction without a motor that this version of Tactus does not know");
+    a.unrendered = given.unrendered | (a.force ? 0u : no_force) | (a.torque ? 0u : no_torque);
     a.about = printableName (check.text (given.about, longest_text, "a sentence"));
 
     a.layout.axes = check.names (given.axes, given.axis_count, Channels::most, "axes", false);

@@ -7,6 +7,7 @@
 #include <tactus/tactus_device.h>
 #include <tactus/text/message.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,11 +26,24 @@ struct DriverAbout
     std::string rest_file {};
     std::vector<Failsafe::Report> rest_reports {};   ///< for the failsafe; none: only the watchdog of the device brings it to rest
     double device_watchdog_s = 0.0;
+    std::uint32_t unrendered = 0;   ///< TACTUS_DEVICE_NO_FORCE_X | …, all of a force or a torque that the device does not have
+
+    /// The part of a force or a torque that the motors render.
+    Vec3 renderedForce (const Vec3& all) const noexcept { return rendered (all, TACTUS_DEVICE_NO_FORCE_X); }
+    Vec3 renderedTorque (const Vec3& all) const noexcept { return rendered (all, TACTUS_DEVICE_NO_TORQUE_X); }
 
     bool takesEfforts() const noexcept { return force || torque || ! layout.efforts.empty() || layout.signal_outputs > 0; }
 
     /// True if a device that was opened again is the same: graphs and guards know its parts and limits.
     bool isLike (const DriverAbout&) const;
+
+private:
+    Vec3 rendered (Vec3 all, std::uint32_t first) const noexcept
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            if ((unrendered & first << axis) != 0) all[axis] = 0.0;
+        return all;
+    }
 };
 
 /// Copies and checks what a driver says. After errors, the device must not be used. `can_write`: the driver has the functions for efforts.

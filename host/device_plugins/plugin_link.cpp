@@ -388,8 +388,8 @@ void PluginDevice::Link::poll (Clock::time_point now)
     if (! about.takesEfforts() || (failsafe && ! failsafe->beat (true))) return;
 
     Effort wanted {};   // with what the driver has named: nothing else has a limit
-    if (about.force) wanted.force = Vec3 { latest.effort.force };
-    if (about.torque) wanted.torque = Vec3 { latest.effort.torque };
+    wanted.force = about.renderedForce (Vec3 { latest.effort.force });
+    wanted.torque = about.renderedTorque (Vec3 { latest.effort.torque });
     for (int i = static_cast<int> (latest.effort.axis_count) - 1; i >= 0; --i)
         wanted.axes.set (i, latest.effort.axes[i]);
     for (int i = static_cast<int> (latest.effort.signal_count) - 1; i >= 0; --i)

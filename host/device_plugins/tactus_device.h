@@ -72,6 +72,17 @@ enum
     TACTUS_DEVICE_TORQUE = 16
 };
 
+/** Directions of the force and the torque that no motor of the tool renders. */
+enum
+{
+    TACTUS_DEVICE_NO_FORCE_X = 1,
+    TACTUS_DEVICE_NO_FORCE_Y = 2,
+    TACTUS_DEVICE_NO_FORCE_Z = 4,
+    TACTUS_DEVICE_NO_TORQUE_X = 8,
+    TACTUS_DEVICE_NO_TORQUE_Y = 16,
+    TACTUS_DEVICE_NO_TORQUE_Z = 32
+};
+
 /** What a device is. Tactus copies it when `open` has returned. It must be the same each time the same device is opened. */
 typedef struct tactus_device_about
 {
@@ -103,11 +114,13 @@ typedef struct tactus_device_about
 
     double device_watchdog_s; /**< how long the device itself keeps an effort when nothing new comes, in s; 0: forever, or unknown. Without a rest_file,
                                    at most 0.5 s */
+    uint32_t unrendered;      /**< TACTUS_DEVICE_NO_FORCE_X | …: these parts are 0 in all efforts, and the guard does not count them; otherwise a force
+                                   that nobody feels could hide energy from it. 0: the motors render every direction */
 } tactus_device_about;
 
-#define TACTUS_DEVICE_ABOUT_INIT                                                                   \
-    {                                                                                              \
-        sizeof (tactus_device_about), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0, 0.0 \
+#define TACTUS_DEVICE_ABOUT_INIT                                                                      \
+    {                                                                                                 \
+        sizeof (tactus_device_about), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0, 0.0, 0 \
     }
 
 /** Why a device cannot be trusted, by its own account. */

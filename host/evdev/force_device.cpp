@@ -136,6 +136,8 @@ void ForceDevice::describe (tactus_device_about& to)
     const bool has_position = std::ranges::any_of (tool, [] (int axis) { return axis >= 0; });
     to.tool = (has_position ? TACTUS_DEVICE_POSITION : 0) | (turned >= 0 ? TACTUS_DEVICE_ROTATION : 0);
     if (pushes) to.tool |= calibration.turns ? TACTUS_DEVICE_TORQUE : TACTUS_DEVICE_FORCE;
+    if (to.size >= offsetof (tactus_device_about, unrendered) + sizeof to.unrendered)   // as pushTo() has it
+        to.unrendered = TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_FORCE_Z | TACTUS_DEVICE_NO_TORQUE_X | TACTUS_DEVICE_NO_TORQUE_Z;
     to.signal_outputs = rumbles ? 2 : 0;
     sentence = printableName (info.name) + " at " + printableName (info.path) + ".";
     to.about = sentence.c_str();

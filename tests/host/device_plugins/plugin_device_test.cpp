@@ -412,6 +412,35 @@ TEST_CASE ("a driver gets only efforts that it has named and limited", "[plugins
     CHECK (readingOf (*device, fake, good()).unrendered_force.x() == 5.0);
 }
 
+TEST_CASE ("a driver gets no force along a direction without a motor, and the run learns that nobody feels it", "[plugins][safety]")
+{
+    FakeDriver fake;
+    fake.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_FORCE | TACTUS_DEVICE_TORQUE;
+    fake.guard = R"({"max_force": "2 N", "max_torque": "1 N*m", "ramp": "10 ms", "watchdog": "50 ms"})";
+    const bool is_old = GENERATE (false, true);   // built before it could name such directions: all are rendered
+    if (! is_old) fake.changes = [] (tactus_device_about& about) { about.unrendered = TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_TORQUE_X; };
+    const auto device = fake.open();
+    readingOf (*device, fake, good());
+    device->write ({});
+    readingOf (*device, fake, good());
+    REQUIRE (FakeDriver::until ([&] {
+        device->write ({ .force = { 0.1, 0.2, 0.3 }, .torque = { 0.4, 0.5, 0.6 } });
+        return fake.lastEffort().force[0] == 0.1;
+    }));
+    const auto reading = readingOf (*device, fake, good());
+    if (is_old)
+    {
+        CHECK (Vec3 (fake.lastEffort().force) == Vec3 (0.1, 0.2, 0.3));
+        CHECK (reading.unrendered_force == Vec3 (Vec3::Zero()));
+        CHECK (reading.unrendered_torque == Vec3 (Vec3::Zero()));
+        return;
+    }
+    CHECK (Vec3 (fake.lastEffort().force) == Vec3 (0.1, 0.0, 0.3));
+    CHECK (Vec3 (fake.lastEffort().torque) == Vec3 (0.0, 0.5, 0.6));
+    CHECK (reading.unrendered_force == Vec3 (0.0, 0.2, 0.0));
+    CHECK (reading.unrendered_torque == Vec3 (0.4, 0.0, 0.0));
+}
+
 TEST_CASE ("a device that does not come to rest at the end is left to the guardian", "[plugins][safety]")
 {
     const TemporaryFolder folder;
@@ -624,6 +653,7 @@ TEST_CASE ("a driver that describes its device wrongly is refused, and its devic
     CHECK (idFor ([] (FakeDriver& f) { f.efforts = { "squeeze" }; }) == "device/no_limits");
     CHECK (idFor ([] (FakeDriver& f) { f.signal_outputs = 2; }) == "device/no_limits");
     CHECK (idFor ([] (FakeDriver& f) { f.tool = 1u << 20 | TACTUS_DEVICE_FORCE; }) == "device/bad_driver");
+    CHECK (idFor ([] (FakeDriver& f) { f.changes = [] (tactus_device_about& a) { a.unrendered = 64; }; }) == "device/bad_driver");
     CHECK (idFor ([] (FakeDriver& f) { f.axes = { "a", "a" }; }) == "device/bad_driver");
     CHECK (idFor ([] (FakeDriver& f) { f.axes = { "A b" }; }) == "device/bad_driver");
     CHECK (idFor ([] (FakeDriver& f) { f.axes = { nullptr }; }) == "device/bad_driver");

@@ -10,6 +10,7 @@
 
 #include <tactus/graph/graph.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -207,6 +208,47 @@ TEST_CASE ("a wheel that is unplugged is found again under another number, and n
     CHECK (w.opened->counts().departures == 1);
     w.opened.reset();
     CHECK (w.events.acting (again) == 0);
+}
+
+TEST_CASE ("a graph that brakes a stick along an axis without a motor hides no energy from the guard", "[evdev][safety]")
+{
+    Wheel stick;
+    stick.on.info.axes.push_back ({ .code = ABS_Y, .name = "y", .minimum = 0, .maximum = 65535, .value = 32768 });
+    stick.open ("/nowhere/event5", { { "full_force", "4 N" }, { "travel", { { "x", "12 cm" }, { "y", "12 cm" } } } });
+    auto limits = stick.limits;
+    CHECK (limits.max_energy == Approx (0.24));
+    limits.watchdog = GuardLimits::none;   // a busy computer does not end this run
+    Guard guard;
+    guard.prepare (limits, 1e-3);
+    constexpr double radius = 0.03, turns_per_s = 2.0, damping = 20.0;
+    const auto count = [] (double x) { return static_cast<int> (std::lround (65535.0 * (0.5 + x / 0.12))); };
+    double given = 0.0;    // to the hand by the motor, in J
+    double unlike = 0.0;   // what is said to be unrendered, and the force along y
+    int k = 0;
+    Vec3 asked = Vec3::Zero();
+    for (; k < 2500 && guard.stop() != Guard::Stop::energy; ++k)
+    {
+        // The hand moves in a circle. The graph pushes with it along x, and as much against it along y.
+        const double angle = 2.0 * 3.14159265358979 * turns_per_s * 1e-3 * k, speed = 2.0 * 3.14159265358979 * turns_per_s * radius;
+        const Vec3 at { radius * std::cos (angle), radius * std::sin (angle), 0.0 }, velocity { -speed * std::sin (angle), speed * std::cos (angle), 0.0 };
+        stick.events.send (stick.on, { { EV_ABS, ABS_X, count (at.x()), 0.0 }, { EV_ABS, ABS_Y, count (-at.y()), 0.0 }, { EV_SYN, SYN_REPORT, 0, 0.0 } });
+        auto& reading = stick.reading;
+        REQUIRE (eventually ([&] {
+            reading = stick.opened->read();
+            return (reading.position - at).norm() < 4e-6;
+        }));
+        reading.age = 0.0;
+        unlike = std::max (unlike, (reading.unrendered_force - Vec3 (0.0, asked.y(), 0.0)).norm());
+        const auto writes = stick.opened->counts().writes;
+        asked = guard ({ .force = { damping * velocity.x(), -damping * velocity.y(), 0.0 } }, reading).force;
+        given += asked.x() * velocity.x() * 1e-3;
+        stick.opened->write (asked.isZero (0.0) ? Effort {} : Effort { .force = asked });
+        REQUIRE (eventually ([&] { return stick.opened->counts().writes > writes; }));
+    }
+    CHECK (guard.stop() == Guard::Stop::energy);
+    CHECK (unlike < 1e-12);
+    CHECK (given < limits.max_energy * (1.0 + 1e-3 * k / limits.energy_window) + 0.01);
+    CHECK (given > 0.5 * limits.max_energy);
 }
 
 TEST_CASE ("an event device is chosen by its path, its name or a part of it, and what is wrong is said", "[evdev]")

@@ -106,6 +106,7 @@ TEST_CASE ("a wheel at an event device is a rotation and a torque with limits, a
     CHECK (std::string (about.axes[1]) == "z");
     REQUIRE (about.button_count == 2);
     CHECK (std::string (about.buttons[0]) == "trigger");
+    CHECK (about.unrendered == (TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_FORCE_Z | TACTUS_DEVICE_NO_TORQUE_X | TACTUS_DEVICE_NO_TORQUE_Z));
     CHECK (about.signal_outputs == 0);
     CHECK (about.device_watchdog_s == 0.5);
     CHECK (std::string (about.rest_file) == on.info.path);
@@ -128,6 +129,16 @@ TEST_CASE ("a wheel at an event device is a rotation and a torque with limits, a
     CHECK (limits.max_energy == 2.5);
     CHECK (limits.max_still == 5.0);   // a count is 0.24 mrad
     CHECK (limits.watchdog == 0.05);
+}
+
+TEST_CASE ("an event device describes itself to a Tactus whose structs are smaller", "[evdev]")
+{
+    Opened w { FakeEvents::wheel() };
+    tactus_device_about about = TACTUS_DEVICE_ABOUT_INIT;
+    about.size = offsetof (tactus_device_about, unrendered);
+    w.device->describe (about);
+    CHECK (about.device_watchdog_s == 0.5);
+    CHECK (about.unrendered == 0u);
 }
 
 TEST_CASE ("a reading is what the whole reports of an event device have left", "[evdev]")
