@@ -302,11 +302,16 @@ typedef struct tactus_effort
     uint32_t axis_count, signal_count;
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
     double brake; /**< damping of the brake on the tool, N s/m; 0 for a device without one, and for one that a driver in a plugin drives */
+
+    /* What only drivers in plugins get (tactus_device.h); otherwise 0. */
+    double max_signal;    /**< limit of the run for signals, infinite without one: a driver that adds signals, or a force, in one motor keeps the sum within */
+    uint32_t is_withheld; /**< 1 during a stop: a driver that sends what it derives from earlier efforts, such as an amplitude, forgets them, so that the
+                               stop takes no longer than the guard's */
 } tactus_effort;
 
-#define TACTUS_EFFORT                                                                             \
-    {                                                                                             \
-        sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 }, 0.0 \
+#define TACTUS_EFFORT                                                                                     \
+    {                                                                                                     \
+        sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 }, 0.0, 0.0, 0 \
     }
 
 /** What your device has, beyond a tool that moves and can be pushed. Everything may be 0 or NULL. */

@@ -123,6 +123,18 @@ void Dots::take (std::span<const double> signals, const Vec3& force) noexcept
         pushed[i] = std::max (pushed[i], -force.dot (dots[i].out) / full_force);
 }
 
+void Dots::forget() noexcept
+{
+    std::ranges::fill (peaks, 0.0);
+    std::ranges::fill (pushed, 0.0);
+}
+
+void Dots::limit (double part) noexcept
+{
+    constexpr double rounding = 1e-9;   // 0.29 is 29
+    most = isFinite (part) ? static_cast<int> (std::floor (100.0 * std::clamp (part, 0.0, 1.0) + rounding)) : 100;
+}
+
 std::string Dots::message()
 {
     std::vector<int> intensities (dots.size());
@@ -131,10 +143,9 @@ std::string Dots::message()
         double sum = pushed[i];
         for (std::size_t c = 0; c < weights.size(); ++c)
             sum += weights[c][i] * peaks[c];
-        intensities[i] = intensityOf (sum);
+        intensities[i] = std::min (intensityOf (sum), most);
     }
-    std::ranges::fill (peaks, 0.0);
-    std::ranges::fill (pushed, 0.0);
+    forget();
 
     std::string entries;
     for (std::size_t p = 0; p < places.size(); ++p)
@@ -161,8 +172,7 @@ std::string Dots::message()
 
 std::string Dots::silence()
 {
-    std::ranges::fill (peaks, 0.0);
-    std::ranges::fill (pushed, 0.0);
+    forget();
     std::string entries;
     for (auto& place : places)
     {

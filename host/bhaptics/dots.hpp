@@ -30,6 +30,15 @@ public:
     /// Takes the values of a tick: signals, where 1 is the full intensity, and a force on the body in N.
     void take (std::span<const double> signals, const Vec3& force) noexcept;
 
+    /// Forgets what was taken since the last message.
+    void forget() noexcept;
+
+    /// From now on, no motor gets more than this part of its full intensity, whatever drives it.
+    void limit (double part) noexcept;
+
+    /// The force that drives a motor with its full intensity, in N.
+    double fullForce() const noexcept { return full_force; }
+
     /// The message for what was taken since the last one. Empty if that is nothing and nothing shows.
     std::string message();
 
@@ -61,6 +70,7 @@ private:
     std::vector<Dot> dots;
     std::vector<std::vector<double>> weights;   // of each channel, for each dot
     double full_force = 10.0;                   // N
+    int most = 100;                             // intensity
 
     std::vector<double> peaks;    // of each channel since the last message
     std::vector<double> pushed;   // each dot by the force, since the last message

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,7 +61,8 @@ public:
         about.signal_outputs = static_cast<int32_t> (dots.channels());
         about.about = "A vest of bHaptics, through bHaptics Player.";
         // Vibrations: 1 is the full intensity, and the force is one only by name.
-        about.guard = R"({"max_signal": 1, "max_force": "100 N", "watchdog": "100 ms"})";
+        guard = Json { { "max_signal", 1.0 }, { "max_force", dots.fullForce() }, { "watchdog", "100 ms" } }.dump();
+        about.guard = guard.c_str();
         about.device_watchdog_s = 1e-3 * Dots::duration_ms;
         exchange.begin();
         return {};
@@ -89,9 +91,18 @@ public:
 
     std::string take (const tactus_effort& effort)
     {
+        const bool knows_guard = effort.size >= offsetof (tactus_effort, is_withheld) + sizeof effort.is_withheld;
+        const bool is_withheld = knows_guard && effort.is_withheld != 0;
+        const auto signals = std::span (effort.signals).first (std::min<std::size_t> (effort.signal_count, std::size (effort.signals)));
+        const Vec3 force { effort.force };
         return exchange.offer ([&] {
-            dots.take (std::span (effort.signals).first (std::min<std::size_t> (effort.signal_count, std::size (effort.signals))), Vec3 { effort.force });
+            if (knows_guard) dots.limit (effort.max_signal);
+            if (is_withheld) dots.forget();
+            dots.take (signals, force);
             is_new = true;
+            // The end of a stop does not wait until a message is due.
+            const bool rests = force.isZero (0.0) && std::ranges::all_of (signals, [] (double v) { return v == 0.0; });
+            has_to_rest = has_to_rest || (is_withheld && rests && dots.isShowing());
         });
     }
 
@@ -125,6 +136,7 @@ private:
     bool hasAskedForRest() const override { return ! has_to_rest; }
 
     const ServiceAddress address;
+    std::string guard;
 
     // Protected by the mutex of the exchange:
     Dots dots;

@@ -331,6 +331,8 @@ std::string faultOf (const char* function, int answer, Clock::duration took, con
     return took > longest_write ? name + "takes " + milliseconds (took) : "";
 }
 
+int writeNothing (OpenedDevice& to, DriverReport& said) { return to.write (Effort {}, false, GuardLimits::none, said); }
+
 /// Writes no force, and brings it to rest, again and again. It must come to rest also after a write that has failed.
 std::string checkRest (const Device& device, int times)
 {
@@ -352,7 +354,7 @@ std::string checkRest (const Device& device, int times)
         }
         return fault;
     };
-    const auto write = [&] { return judge ("write", [&] (DriverReport& said) { return opened->write (Effort {}, said); }); };
+    const auto write = [&] { return judge ("write", [&] (DriverReport& said) { return writeNothing (*opened, said); }); };
     const auto rest = [&] { return judge ("rest", [&] (DriverReport& said) { return opened->rest (said); }); };
     for (int i = 0; i < times; ++i)
     {
@@ -393,7 +395,7 @@ std::string checkThreads (const Device& device, double seconds)
     {
         DriverReport said;
         int answer = TACTUS_DEVICE_OK;
-        times.push_back (timeOf ("write", [&] { answer = times.size() % 10 == 9 ? opened->rest (said) : opened->write (Effort {}, said); }));
+        times.push_back (timeOf ("write", [&] { answer = times.size() % 10 == 9 ? opened->rest (said) : writeNothing (*opened, said); }));
         if (answer != TACTUS_DEVICE_OK) fault = "`write` or `rest` fails while `read` waits: " + said.text();
         std::this_thread::sleep_for (1ms);
     }

@@ -251,11 +251,13 @@ int OpenedDevice::read (std::chrono::milliseconds timeout, tactus_reading& to, t
     return known (of->entry.read (handle, static_cast<std::int32_t> (timeout.count()), &to, &stamp, why.to()));
 }
 
-int OpenedDevice::write (const Effort& effort, DriverReport& why) noexcept
+int OpenedDevice::write (const Effort& effort, bool is_withheld, double max_signal, DriverReport& why) noexcept
 {
     if (of->entry.write == nullptr) return TACTUS_DEVICE_OK;
     tactus_effort given {};
     given.size = sizeof given;
+    given.is_withheld = is_withheld ? 1 : 0;
+    given.max_signal = std::min (max_signal, described.limits.max_signal);
     Vec3::Map (given.force) = described.renderedForce (effort.force);
     Vec3::Map (given.torque) = described.renderedTorque (effort.torque);
     // The driver gets what it has named, whatever the graph wires: nothing else has a limit.

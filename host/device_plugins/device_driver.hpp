@@ -108,7 +108,7 @@ public:
     /// The functions of the driver. Each returns TACTUS_DEVICE_OK, …; an answer that no driver may give counts as TACTUS_DEVICE_FAILED. Without
     /// efforts, there is nothing to write or to bring to rest.
     int read (std::chrono::milliseconds timeout, tactus_reading&, tactus_device_stamp&, DriverReport&) noexcept;   ///< [reading thread]
-    int write (const Effort&, DriverReport&) noexcept;                                                             ///< [writing thread]
+    int write (const Effort&, bool is_withheld, double max_signal, DriverReport&) noexcept;                        ///< [writing thread]
     int rest (DriverReport&) noexcept;                                                                             ///< [writing thread]
 
 private:

@@ -5,6 +5,7 @@
 #include <tactus/text/caught.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -71,6 +72,7 @@ void PluginDevice::prepare (double dt_s)
 }
 
 void PluginDevice::limitSlews (double force, double torque, double axis) { link->limitSlews (force, torque, axis); }
+void PluginDevice::limitSignals (double max, double /*max_slew*/) { link->limitSignals (max); }
 
 Reading PluginDevice::read() noexcept
 {
@@ -117,7 +119,8 @@ void PluginDevice::write (const Effort& guarded) noexcept
 {
     const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && isZero (guarded.axes) && isZero (guarded.signals);
     has_to_rest = has_to_rest && ! rests;
-    link->offer (has_to_rest ? Effort {} : guarded, ++offers, episode);
+    const bool stops = std::exchange (is_withheld, false) || has_to_rest;
+    link->offer (has_to_rest ? Effort {} : guarded, stops, ++offers, episode);
 }
 
 //==============================================================================

@@ -71,7 +71,9 @@ public:
 
     void prepare (double dt_s) override;                                   // [main thread]
     void limitSlews (double force, double torque, double axis) override;   // [main thread]
+    void limitSignals (double max, double max_slew) override;              // [main thread]
     Reading read() noexcept override;                                      // [tick thread]
+    void withhold() noexcept override { is_withheld = true; }              // [tick thread]
     void write (const Effort& guarded) noexcept override;                  // [tick thread]
     DeviceLayout layout() const override { return described.layout; }
 
@@ -97,6 +99,7 @@ private:
     std::uint64_t episode = 0, seen = 0;   // of the latest tick: what it belongs to, and the number of its reading   [tick thread]
     double ticks_without = 0.0;            // a new reading   [tick thread]
     bool has_to_rest = true;               // until the guard has been at zero once   [tick thread]
+    bool is_withheld = false;              // the next effort   [tick thread]
     std::atomic<double> age_now = 0.0, oldest = 0.0;
     std::uint64_t offers = 0;   // [tick thread]
 

@@ -321,7 +321,7 @@ void PluginDevice::Link::lookAgain()
 //==============================================================================
 // The writing thread
 
-void PluginDevice::Link::offer (const Effort& e, std::uint64_t number, std::uint64_t of_episode) noexcept
+void PluginDevice::Link::offer (const Effort& e, bool is_withheld, std::uint64_t number, std::uint64_t of_episode) noexcept
 {
     PendingEffort to { .effort = {}, .number = number, .episode = of_episode };
     std::copy_n (e.force.data(), 3, to.effort.force);
@@ -330,6 +330,7 @@ void PluginDevice::Link::offer (const Effort& e, std::uint64_t number, std::uint
     to.effort.signal_count = static_cast<std::uint32_t> (e.signals.size());
     std::copy (e.axes.begin(), e.axes.end(), to.effort.axes);
     std::copy (e.signals.begin(), e.signals.end(), to.effort.signals);
+    to.effort.is_withheld = is_withheld ? 1 : 0;
     offered.store (to);
     something.ring();
 }
@@ -409,7 +410,7 @@ void PluginDevice::Link::poll (Clock::time_point now)
     int answer = TACTUS_DEVICE_FAILED;
     {
         const Call call (write_since);
-        answer = device->write (effort, why);
+        answer = device->write (effort, latest.effort.is_withheld != 0, max_signal, why);
     }
     writes.fetch_add (1, std::memory_order_relaxed);
     if (answer == TACTUS_DEVICE_OK) return failing_since.reset();

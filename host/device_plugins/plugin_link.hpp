@@ -46,7 +46,7 @@ public:
 
     LatestReading taken() const noexcept { return newest.load(); }
     RemovedEffort unrendered() const noexcept { return removed.load(); }
-    void offer (const Effort&, std::uint64_t number, std::uint64_t of_episode) noexcept;
+    void offer (const Effort&, bool is_withheld, std::uint64_t number, std::uint64_t of_episode) noexcept;
     std::uint64_t episode() const noexcept { return current_episode.load (std::memory_order_acquire); }
     bool isConnected() const noexcept { return ! is_lost.load (std::memory_order_acquire); }
     bool isStuck (Clock::time_point now) const noexcept;   ///< a function of the driver does not return
@@ -56,6 +56,7 @@ public:
 
     bool isDriven() const noexcept { return driven.load (std::memory_order_relaxed); }
     void limitSlews (double force, double torque, double axis) noexcept;
+    void limitSignals (double max) noexcept { max_signal = max; }
     PluginCounts counts() const noexcept;
     Clock::time_point lastArrival() const noexcept { return Clock::time_point (std::chrono::nanoseconds (last_arrival.load (std::memory_order_acquire))); }
     std::string trouble() const;
@@ -132,6 +133,7 @@ private:
     std::atomic<bool> is_lost = false, stopping = false, driven = false;
     std::atomic<std::int64_t> last_arrival = 0, read_since = 0, write_since = 0;
     std::array<std::atomic<double>, 3> slews;   // of the role's guard
+    std::atomic<double> max_signal = GuardLimits::none;
 
     LatestReading draft;   // [reading thread]
     StampWatch watch;      // [reading thread]

@@ -26,7 +26,6 @@ constexpr std::uint16_t to_the_left = 0x4000;   // of a positive level
 constexpr double rumble_hold = 12.5e-3;         // s, as for rumble motors with a HID profile
 constexpr Seconds between_rumbles { 10e-3 };
 constexpr double track_step = 1e-4, longest_gap = 0.1;             // s
-constexpr double quiet_after = 5e-3;                               // s: a stop fades in this time
 constexpr double rumble_slew = 6300.0;                             // per s: a tone of full scale at 1 kHz
 constexpr double longest_between = 0.25, new_share = 1.0 / 16.0;   // of the measured rate: s between updates that belong together
 
@@ -277,19 +276,16 @@ int ForceDevice::pushTo (double effort, Clock::time_point now)
     return failed;
 }
 
-int ForceDevice::rumble (const double* signals, Clock::time_point now)
+int ForceDevice::rumble (const double* signals, bool is_withheld, Clock::time_point now)
 {
     const double passed = tracked ? std::min (longest_gap, Seconds (now - *tracked).count()) : 0.0;
     tracked = now;
-    const bool is_quiet = signals[0] == 0.0 && signals[1] == 0.0;
-    quiet_s = is_quiet ? quiet_s + passed : 0.0;
-    const bool is_over = quiet_s >= quiet_after;
     std::array<std::uint16_t, 2> wanted {};
     for (std::size_t i = 0; i < 2; ++i)
     {
+        if (is_withheld) amplitudes[i].forgetPeaks();
         for (int ticks = std::max (1, static_cast<int> (std::lround (passed / track_step))); ticks > 0; --ticks)
             amplitudes[i].tick (signals[i]);
-        if (is_over) amplitudes[i].forgetPeaks();
         wanted[i] = static_cast<std::uint16_t> (std::lround (std::min (1.0, amplitudes[i].amplitude()) * largest_motor));
     }
     auto& sent = effect.u.rumble;
@@ -308,7 +304,8 @@ int ForceDevice::rumble (const double* signals, Clock::time_point now)
 int ForceDevice::write (const tactus_effort& effort, Clock::time_point now)
 {
     if (pushes) return pushTo (calibration.turns ? effort.torque[1] : effort.force[0], now);
-    return rumbles ? rumble (effort.signals, now) : 0;
+    const bool is_withheld = effort.size >= offsetof (tactus_effort, is_withheld) + sizeof effort.is_withheld && effort.is_withheld != 0;
+    return rumbles ? rumble (effort.signals, is_withheld, now) : 0;
 }
 
 int ForceDevice::rest()
@@ -320,7 +317,6 @@ int ForceDevice::rest()
     busy_until.reset();
     updated.reset();
     tracked.reset();
-    quiet_s = 0.0;
     for (auto& amplitude : amplitudes)
         amplitude.forgetPeaks();
     return not_stopped != 0 ? not_stopped : not_zeroed;

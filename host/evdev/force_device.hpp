@@ -70,7 +70,7 @@ private:
     void note (const EventDevice::Event&);
     void fill (tactus_reading&) const;
     int pushTo (double effort, Clock::time_point now);
-    int rumble (const double* signals, Clock::time_point now);
+    int rumble (const double* signals, bool is_withheld, Clock::time_point now);
     int send (Clock::time_point now, bool must_start, bool is_update);
     void measure (Clock::time_point now);
 
@@ -99,7 +99,6 @@ private:
     std::optional<Clock::time_point> busy_until, started, updated, tracked;
     double mean_interval = 0.0;
     std::array<hid::VibrationTracker, 2> amplitudes;
-    double quiet_s = 0.0;   // time for which the signals have been 0
 
     std::atomic<double> reached_hz = 0.0;
 };

@@ -196,6 +196,71 @@ TEST_CASE ("a vest shows what a graph asks for, and falls silent when the progra
     CHECK (vest.service->counts().largest == 50);
 }
 
+TEST_CASE ("a stop silences a vest at once, whatever the rate of its messages, and nothing of before it is shown", "[bhaptics][wires][safety]")
+{
+    Vest vest { Patience::ample, { { "rate", 10 } } };
+    REQUIRE (vest.shows());
+    const auto writesTwice = [&] (auto&& tick) {
+        const auto writes = vest.device->counts().writes;
+        return eventually ([&] {
+            tick();
+            return vest.device->counts().writes >= writes + 2;
+        });
+    };
+    // On a busy computer, a message may become due before the stop, so there are many attempts.
+    const bool is_silenced = eventually ([&] {
+        const auto shown = vest.service->counts().frames;
+        REQUIRE (eventually ([&] {
+            vest.tick (0.5);
+            return vest.service->counts().frames > shown;
+        }));
+        const auto frames = vest.service->counts().frames, offs = vest.service->counts().turned_off;
+        REQUIRE (writesTwice ([&] { vest.tick (1.0); }));   // waits for the next message
+        const auto stop = [&] {
+            vest.device->read();
+            vest.device->withhold();
+            vest.device->write ({});
+        };
+        REQUIRE (writesTwice (stop));
+        const auto at_stop = vest.device->counts().readings;
+        REQUIRE (eventually ([&] {
+            stop();
+            return vest.service->counts().turned_off > offs;
+        }));
+        const bool is_prompt = vest.device->counts().readings <= at_stop + 2;   // answers: until a message is due, it asks every 20 ms
+        REQUIRE (eventually ([&] {
+            stop();
+            return vest.device->counts().readings > at_stop + 8;   // what was on its way has arrived
+        }));
+        return is_prompt && vest.service->counts().frames == frames;
+    });
+    CHECK (is_silenced);
+    CHECK (vest.service->isSilent());
+    CHECK (vest.shows());
+}
+
+TEST_CASE ("the limit of signals holds for each motor of a vest, whatever drives it", "[bhaptics][wires][safety]")
+{
+    const auto front = Json { { "dots", { { "VestFront", Json::array ({ 0, 1 }) } } } };
+    Vest vest { Patience::ample, { { "rate", 1000 }, { "full_force", 4 }, { "channels", Json::array ({ front, front, front }) } } };
+    CHECK (vest.opened.limits.max_force == 4.0);
+    vest.device->limitSignals (0.25, GuardLimits::none);
+    const auto drives = [&] (const Effort& all, std::uint64_t more) {
+        const auto before = vest.service->counts().frames;
+        return eventually ([&] {
+            static_cast<test::ServiceBench<host::FakePlayer>&> (vest).tick ([&] (Effort& effort) { effort = all; });
+            return vest.service->counts().frames > before + more;
+        });
+    };
+    REQUIRE (drives ({ .force = { 0.0, -4.0, 0.0 } }, 20));
+    CHECK (vest.service->counts().largest == 25);
+    REQUIRE (drives ({ .signals = { 0.25, 0.25, 0.25 } }, 20));
+    CHECK (vest.service->counts().largest == 25);
+    vest.device->limitSignals (0.117, GuardLimits::none);   // from now on
+    REQUIRE (drives ({ .force = { 0.0, -4.0, 0.0 }, .signals = { 0.117 } }, 4));
+    CHECK (vest.service->intensity ("VestFront", 0) == 11);
+}
+
 TEST_CASE ("a program that is killed or frozen while it drives a vest leaves it silent", "[bhaptics][wires][safety]")
 {
     const auto signal = GENERATE (SIGKILL, SIGSTOP);

@@ -14,6 +14,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,31 @@ TEST_CASE ("whatever the values, a message has intensities from 0 to 100 and is 
             }
         }
     });
+}
+
+TEST_CASE ("no motor of a vest exceeds the limit, whatever adds up in it, and what is forgotten is not shown", "[bhaptics][wires][safety]")
+{
+    const auto front = Json { { "dots", { { "VestFront", Json::array ({ 0 }) } } } };
+    const auto shown = [&] (double most, double signal, double newtons) {
+        auto dots = dotsOf ({ { "channels", Json::array ({ front, front }) } });
+        dots.limit (most);
+        dots.take (std::vector<double> { signal, signal }, Vec3 (0.0, -newtons, 0.0));
+        const auto read = readJson (dots.message());
+        return read.root["Submit"][0]["Frame"]["dotPoints"][0]["intensity"].get<double>();
+    };
+    CHECK (shown (1.0, 0.2, 0.0) == 40.0);
+    CHECK (shown (0.29, 0.2, 0.0) == 29.0);
+    CHECK (shown (0.119, 0.0, 10.0) == 11.0);
+    CHECK (shown (7.0, 1.0, 10.0) == 100.0);
+    CHECK (shown (std::numeric_limits<double>::infinity(), 1.0, 10.0) == 100.0);
+    auto dots = dotsOf();
+    dots.limit (0.0);
+    dots.take (std::vector<double> { 1.0 }, Vec3 (0.0, -10.0, 0.0));
+    CHECK (dots.message().empty());
+    dots.limit (1.0);
+    dots.take (std::vector<double> { 1.0 }, Vec3 (0.0, -10.0, 0.0));
+    dots.forget();
+    CHECK (dots.message().empty());
 }
 
 TEST_CASE ("what is wrong with the channels of a vest is said", "[bhaptics][wires]")

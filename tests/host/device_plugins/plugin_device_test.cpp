@@ -441,6 +441,32 @@ TEST_CASE ("a driver gets no force along a direction without a motor, and the ru
     CHECK (reading.unrendered_torque == Vec3 (0.4, 0.0, 0.0));
 }
 
+TEST_CASE ("a driver learns that a stop withholds the effort, and the strictest limit of signals", "[plugins][safety]")
+{
+    FakeDriver fake;
+    fake.signal_outputs = 2;
+    fake.guard = R"({"max_force": "2 N", "max_signal": 1, "ramp": "10 ms", "watchdog": "50 ms"})";
+    const auto device = fake.open();
+    const auto gets = [&] (double newtons) {
+        device->write ({ .force = { newtons, 0.0, 0.0 } });
+        return FakeDriver::until ([&] { return fake.lastEffort().force[0] == newtons; });
+    };
+    device->read();
+    device->write ({});
+    REQUIRE (gets (0.1));
+    CHECK (fake.lastEffort().is_withheld == 0u);
+    CHECK (fake.lastEffort().max_signal == 1.0);
+    device->limitSignals (0.2, GuardLimits::none);
+    device->withhold();
+    REQUIRE (gets (0.2));
+    CHECK (fake.lastEffort().is_withheld == 1u);
+    CHECK (fake.lastEffort().max_signal == 0.2);
+    device->limitSignals (5.0, GuardLimits::none);
+    REQUIRE (gets (0.3));
+    CHECK (fake.lastEffort().is_withheld == 0u);
+    CHECK (fake.lastEffort().max_signal == 1.0);
+}
+
 TEST_CASE ("a device that does not come to rest at the end is left to the guardian", "[plugins][safety]")
 {
     const TemporaryFolder folder;

@@ -46,10 +46,11 @@ struct Opened
         return device->write (effort, now);
     }
 
-    int rumble (double strong, double weak, std::chrono::microseconds later)
+    int rumble (double strong, double weak, std::chrono::microseconds later, bool is_withheld = false)
     {
         now += later;
-        tactus_effort effort {};
+        tactus_effort effort = TACTUS_EFFORT;
+        effort.is_withheld = is_withheld ? 1 : 0;
         effort.signals[0] = strong;
         effort.signals[1] = weak;
         return device->write (effort, now);
@@ -305,11 +306,18 @@ TEST_CASE ("the motors of a pad get the amplitude of their signals, and rest whe
     CHECK (latest.weak == Approx (0.5 * latest.level).margin (2.0));
     CHECK (p.count ("play") >= 4);
 
-    // A stop fades in 5 ms; the amplitude follows 5 ms later, without the time for which it holds peaks.
+    // A stop ends with its fade, without the time for which the amplitude holds peaks.
+    const auto amplitude = [&] { return p.on.told.back().what == "upload" ? p.on.told.back().level + p.on.told.back().weak : -1; };
+    REQUIRE (p.rumble (0.2, 0.0, 1ms, true) == 0);
+    REQUIRE (p.rumble (0.0, 0.0, 1ms, true) == 0);
+    CHECK (amplitude() == 0);
+
+    // Without a stop, it holds them.
+    tone (0.5, 0.25, 100);
     tone (0.0, 0.0, 7);
-    CHECK (p.on.told.back().what == "upload");
-    CHECK (p.on.told.back().level == 0);
-    CHECK (p.on.told.back().weak == 0);
+    CHECK (amplitude() != 0);
+    tone (0.0, 0.0, 30);
+    CHECK (amplitude() == 0);
     tone (3.0, 0.0, 100);
     CHECK (std::ranges::max (p.on.told, {}, &FakeEvents::Told::level).level == 65535);
 }

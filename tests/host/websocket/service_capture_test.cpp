@@ -180,7 +180,7 @@ TEST_CASE ("a capture of an Inverse3 has all its messages, and replays to the sa
             live.push_back (numbersOf (arm.reading));
             Effort effort;
             effort.force.x() = 0.01 * static_cast<double> (live.size());
-            if (live.size() % 2 == 0) CHECK (arm.device->write (effort, arm.why) == TACTUS_DEVICE_OK);
+            if (live.size() % 2 == 0) CHECK (arm.device->write (effort, false, GuardLimits::none, arm.why) == TACTUS_DEVICE_OK);
         }
         CHECK (recorder.file->isGood());
     }
@@ -223,7 +223,7 @@ TEST_CASE ("a capture of a vest has what was shown on it, and replays to the sam
         CHECK (vest.stamp.fault == 0);
         Effort effort;
         effort.signals.set (0, 0.5);
-        CHECK (vest.device->write (effort, vest.why) == TACTUS_DEVICE_OK);
+        CHECK (vest.device->write (effort, false, GuardLimits::none, vest.why) == TACTUS_DEVICE_OK);
         REQUIRE (eventually ([&] { return vest.next() && (*player)->counts().frames > 0; }));
         (*player)->fail (host::FakePlayer::Fault::unworn);
         REQUIRE (eventually ([&] { return vest.next() && vest.stamp.fault == TACTUS_DEVICE_NOT_DRIVEN; }));
@@ -241,7 +241,7 @@ TEST_CASE ("a capture of a vest has what was shown on it, and replays to the sam
     Opened vest { "bhaptics", replayed.port(), Json::object() };
     Effort effort;
     effort.signals.set (0, 0.5);
-    CHECK (vest.device->write (effort, vest.why) == TACTUS_DEVICE_OK);
+    CHECK (vest.device->write (effort, false, GuardLimits::none, vest.why) == TACTUS_DEVICE_OK);
     REQUIRE (eventually ([&] { return vest.next() && vest.stamp.fault == TACTUS_DEVICE_NOT_DRIVEN; }));
     CHECK (replayed.isAtEnd());
 }
