@@ -6,7 +6,7 @@ namespace tactus::host::hid
 
 /// When a device with an emergency stop of its own is told of that of Tactus, and when that it is over. It is told once its efforts are at zero, so
 /// that its stop is no step, and again and again, in case that a report is lost. Only a rearm ends its stop, and only one that Tactus has caused: one
-/// that was pressed at the device stays. [tick thread]
+/// that was pressed at the device stays, also right after a rearm. [tick thread]
 class BoardStop
 {
 public:
@@ -26,6 +26,8 @@ public:
         const bool begins = emergency && ! was_emergency && left_s <= 0.0;
         by_device = (begins || by_device) && is_stopped;
         if (! emergency && was_emergency && ! by_device) left_s = rearms_for;
+        had_stopped = is_stopped || (had_stopped && ! emergency && ! was_emergency);
+        if (had_stopped && ! is_stopped) left_s = 0.0;   // it is rearmed: from now on, a stop is its own
         was_emergency = emergency;
         if (emergency)
         {
@@ -39,7 +41,8 @@ public:
 
 private:
     bool was_emergency = false;
-    bool by_device = false;   // it had stopped before it was told to
+    bool by_device = false;     // it had stopped before it was told to
+    bool had_stopped = false;   // it has said so since the rearm began
     double left_s = 0.0;
 };
 

@@ -233,6 +233,16 @@ TEST_CASE ("a board is stopped only at rest, and rearmed only for a while and af
     CHECK (step (true, true, false) == Says::stop);   // the button is released during the stop
     CHECK (step (true, true, true) == Says::stop);
     CHECK (step (false, true, true) == Says::rearm);
+
+    CHECK (step (false, true, false) == Says::nothing);   // it says that it is rearmed
+    CHECK (step (false, true, true) == Says::nothing);    // and then its button is pressed: that is not undone
+    CHECK (step (true, true, true) == Says::nothing);
+    CHECK (step (false, true, true) == Says::nothing);
+
+    CHECK (step (false, true, false) == Says::nothing);
+    CHECK (step (true, true, false) == Says::stop);
+    CHECK (step (false, true, false) == Says::rearm);   // it has not said yet that it has stopped
+    CHECK (step (false, true, true) == Says::rearm);
 }
 
 TEST_CASE ("a session records the torque of an OpenFFBoard; STOP reaches the board, and REARM lets it go", "[hid][ffboard][live][safety]")
