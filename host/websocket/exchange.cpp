@@ -62,8 +62,8 @@ std::string Exchange::offer (const std::function<void()>& put)
     if (auto trouble = socket.trouble(); ! trouble.empty()) return trouble;
     {
         const std::lock_guard lock (mutex);
+        put();   // also if the service is late: when it answers, it must not hear what was offered before
         if (is_asking && Clock::now() - sent > promises.late) return lateBy (promises.late);
-        put();
     }
     socket.post ([this] { talk(); });
     socket.runOne();   // here, so that it need not wait until the reading thread wakes up

@@ -32,7 +32,7 @@ public:
     /// How long it waits for an answer.
     struct Promises
     {
-        Clock::duration late {};                                   ///< then efforts are refused
+        Clock::duration late {};                                   ///< then offers fail
         Clock::duration gone {};                                   ///< then the service is not there any more
         Clock::duration rested = std::chrono::milliseconds (15);   ///< then rest() closes the connection; it may take 20 ms
         Clock::duration connected = std::chrono::seconds (2);
@@ -97,7 +97,7 @@ public:
     Got wait (Clock::time_point until, const std::function<bool()>& take);
 
     /// Says something new as soon as the last message has been answered. `put` says what, and is called with `mutex` held. Returns why that is not
-    /// possible; empty if it is. [writing thread]
+    /// possible, or that the answer is late: then it is still what is said next. Empty otherwise. [writing thread]
     std::string offer (const std::function<void()>& put);
 
     /// Asks for rest, and waits for the answer. If this takes too long, closes the connection. [writing thread]

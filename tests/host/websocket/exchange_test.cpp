@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Turns with a service that answers late.
+
+#include "support/eventually.hpp"
+
+#include <host/websocket/exchange.hpp>
+#include <host/websocket/web_server.hpp>
+
+#include <tactus/text/caught.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using host::Exchange;
+using host::WebServer;
+using test::eventually;
+
+namespace
+{
+/// Says the newest number.
+struct Number final : Exchange::Partner
+{
+    std::string hear (const std::string&) override { return {}; }
+
+    Exchange::Turn speak (Exchange::Clock::time_point now) override
+    {
+        if (! std::exchange (is_new, false)) return { now + 1h };
+        return { now, std::to_string (newest) };
+    }
+
+    void askForRest() override { put (0); }
+    bool hasAskedForRest() const override { return ! is_new; }
+
+    void put (int n)
+    {
+        newest = n;
+        is_new = true;
+    }
+
+    int newest = 0;
+    bool is_new = false;
+};
+
+/// A service that answers when it is told to.
+struct LateService
+{
+    LateService()
+    {
+        thread = std::jthread ([this] (const std::stop_token& stop) {
+            std::unique_ptr<WebServer::Client> client;
+            while (! stop.stop_requested())
+                if (client == nullptr)
+                    client = server.next (2);
+                else if (! caught ("the service", [&] { serve (*client, stop); }))
+                    client.reset();   // it is gone
+        });
+    }
+
+    void serve (WebServer::Client& client, const std::stop_token& stop)
+    {
+        if (! client.says (2)) return;
+        {
+            const std::lock_guard lock (mutex);
+            heard.push_back (client.hear());
+        }
+        while (! answers && ! stop.stop_requested())
+            std::this_thread::sleep_for (1ms);
+        client.say ("{}");
+    }
+
+    std::vector<std::string> all() const
+    {
+        const std::lock_guard lock (mutex);
+        return heard;
+    }
+
+    WebServer server { 0 };
+    std::atomic<bool> answers = false;
+    mutable std::mutex mutex;
+    std::vector<std::string> heard;
+    std::jthread thread;   // last: it uses the other members
+};
+}   // namespace
+
+TEST_CASE ("what is offered while a service is late is refused, and is still what it hears next, not what was offered before", "[haply][wires][safety]")
+{
+    LateService service;
+    Number number;
+    Exchange exchange { number, "the service", Exchange::Answer::message, { 20ms, 60s, 60s, 60s } };
+    REQUIRE (exchange.open ({ "localhost", std::to_string (service.server.port()) }, "/", nullptr).empty());
+    exchange.begin();
+    const auto listens = [&] { exchange.wait (Exchange::Clock::now() + 1ms, [] { return false; }); };
+    const auto offers = [&] (int n) { return exchange.offer ([&] { number.put (n); }); };
+    CHECK (offers (1).empty());
+    REQUIRE (eventually ([&] {
+        listens();
+        return service.all().size() == 1;
+    }));
+    static_cast<void> (offers (2));   // a push, which is refused, too, if the computer is busy
+    std::string why;
+    REQUIRE (eventually ([&] {
+        listens();
+        why = offers (0);   // a stop
+        return ! why.empty();
+    }));
+    CHECK (why == "the service has not answered for 20 ms");
+    service.answers = true;
+    REQUIRE (eventually ([&] {
+        listens();
+        return service.all().size() >= 2;
+    }));
+    CHECK (service.all()[1] == "0");
+}
