@@ -8,6 +8,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <exception>
 #include <map>
@@ -121,7 +122,7 @@ struct Opened
 {
     std::string port;
     std::unique_ptr<ForceDevice> device;
-    bool is_gone = false;   // [reading thread, then that which closes]
+    std::atomic<bool> is_gone = false;   // whichever function has found that out
 };
 
 std::unique_ptr<Opened> open (const Wanted& wanted, std::string& why, std::string& remark)
@@ -207,24 +208,29 @@ int32_t readPort (void* device, int32_t timeout_ms, tactus_reading* to, tactus_d
     });
 }
 
-int32_t answerOf (int error, const tactus_plugin_report* report)
+int32_t answerOf (Opened& opened, int error, const tactus_plugin_report* report)
 {
     if (error == 0) return TACTUS_DEVICE_OK;
     failed (report, std::strerror (error));
+    if (error == ENODEV) opened.is_gone = true;
     return error == ENODEV ? TACTUS_DEVICE_GONE : TACTUS_DEVICE_FAILED;
 }
 
 int32_t writePort (void* device, const tactus_effort* effort, const tactus_plugin_report* report) noexcept
 {
-    return answered (report, [&] { return answerOf (static_cast<Opened*> (device)->device->write (*effort, ForceDevice::Clock::now()), report); });
+    return answered (report, [&] {
+        auto& opened = *static_cast<Opened*> (device);
+        return answerOf (opened, opened.device->write (*effort, ForceDevice::Clock::now()), report);
+    });
 }
 
 int32_t restPort (void* device, const tactus_plugin_report* report) noexcept
 {
     return answered (report, [&] {
         // A device that is gone is at rest: the kernel has removed its effects.
-        const int error = static_cast<Opened*> (device)->device->rest();
-        return error == ENODEV ? int32_t { TACTUS_DEVICE_OK } : answerOf (error, report);
+        auto& opened = *static_cast<Opened*> (device);
+        const auto answer = answerOf (opened, opened.device->rest(), report);
+        return answer == TACTUS_DEVICE_GONE ? int32_t { TACTUS_DEVICE_OK } : answer;
     });
 }
 

@@ -210,6 +210,26 @@ TEST_CASE ("a wheel that is unplugged is found again under another number, and n
     CHECK (w.events.acting (again) == 0);
 }
 
+TEST_CASE ("a wheel that only a write finds to be gone is remembered, too, so that no other device takes its place", "[evdev][safety]")
+{
+    Wheel w;
+    w.open();
+    w.events.move (w.on, 1);
+    REQUIRE (w.pushes (1.0));
+    auto other = FakeEvents::wheel();
+    other.name = "Another wheel";
+    auto& stranger = w.events.add (other);
+    w.events.with ([&] { w.on.is_there = w.on.is_read = false; });
+    double push = 0.0;
+    REQUIRE (eventually ([&] {
+        w.tick (push = 0.5 - push);
+        return w.opened->counts().departures > 0 && ! w.opened->trouble().starts_with ("the device is gone");
+    }));
+    CHECK (w.opened->trouble().find ("which was at this port, is gone") != std::string::npos);
+    CHECK_FALSE (w.opened->isConnected());
+    CHECK (w.events.told (stranger).empty());
+}
+
 TEST_CASE ("a graph that brakes a stick along an axis without a motor hides no energy from the guard", "[evdev][safety]")
 {
     Wheel stick;

@@ -37,6 +37,7 @@ public:
     {
         Info info;
         bool is_there = true, is_denied = false, is_open = false, hangs = false;
+        bool is_read = true;    // false: no read finds out that it is gone
         int upload_fails = 0;   // an errno
         std::deque<Event> waiting {};
         std::vector<Told> told {};
@@ -169,8 +170,8 @@ private:
         Got next (Event& to, int timeout_ms) override
         {
             std::unique_lock lock (of.mutex);
-            of.changed.wait_for (lock, std::chrono::milliseconds (timeout_ms), [&] { return ! device.waiting.empty() || ! device.is_there; });
-            if (! device.is_there) return Got::gone;
+            of.changed.wait_for (lock, std::chrono::milliseconds (timeout_ms), [&] { return ! device.waiting.empty() || isGone(); });
+            if (isGone()) return Got::gone;
             if (device.waiting.empty()) return Got::nothing;
             to = device.waiting.front();
             device.waiting.pop_front();
@@ -205,6 +206,8 @@ private:
         }
 
     private:
+        bool isGone() const noexcept { return ! device.is_there && device.is_read; }
+
         FakeEvents& of;
         Device& device;
         const Info about;
