@@ -54,6 +54,7 @@ public:
         asio::async_read_until (tcp(), asio::dynamic_buffer (request, longest_request), "\r\n\r\n", [this] (error_code failed, std::size_t) {
             beast::http::request_parser<beast::http::empty_body> parser;
             if (! failed) parser.put (asio::buffer (request), failed);
+            if (! failed && parser.get().count (beast::http::field::origin) > 0) failed = asio::error::access_denied;   // a web page: no driver says that
             if (failed) return greeted (failed, {});
             const auto asked = parser.get().target();
             stream.async_accept (parser.get(), [this, target = std::string (asked.data(), asked.size())] (error_code refused) {

@@ -7,7 +7,8 @@
 namespace tactus::host
 {
 
-/// The service's end of a WebSocket on this computer, with text messages: for fakes. One client at a time. [one thread]
+/// The service's end of a WebSocket on this computer, with text messages: for fakes and for the relay of a
+/// capture. Web pages are refused: a browser says where a page comes from (Origin). One client at a time. [one thread]
 class WebServer
 {
     struct Inside;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Turns with a service that answers late.
+// Turns with a service that answers late, and requests of web pages to the end that waits for drivers.
 
 #include "support/eventually.hpp"
 
 #include <host/websocket/exchange.hpp>
+#include <host/websocket/service_relay.hpp>
 #include <host/websocket/web_server.hpp>
 
 #include <tactus/text/caught.hpp>
@@ -17,6 +18,11 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 using namespace tactus;
 using namespace std::chrono_literals;
@@ -89,6 +95,28 @@ struct LateService
     std::vector<std::string> heard;
     std::jthread thread;   // last: it uses the other members
 };
+
+/// What a server answers to a request for a WebSocket with this line in it: its first line, or nothing if it closes the connection.
+std::string answerTo (int port, const std::string& line)
+{
+    const int end = ::socket (AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    REQUIRE (end >= 0);
+    sockaddr_in where {};
+    where.sin_family = AF_INET;
+    where.sin_port = htons (static_cast<std::uint16_t> (port));
+    where.sin_addr.s_addr = htonl (INADDR_LOOPBACK);
+    REQUIRE (::connect (end, reinterpret_cast<const sockaddr*> (&where), sizeof where) == 0);
+    const auto request = "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+                         + line + "\r\n";
+    REQUIRE (::send (end, request.data(), request.size(), MSG_NOSIGNAL) == static_cast<ssize_t> (request.size()));
+    std::string answer;
+    char byte = 0;
+    while (answer.find ('\n') == answer.npos && ::recv (end, &byte, 1, 0) == 1)
+        answer += byte;
+    ::close (end);
+    return answer;
+}
 }   // namespace
 
 TEST_CASE ("what is offered while a service is late is refused, and is still what it hears next, not what was offered before", "[haply][wires][safety]")
@@ -119,4 +147,14 @@ TEST_CASE ("what is offered while a service is late is refused, and is still wha
         return service.all().size() >= 2;
     }));
     CHECK (service.all()[1] == "0");
+}
+
+TEST_CASE ("a web page cannot reach a service through the relay of a capture", "[haply][wires][safety]")
+{
+    LateService service;
+    const auto relay = host::ServiceRelay::make ({ "localhost", std::to_string (service.server.port()) }, [] (bool, const std::string&) {});
+    REQUIRE (relay);
+    CHECK (answerTo ((*relay)->port(), "Origin: http://example.org\r\n").find ("101") == std::string::npos);
+    CHECK (answerTo ((*relay)->port(), "origin: null\r\n").find ("101") == std::string::npos);
+    CHECK (answerTo ((*relay)->port(), "").find ("101 Switching Protocols") != std::string::npos);
 }
