@@ -60,6 +60,7 @@ void LiveRun::setupChanged()
 
 void LiveRun::start (Hand who)
 {
+    tellOfRestart();
     moved_by = std::move (who);
     held = false;
     kept_limits.clear();
@@ -93,14 +94,21 @@ void LiveRun::startAgain() { restart(); }
 /// looser.
 void LiveRun::restart()
 {
+    tellOfRestart();
     held = held || isLatched();
     if (session) kept_limits = session->run().askedLimits();
     beginSoon (false);
 }
 
+/// After a stop, the run has ended for the user, even if its forces are still falling.
+void LiveRun::tellOfRestart()
+{
+    if (wanted && is_logged && onRestart) onRestart();
+}
+
 void LiveRun::beginSoon (bool by_start)
 {
-    stop();
+    if (session) session->stop();
     begins = wanted = true;
     ends_stops = by_start;
     if (! isRunning()) begin();
@@ -109,6 +117,7 @@ void LiveRun::beginSoon (bool by_start)
 void LiveRun::stop() noexcept
 {
     begins = wanted = false;
+    log_next.clear();
     if (session) session->stop();
 }
 

@@ -195,11 +195,15 @@ public:
     bool isCapturing() const noexcept { return session && session->run().isCapturing(); }
     void endCapture();
 
-    /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version.
+    /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version. A stop before that run
+    /// has begun forgets the file.
     void logNextTo (std::filesystem::path file, std::string program);
     void stopLogging();                                                            ///< completes the log now; the run goes on
     bool isLogging() const noexcept { return isLogged() || ! log_next.empty(); }   ///< the log is wanted, or being written
     bool isLogged() const noexcept { return is_logged; }                           ///< the log is being written: the run before has ended
+
+    /// Called before a run that is being logged restarts: now logNextTo() decides about the log of the next one. A stop is no restart, nor is startOther().
+    std::function<void()> onRestart;
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
     void fuse (std::optional<Fuser::Options>);
@@ -218,6 +222,7 @@ private:
     bool isLive() const noexcept { return session && session->isLive(); }
     bool isLatched() const { return session && session->isLatched(); }
     void restart();
+    void tellOfRestart();
     void beginSoon (bool by_start);
     void begin();
     void end();

@@ -4,6 +4,8 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/private_folder.hpp>
 
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace tactus::host
@@ -13,9 +15,20 @@ namespace
 {
 constexpr auto slice = std::chrono::milliseconds (10);   // of each call
 constexpr std::uint64_t ticks_at_once = 64;
+
+bool hasBegun (const Take::Recording& r)
+{
+    std::error_code failed;
+    return std::filesystem::exists (r.file, failed);
+}
 }   // namespace
 
-Take::Take (Playback& p) : playback (p) {}
+Take::Take (Playback& p) : playback (p)
+{
+    playback.run().onRestart = [this] { runRestarts(); };
+}
+
+Take::~Take() { playback.run().onRestart = nullptr; }
 
 Take::Recording::~Recording()
 {
@@ -28,6 +41,7 @@ void Take::restore (std::shared_ptr<Recording> r)
     stop();
     reader.reset();
     done = nullptr;
+    following.clear();
     current = std::move (r);
     now = current ? State::ready : State::empty;
 }
@@ -35,24 +49,47 @@ void Take::restore (std::shared_ptr<Recording> r)
 void Take::record()
 {
     playback.endPreview();
-    restore (std::make_shared<Recording>());
-    const auto folder = privateFolder ("tactus-take-");
-    current->file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
-    playback.run().logNextTo (current->file, program);
+    restore (nullptr);
+    current = logNext();
     playback.startAgain();
-    began = std::chrono::steady_clock::now();
+    is_asked = false;
     now = State::recording;
+}
+
+/// The next run is recorded.
+std::shared_ptr<Take::Recording> Take::logNext()
+{
+    auto recording = std::make_shared<Recording>();
+    const auto folder = privateFolder ("tactus-take-");
+    recording->file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
+    playback.run().logNextTo (recording->file, program);
+    return recording;
+}
+
+/// Nothing restarts the run in order to record it again: a stop that comes meanwhile must last.
+void Take::runRestarts()
+{
+    if (now != State::recording) return;
+    noteLength();
+    if (following.empty() || hasBegun (*following.back())) following.push_back (logNext());
 }
 
 void Take::stop()
 {
-    if (now == State::recording) playback.run().stopLogging();
+    if (now != State::recording) return;
+    is_asked = true;
+    noteLength();
+    playback.run().stopLogging();
 }
 
-double Take::seconds() const noexcept
+/// The length and the hand of the log that is being written.
+void Take::noteLength()
 {
-    if (now != State::recording) return current ? current->length_s : 0.0;
-    return std::chrono::duration<double> (std::chrono::steady_clock::now() - began).count();
+    auto& run = playback.run();
+    const auto status = run.status();
+    if (now != State::recording || ! following.empty() || ! run.isLogged() || ! status || status->phase != RunStatus::Phase::running) return;
+    current->length_s = static_cast<double> (status->ticks) / run.rate();
+    current->hand = run.handRole();
 }
 
 void Take::read (StretchReader::Options options, std::function<void (Result<Stretch>)> then)
@@ -65,30 +102,51 @@ void Take::read (StretchReader::Options options, std::function<void (Result<Stre
     if (! opened) return then (std::move (opened).error());
     reader = std::move (*opened);
     done = std::move (then);
+    reads_all = options.from_s <= 0.0 && std::isinf (options.until_s);
     now = State::reading;
 }
 
 void Take::poll()
 {
     if (now == State::recording)
-    {
-        if (seconds() > longest_s) stop();
-        if (playback.run().isLogging()) return;
-        std::error_code failed;
-        const bool is_there = std::filesystem::file_size (current->file, failed) > 0 && ! failed;
-        current->length_s = seconds();
-        current->hand = playback.run().handRole();
-        now = is_there ? State::ready : State::empty;
-        if (is_there && onRecorded) onRecorded();
-    }
+        pollRecording();
     else if (now == State::reading && ! readOn())
     {
         now = State::ready;
         const auto ended = std::exchange (reader, nullptr);
         const auto then = std::exchange (done, nullptr);
         auto stretch = ended->take();
+        if (stretch && reads_all) current->length_s = static_cast<double> (stretch->until) / stretch->rate_hz;
         then (std::move (stretch));
     }
+}
+
+void Take::pollRecording()
+{
+    if (! following.empty() && hasBegun (*following.front())) return finish (End::run_began_again);
+    noteLength();
+    if (current->length_s > longest_s) stop();
+    if (playback.run().isLogging()) return;
+    following.clear();   // a stop came before that run had begun
+    finish (is_asked ? End::asked : End::with_run);
+}
+
+void Take::finish (End why)
+{
+    std::error_code failed;
+    const auto size = std::filesystem::file_size (current->file, failed);
+    const auto ended = failed || size == 0 ? nullptr : current;
+    if (why == End::run_began_again)
+    {
+        current = following.front();
+        following.erase (following.begin());
+    }
+    else
+    {
+        current = ended;
+        now = ended ? State::ready : State::empty;
+    }
+    if (onRecorded) onRecorded (ended, why);
 }
 
 /// Plays for a moment. Returns false at the end.

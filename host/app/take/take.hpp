@@ -4,17 +4,18 @@
 #include <host/app/run/playback.hpp>
 #include <tactus/run/log/stretch.hpp>
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace tactus::host
 {
 
-/// Records everything that enters a run of the window, from its first tick until stop(), and reads stretches from the recording. To read, it
-/// replays the recording without devices, a part on each call of poll(), so the window stays responsive. [main thread]
+/// Records everything that enters a run of the window, from its first tick until stop(), and reads stretches from the recording. If the run begins
+/// again meanwhile, as with another hand, so does the recording, and the part so far is a recording of its own. To read, it replays the recording
+/// without devices, a part on each call of poll(), so the window stays responsive. [main thread]
 class Take
 {
 public:
@@ -29,6 +30,7 @@ public:
     static constexpr double longest_s = 60.0;
 
     explicit Take (Playback&);
+    ~Take();
 
     /// This program and its version, as logs state it.
     std::string program = "tactus";
@@ -42,8 +44,8 @@ public:
         Recording& operator= (const Recording&) = delete;
 
         std::filesystem::path file;
-        std::string hand;   ///< the role of the hand; empty if it has none
-        double length_s = 0.0;
+        std::string hand;        ///< the role of the hand; empty if it has none
+        double length_s = 0.0;   ///< what a replay plays; until the first one, it may be some milliseconds short
         bool is_saved = false;   ///< it was saved, or something was made of it
     };
 
@@ -51,14 +53,22 @@ public:
     void stop();     ///< ends the recording; the run goes on
 
     State state() const noexcept { return now; }
-    double seconds() const noexcept;   ///< the length so far, or of the complete recording
+    double seconds() const noexcept { return current ? current->length_s : 0.0; }   ///< the length so far, or of the complete recording
 
     /// Replays the recording, and passes on a stretch, or the reason why this failed. Replaces any earlier request.
     void read (StretchReader::Options, std::function<void (Result<Stretch>)>);
 
     void poll();   ///< call many times a second
 
-    std::function<void()> onRecorded;   ///< called when a recording is complete
+    /// Why a recording is complete.
+    enum class End
+    {
+        asked,            ///< by stop(), or because it is as long as it may be
+        with_run,         ///< the run has ended, as by STOP
+        run_began_again   ///< the next recording has begun
+    };
+
+    std::function<void (const std::shared_ptr<Recording>&, End)> onRecorded;   ///< called when a recording is complete; null if nothing was recorded
 
     /// The recording, complete or not; null if there is none.
     const std::shared_ptr<Recording>& recorded() const noexcept { return current; }
@@ -74,12 +84,19 @@ public:
 
 private:
     bool readOn();
+    std::shared_ptr<Recording> logNext();
+    void runRestarts();
+    void noteLength();
+    void pollRecording();
+    void finish (End);
 
     Playback& playback;
     FileAssets assets;
     State now = State::empty;
     std::shared_ptr<Recording> current;
-    std::chrono::steady_clock::time_point began;
+    std::vector<std::shared_ptr<Recording>> following;   // of the runs that have begun again since, or will once the forces are zero
+    bool is_asked = false;                               // stop() was called
+    bool reads_all = false;
     std::unique_ptr<StretchReader> reader;
     std::function<void (Result<Stretch>)> done;
 };

@@ -60,8 +60,10 @@ TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (
         if (onHint) onHint (text);
     };
     curve.setText (juce::translate (how_to));
-    recording.onRecorded = [this] { recorded(); };
-    for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &ports, &from, &until, &clip, &gesture, &test })
+    recording.onRecorded = [this] (const auto& complete, Take::End why) { recorded (complete, why); };
+    list.setTitle (TRANS ("Takes"));
+    list.onClick = [this] { openMenu(); };
+    for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &list, &ports, &from, &until, &clip, &gesture, &test })
         addAndMakeVisible (child);
     document.add (*this);
     listPorts();
@@ -120,6 +122,11 @@ void TakePanel::toggleRecording()
 
 void TakePanel::restore (const Shown& to)
 {
+    while (recording.state() == Take::State::recording)   // what was recorded so far joins the list
+    {
+        recording.stop();
+        recording.poll();
+    }
     recording.restore (to.recording);
     names = to.names;
     shown_port = to.port;
@@ -131,16 +138,62 @@ void TakePanel::restore (const Shown& to)
     refresh();
 }
 
-/// The recording that it replaces comes back by undo.
-void TakePanel::recorded()
+std::function<void()> TakePanel::restored (const Shown& to)
 {
-    const auto to = [safe = SafePointer (this)] (const Shown& s) {
-        return [safe, s] {
-            if (safe != nullptr) safe->restore (s);
-        };
+    return [safe = SafePointer (this), to] {
+        if (safe != nullptr) safe->restore (to);
     };
-    readPort();
-    document.addWindowStep (NEEDS_TRANS ("record a take"), to (std::exchange (before, {})), to (shown()));
+}
+
+void TakePanel::recorded (const std::shared_ptr<Take::Recording>& complete, Take::End why)
+{
+    const bool goes_on = why == Take::End::run_began_again;
+    const auto length = juce::String (complete ? complete->length_s : 0.0, 1);
+    const bool is_kept = complete && (! goes_on || complete->length_s > 0.0);
+    if (is_kept) keep ({ complete, names, shown_port }, goes_on);
+    if (goes_on)
+        curve.show ({});
+    else
+        complete ? readPort() : restore (std::exchange (before, {}));
+    juce::String text;
+    if (goes_on) text = TRANS ("The run begins again, and so does the take.");
+    if (goes_on && is_kept) text << " " << filled (TRANS ("The %1 s before are in the list of takes."), length);
+    if (why == Take::End::with_run && complete) text = filled (TRANS ("The take has ended with the run. It holds %1 s."), length);
+    if (why == Take::End::with_run && ! complete) text = TRANS ("There is no take: the run ended before anything was recorded.");
+    if (why == Take::End::asked && document.isStepping()) text = TRANS ("The take has ended. It is in the list of takes.");
+    if (onNotice && text.isNotEmpty()) onNotice (text);
+}
+
+/// Undo shows again what was shown before.
+void TakePanel::keep (const Shown& complete, bool goes_on)
+{
+    all.push_back (complete);
+    resized();   // a narrow panel shows how many there are
+    const auto earlier = std::exchange (before, goes_on ? complete : Shown {});
+    document.addWindowStep (NEEDS_TRANS ("record a take"), restored (earlier), restored (complete));
+}
+
+juce::String TakePanel::nameOf (std::size_t take) const
+{
+    const auto& r = *all[take].recording;
+    return filled (r.is_saved ? TRANS ("Take %1: %2 s") : TRANS ("Take %1: %2 s, not saved"), take + 1, juce::String (r.length_s, 1));
+}
+
+void TakePanel::openMenu()
+{
+    juce::PopupMenu menu;
+    const bool is_free = recording.state() != Take::State::recording;
+    const auto add = [&menu, safe = SafePointer (this)] (const juce::String& text, bool is_on, bool is_ticked, std::function<void (TakePanel&)> act) {
+        menu.addItem (text, is_on, is_ticked, [safe, act = std::move (act)] {
+            if (safe != nullptr) act (*safe);
+        });
+    };
+    for (std::size_t i = 0; i < all.size(); ++i)
+        add (nameOf (i), is_free, all[i].recording == recording.recorded(), [take = all[i]] (TakePanel& p) { p.restore (take); });
+    menu.addSeparator();
+    const bool has_take = is_free && recording.recorded() != nullptr;
+    add (TRANS ("Save take..."), has_take, false, [] (TakePanel& p) { p.saveAs (p.recording.recorded(), {}); });
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list));
 }
 
 /// The latest part of what is being recorded, as far as it is kept.
@@ -256,21 +309,33 @@ void TakePanel::makeTest()
     });
 }
 
-bool TakePanel::isUnsaved() const
+std::vector<std::shared_ptr<Take::Recording>> TakePanel::unsaved() const
 {
-    return recording.state() != Take::State::empty && recording.recorded() != nullptr && ! recording.recorded()->is_saved;
+    std::vector<std::shared_ptr<Take::Recording>> found;
+    for (const auto& take : all)
+        if (! take.recording->is_saved) found.push_back (take.recording);
+    if (recording.state() == Take::State::recording) found.push_back (recording.recorded());
+    return found;
 }
 
 void TakePanel::save (const std::function<void()>& then)
 {
     recording.stop();
     refresh();   // the recording is complete
-    if (! isUnsaved()) return then();
+    const auto rest = unsaved();
+    if (rest.empty()) return then();
+    saveAs (rest.front(), [this, then] { save (then); });
+}
+
+void TakePanel::saveAs (const std::shared_ptr<Take::Recording>& take, const std::function<void()>& then)
+{
     if (! onChoose) return;
-    onChoose ("take.jsonl", [this, then, of = recording.recorded()] (const std::filesystem::path& to) {
+    const auto number = std::ranges::find (all, take, &Shown::recording) - all.begin() + 1;
+    const auto name = number == 1 ? std::string ("take.jsonl") : "take_" + std::to_string (number) + ".jsonl";
+    onChoose (name, [this, then, of = take] (const std::filesystem::path& to) {
         if (const auto saved = copyRunLog (of->file.string(), to); ! saved) return refuse (saved.error());
         of->is_saved = true;
-        then();
+        if (then) then();
     });
 }
 
@@ -341,7 +406,7 @@ void TakePanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setColour (look.theme().dim);
     g.setFont (look.font (12.0f));
-    const auto place = juce::Rectangle<int>::leftTopRightBottom (record.getRight() + 12, record.getY(), ports.getX() - 8, record.getBottom());
+    const auto place = juce::Rectangle<int>::leftTopRightBottom (list.getRight() + 12, record.getY(), ports.getX() - 8, record.getBottom());
     const auto fits = [&] (const juce::String& text) { return g.getCurrentFont().getStringWidthFloat (text) <= static_cast<float> (place.getWidth()); };
     const auto texts = statusTexts();
     if (const auto text = std::ranges::find_if (texts, fits); text != texts.end()) g.drawText (*text, place, juce::Justification::centredLeft, false);
@@ -365,6 +430,8 @@ void TakePanel::resized()
     auto rest = getLocalBounds().reduced (12, 6);
     auto head = rest.removeFromTop (26);
     record.setBounds (head.removeFromLeft (84));
+    list.setButtonText (head.getWidth() < 300 ? juce::String (all.size()) : TRANS ("Takes"));
+    list.setBounds (head.removeFromLeft (6 + list.bestWidth()).withTrimmedLeft (6));
     constexpr int least_port = 132;
     ports.setBounds (head.removeFromRight (std::min (220, std::max (head.getWidth() / 2, std::min (least_port, head.getWidth() - 8)))));
     auto foot = rest.removeFromBottom (28).withTrimmedTop (2);

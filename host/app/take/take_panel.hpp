@@ -14,7 +14,8 @@
 namespace tactus::host
 {
 
-/// Records a run, shows one of its ports, and makes a clip, a gesture or a test from a stretch of it.
+/// Records a run, shows one of its ports, and makes a clip, a gesture or a test from a stretch of it. All takes stay in a list until the window closes,
+/// so none is lost because another one is shown.
 class TakePanel final : public juce::Component, private Document::Listener
 {
 public:
@@ -35,9 +36,10 @@ public:
     void makeGesture();
     void makeTest();
 
-    /// True if there is a take, complete or not, of which nothing was saved.
-    bool isUnsaved() const;
-    /// Ends the recording if there is one, asks for a file, and saves the whole take there, as a log. `then` is called once it is saved.
+    /// The takes, complete or not, of which nothing was saved.
+    std::vector<std::shared_ptr<Take::Recording>> unsaved() const;
+    /// Ends the recording if there is one, asks for a file for each unsaved take, and saves the whole take there, as a log. `then` is called once all
+    /// are saved.
     void save (const std::function<void()>& then);
 
     /// Asks for a file to write; `name` is the suggested name.
@@ -50,6 +52,7 @@ public:
     /// Shows a result or a problem. `use`, unless it is null, uses at once what was saved.
     std::function<void (const juce::String& title, const juce::String& text, std::function<void()> use)> onSaid;
     std::function<void (const juce::String&)> onHint;
+    std::function<void (const juce::String&)> onNotice;   ///< what became of a take that the user has not ended
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -66,7 +69,12 @@ private:
     };
     Shown shown() const { return { recording.recorded(), names, shown_port }; }
     void restore (const Shown&);
-    void recorded();
+    std::function<void()> restored (const Shown&);   ///< for a step of the history
+    void recorded (const std::shared_ptr<Take::Recording>&, Take::End);
+    void keep (const Shown&, bool goes_on);
+    void saveAs (const std::shared_ptr<Take::Recording>&, const std::function<void()>& then);
+    juce::String nameOf (std::size_t take) const;
+    void openMenu();
     void readPort();
     void fillPorts();
     void showLatest();
@@ -87,6 +95,7 @@ private:
     Take recording;
     TakePlot curve;
     ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle, TRANS ("Start the run again and record it, from its first tick on") };
+    ToolButton list { TRANS ("Takes"), ToolButton::Kind::framed, TRANS ("All takes since the window was opened: show or save one") };
     ToolButton clip { TRANS ("Make a clip..."), ToolButton::Kind::framed, TRANS ("Save the marked stretch of this port as a clip that signal.clip plays") };
     ToolButton gesture { TRANS ("Make a gesture..."), ToolButton::Kind::framed,
                          TRANS ("Save the movement of the hand in the marked stretch as a path that a simulated hand follows") };
@@ -97,8 +106,9 @@ private:
     TextField from, until;
     std::vector<std::string> names;   // of the ports to choose from
     std::string shown_port;
-    bool is_stale = false;   // there were edits since the ports were listed
-    Shown before;            // the recording that is being made
+    bool is_stale = false;    // there were edits since the ports were listed
+    Shown before;             // the recording that is being made
+    std::vector<Shown> all;   // the complete takes, in the order in which they were recorded
 };
 
 }   // namespace tactus::host

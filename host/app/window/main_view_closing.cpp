@@ -27,10 +27,12 @@ void MainView::closeWhenSaved (std::function<void()> close)
 
 void MainView::closeWithTake (const std::function<void()>& close)
 {
-    if (! takes.isUnsaved()) return closeWithFilm (close);
-    const auto length = juce::String (takes.take().seconds(), 1);
-    question.ask (filled (TRANS ("Save the take of %1 s before closing Tactus?"), length),
-                  TRANS ("Nothing has been made of it, and it is kept only while Tactus is open. `tactus capture` makes clips, gestures and tests of a "
+    const auto unsaved = takes.unsaved();
+    if (unsaved.empty()) return closeWithFilm (close);
+    const auto length = juce::String (unsaved.front()->length_s, 1);
+    question.ask (unsaved.size() == 1 ? filled (TRANS ("Save the take of %1 s before closing Tactus?"), length)
+                                      : filled (TRANS ("Save %1 takes before closing Tactus?"), unsaved.size()),
+                  TRANS ("Takes of which nothing has been made are kept only while Tactus is open. `tactus capture` makes clips, gestures and tests of a "
                          "saved take."),
                   { { TRANS ("Save"), [this, close] { takes.save ([this, close] { closeWithFilm (close); }); } },
                     { TRANS ("Don't save"), [this, close] { closeWithFilm (close); } },

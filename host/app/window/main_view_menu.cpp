@@ -80,7 +80,7 @@ struct MainView::SaveWords
     {
         if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };
         if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
-        if (begin.filename() == "take.jsonl") return { TRANS ("Save take"), "*.jsonl" };
+        if (begin.filename().string().starts_with ("take")) return { TRANS ("Save take"), "*.jsonl" };
         if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
         if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };

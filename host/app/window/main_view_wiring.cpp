@@ -116,6 +116,7 @@ void MainView::connectRun()
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
 
     takes.onHint = patching.onHint;
+    takes.onNotice = patching.onNotice;
     takes.onChoose = [this] (const std::string& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); };
     takes.onClip = [this] (const Clip& clip, Messages notes, std::optional<double> gain, const std::filesystem::path& to) {
         return writeClip (clip, std::move (notes), gain, to);

@@ -66,7 +66,7 @@ void HandView::point (const juce::MouseEvent& e)
     const auto from_centre = e.position - area.getCentre();
     target = { static_cast<double> (from_centre.x) * scale, -static_cast<double> (from_centre.y) * scale, pressed ? -press_depth : hover_m };
     const bool has_nothing = playback.current().edited().root.nodes.empty();   // there is no tool to move, as on the welcome page
-    if (! by_pointer && pressed && ! has_nothing) playback.moveBy (LiveRun::Hand::pointer());
+    if (! has_nothing) takeTool();
     moveTool();
     repaint();
 }
@@ -76,8 +76,14 @@ void HandView::steer (double x, double y, bool presses)
     pressed = presses;
     held = held && ! presses;
     target = { x, y, pressed || held ? -press_depth : hover_m };
-    if (! by_pointer && pressed) playback.moveBy (LiveRun::Hand::pointer());
+    takeTool();
     moveTool();
+}
+
+/// `by_pointer` is of the last refresh, so with it each event until the next one would restart the run.
+void HandView::takeTool()
+{
+    if (pressed && playback.current().hand() != LiveRun::Hand::pointer()) playback.moveBy (LiveRun::Hand::pointer());
 }
 
 void HandView::mouseMove (const juce::MouseEvent& e)

@@ -47,6 +47,7 @@ private:
     juce::Point<float> toPixels (const Vec3&) const;
     void paintHeight (juce::Graphics&) const;
     void point (const juce::MouseEvent&);
+    void takeTool();
     void moveTool() { playback.run().point (target); }
 
     Playback& playback;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/run/views/hand_view.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <host/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>
@@ -62,12 +63,15 @@ struct TakeRig
     bool until (F&& isSo)
     {
         for (int i = 0; i < 6000 && ! isSo(); ++i)
-        {
-            playback->poll();
-            panel->refresh();
-            std::this_thread::sleep_for (std::chrono::milliseconds (5));
-        }
+            poll();
         return isSo();
+    }
+
+    void poll()
+    {
+        playback->poll();
+        panel->refresh();
+        std::this_thread::sleep_for (std::chrono::milliseconds (5));
     }
 
     bool isReady() { return panel->take().state() == Take::State::ready && panel->plot().length() > 0.0; }
@@ -93,6 +97,7 @@ TEST_CASE ("a take records the run from its first tick, and shows the force of t
     CHECK (rig.panel->plot().length() > 0.29);
     CHECK (rig.panel->plot().from() == 0.0);
     CHECK (rig.panel->plot().until() == rig.panel->plot().length());
+    CHECK (rig.panel->take().seconds() == rig.panel->plot().length());
     rig.panel->showPort ("drag.state");
     CHECK (rig.until ([&] { return rig.panel->take().state() == Take::State::ready; }));
     const auto log = rig.panel->take().log();
@@ -159,4 +164,37 @@ TEST_CASE ("a graph that does not run gives no take, and the buttons stay disabl
     CHECK (rig.until ([&] { return rig.panel->take().state() != Take::State::recording || rig.playback->run().isRunning(); }));
     rig.panel->makeClip();
     CHECK (rig.clip.tracks.empty());
+}
+
+TEST_CASE ("a stop that comes while a take begins again with another hand lasts", "[take][safety]")
+{
+    const int polls = GENERATE (range (0, 8));
+    const bool is_emergency = GENERATE (true, false);
+    INFO (polls << (is_emergency ? " polls, emergency stop" : " polls, stop"));
+    TakeRig rig;
+    auto& run = rig.playback->run();
+    auto& take = rig.panel->take();
+    rig.panel->toggleRecording();
+    REQUIRE (rig.until ([&] { return run.isLogged() && rig.panel->plot().length() > 0.05; }));
+    HandView surface { *rig.playback };
+    surface.steer (0.0, 0.0, true);
+    for (int n = 0; n < polls; ++n)
+        rig.poll();
+    is_emergency ? rig.playback->emergencyStop() : rig.playback->stop();
+    const bool goes_on = run.isWanted();   // an emergency stop leaves a run that has begun
+    CHECK ((is_emergency || ! goes_on));
+    REQUIRE (rig.until ([&] { return goes_on ? run.isStoppedForGood() : ! run.isRunning(); }));
+    for (int n = 0; n < 20; ++n)
+    {
+        rig.poll();
+        CHECK (run.isWanted() == goes_on);
+        CHECK ((goes_on ? run.isStoppedForGood() : ! run.isRunning()));
+    }
+    CHECK (run.isHeld() == is_emergency);
+    if (goes_on) rig.panel->toggleRecording();
+    REQUIRE (rig.until ([&] { return take.state() == Take::State::ready; }));
+    CHECK_FALSE (rig.panel->unsaved().empty());
+    rig.playback->restart();
+    REQUIRE (rig.until ([&] { return run.isRunning() && ! run.isStoppedForGood(); }));
+    CHECK_FALSE (run.isLogging());   // nobody has asked for another take
 }

@@ -205,7 +205,7 @@ TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it 
         c.w.key ("escape");
         WindowRig::settle (50);
         CHECK (c.closed == 0);
-        CHECK (c.w.view->takePanel().isUnsaved());
+        CHECK_FALSE (c.w.view->takePanel().unsaved().empty());
         CHECK ((c.take().state() == Take::State::recording) == ! is_complete);
     }
     SECTION ("Don't save")
@@ -251,6 +251,9 @@ TEST_CASE ("a take of which something was made needs no question\\; a new graph 
         c.stopRecording();
         c.w.view->document().undo();
         c.close();
+        CHECK (c.question().title().startsWith ("Save the take"));
+        CHECK (c.closed == 0);
+        c.question().answer (1);
         CHECK (c.closed == 1);
     }
     SECTION ("a new graph")
@@ -277,6 +280,11 @@ TEST_CASE ("a take of which something was made needs no question\\; a new graph 
         CHECK (c.take().log() != first);
         c.w.view->document().undo();
         CHECK (c.take().log() == first);
-        CHECK (c.w.view->takePanel().isUnsaved());
+        c.close();
+        REQUIRE (c.question().title().startsWith ("Save 2 takes"));
+        c.question().answer (0);
+        CHECK (c.closed == 1);
+        CHECK (fs::exists (c.folder / "take.jsonl"));
+        CHECK (fs::exists (c.folder / "take_2.jsonl"));
     }
 }
