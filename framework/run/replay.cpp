@@ -72,7 +72,7 @@ Result<> Replay::begin()
     const auto& graph = options.graph != nullptr ? *options.graph : *logged;
     auto messages = running->load (graph);
     if (! running->hasEngine()) return here (firstError (messages));
-    graph_name = graph.name;
+    played = graph;
     running->keepRecords();
     running->openDevices (graph, messages);
     has_begun = true;
@@ -150,7 +150,7 @@ Result<> Replay::swapPlan()
     edit.tightenOnly (next->tightened);   // the log has what took effect, also of edits that were undone before they ran
     edit.commit();
     running->engine().takeSubmitted();
-    graph_name = graph->name;
+    played = *graph;
     return {};
 }
 

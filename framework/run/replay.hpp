@@ -41,8 +41,9 @@ public:
     static Result<std::unique_ptr<Replay>> open (RunLogReader, Options);   ///< from an open log; no tick of it has been read yet
 
     Run& run() noexcept { return *running; }
-    double rate() const noexcept { return log.head().rate_hz; }   ///< Hz
-    const std::string& name() const noexcept { return graph_name; }
+    double rate() const noexcept { return log.head().rate_hz; }     ///< Hz
+    const graph::Graph& graph() const noexcept { return played; }   ///< what is played now
+    const std::string& name() const noexcept { return played.name; }
 
     /// Runs one tick. Returns false at the end of the log, after duration_s, or where the recorded run began to halt.
     Result<bool> tick();
@@ -92,7 +93,7 @@ private:
     FeedValues feed;
     std::map<std::string, Hand*> hands;
     std::unique_ptr<Run> running;
-    std::string graph_name;
+    graph::Graph played;
     Messages warnings;
 
     std::optional<RunTick> next;   // the next inputs; empty at the end of the log

@@ -49,8 +49,9 @@ public:
     /// Plays at most this many ticks. Returns false at the end of the stretch or of the run. Ids: those of Replay, take/too_large.
     Result<bool> advance (std::uint64_t ticks);
 
-    std::uint64_t tick() const noexcept { return now; }                   ///< the next tick to play
-    const std::string& name() const noexcept { return replay->name(); }   ///< of the graph
+    std::uint64_t tick() const noexcept { return now; }                      ///< the next tick to play
+    const graph::Graph& graph() const noexcept { return replay->graph(); }   ///< what is played now
+    const std::string& name() const noexcept { return replay->name(); }      ///< of the graph
     const std::vector<Tap>& taps() const { return replay->run().engine().plan().taps(); }
     std::string firstRole() const;   ///< of the graph; empty if it has none
     Messages takeWarnings() { return replay->takeWarnings(); }

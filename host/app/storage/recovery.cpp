@@ -26,6 +26,17 @@ fs::path lockIn (const fs::path& session) { return session / "lock"; }
 fs::path autosaveIn (const fs::path& session) { return session / "kept.json"; }
 fs::path trialIn (const fs::path& session) { return session / "trial"; }
 
+/// The takes that a session has recorded, each in a folder of its own.
+std::vector<fs::path> takesIn (const fs::path& session)
+{
+    std::vector<fs::path> all;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator (session, failed))
+        if (const auto log = entry.path() / "take.jsonl"; fs::is_regular_file (log, failed) && fs::file_size (log, failed) > 0) all.push_back (log);
+    std::ranges::sort (all, {}, [] (const fs::path& log) { return std::pair (log.native().size(), log); });   // take-10 comes after take-9
+    return all;
+}
+
 std::string newName()
 {
     std::random_device chance;
@@ -181,7 +192,8 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
         }
         else
             s.wrong = read.error().text;
-        if (s.wrong.empty() && ! s.saved.changed && ! s.in_trial)
+        s.recorded = takesIn (s.own);
+        if (s.wrong.empty() && ! s.saved.changed && ! s.in_trial && s.recorded.empty())
             s.discard();
         else
             all.push_back (std::move (s));
@@ -204,6 +216,8 @@ RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
     const auto name = "'" + nameOf (s.document()) + "'";
     const auto text = s.document().changed ? TRANS ("%1 has unsaved changes, last autosaved %2.") : TRANS ("%1 was open %2.");
     q.text = filled (text, name, howLongAgo (now_s - s.document().at_s)).toStdString();
+    if (const auto count = s.takes().size(); count > 0)
+        q.text += " " + (count == 1 ? TRANS ("A take was not saved.") : filled (TRANS ("%1 takes were not saved."), count)).toStdString();
     q.safe_first = s.endedInTrial();
     if (q.safe_first)
         q.text += " "

@@ -72,6 +72,7 @@ public:
     const std::string& problem() const noexcept { return wrong; }   ///< why the document cannot be read
     bool endedInTrial() const noexcept { return in_trial; }         ///< true if it ended soon after the graph was started or changed
     const std::filesystem::path& folder() const noexcept { return own; }
+    const std::vector<std::filesystem::path>& takes() const noexcept { return recorded; }   ///< the logs of the takes that were not saved
 
     void discard();
 
@@ -81,11 +82,12 @@ private:
     std::filesystem::path own;
     std::optional<FileLock> lock;
     AutosavedDocument saved;
+    std::vector<std::filesystem::path> recorded;
     std::string wrong;
     bool in_trial = false;
 };
 
-/// All crashed sessions, the latest first. Removes those in which nothing was lost: nothing had changed, and nothing had just
+/// All crashed sessions, the latest first. Removes those in which nothing was lost: nothing had changed, there was no take, and nothing had just
 /// started to run. [main thread]
 std::vector<CrashedSession> findCrashedSessions (const std::filesystem::path& home);
 

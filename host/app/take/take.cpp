@@ -3,6 +3,7 @@
 
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/private_folder.hpp>
+#include <tactus/run/log/run_test.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -33,7 +34,7 @@ Take::~Take() { playback.run().onRestart = nullptr; }
 Take::Recording::~Recording()
 {
     std::error_code ignored;
-    if (! file.empty()) std::filesystem::remove_all (file.parent_path(), ignored);
+    if (! file.empty() && ! stays) std::filesystem::remove_all (file.parent_path(), ignored);
 }
 
 void Take::restore (std::shared_ptr<Recording> r)
@@ -56,12 +57,22 @@ void Take::record()
     now = State::recording;
 }
 
+/// In a folder of its own. If there is none, the log says why it cannot be written.
+std::shared_ptr<Take::Recording> Take::newRecording()
+{
+    auto recording = std::make_shared<Recording>();
+    auto folder = home.empty() ? privateFolder ("tactus-take-") : home / ("take-" + std::to_string (++made));
+    std::error_code failed;
+    if (! home.empty()) std::filesystem::create_directory (folder, failed);
+    if (folder.empty()) folder = temporaryFolder() / "tactus-take-without-a-folder";
+    recording->file = folder / "take.jsonl";
+    return recording;
+}
+
 /// The next run is recorded.
 std::shared_ptr<Take::Recording> Take::logNext()
 {
-    auto recording = std::make_shared<Recording>();
-    const auto folder = privateFolder ("tactus-take-");
-    recording->file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
+    auto recording = newRecording();
     playback.run().logNextTo (recording->file, program);
     return recording;
 }
@@ -92,13 +103,37 @@ void Take::noteLength()
     current->hand = run.handRole();
 }
 
-void Take::read (StretchReader::Options options, std::function<void (Result<Stretch>)> then)
+Result<graph::Graph> Take::open (const std::filesystem::path& log, bool copies)
 {
-    if (now != State::ready && now != State::reading) return;
+    auto opened = copies ? newRecording() : std::make_shared<Recording>();
+    if (copies)
+    {
+        if (auto copied = copyRunLog (log.string(), opened->file); ! copied) return copied.error();
+    }
+    else
+    {
+        opened->file = log;
+        opened->is_saved = opened->stays = true;
+    }
+    const auto played = StretchReader::open (opened->file.string(), optionsFor ({}));
+    if (! played) return played.error();
+    opened->hand = (*played)->firstRole();
+    restore (std::move (opened));
+    return (*played)->graph();
+}
+
+StretchReader::Options Take::optionsFor (StretchReader::Options options)
+{
     options.assets = &assets;
     options.services.nearest_triangle = nearestByEmbree;
     options.program = program;
-    auto opened = StretchReader::open (current->file.string(), options);
+    return options;
+}
+
+void Take::read (StretchReader::Options options, std::function<void (Result<Stretch>)> then)
+{
+    if (now != State::ready && now != State::reading) return;
+    auto opened = StretchReader::open (current->file.string(), optionsFor (options));
     if (! opened) return then (std::move (opened).error());
     reader = std::move (*opened);
     done = std::move (then);

@@ -35,7 +35,10 @@ public:
     /// This program and its version, as logs state it.
     std::string program = "tactus";
 
-    /// What was recorded, in a log that is removed with this object.
+    /// The folder in which recordings are kept until they go, and where a crash leaves them; empty: a temporary one.
+    std::filesystem::path home;
+
+    /// What was recorded, in a log that is removed with this object, unless it stays.
     struct Recording
     {
         Recording() = default;
@@ -47,6 +50,7 @@ public:
         std::string hand;        ///< the role of the hand; empty if it has none
         double length_s = 0.0;   ///< what a replay plays; until the first one, it may be some milliseconds short
         bool is_saved = false;   ///< it was saved, or something was made of it
+        bool stays = false;      ///< the log is a file of the user, or is left for the next start
     };
 
     void record();   ///< starts the run again, and records it
@@ -76,6 +80,10 @@ public:
     /// Goes back to an earlier recording, which is complete, or to none.
     void restore (std::shared_ptr<Recording>);
 
+    /// Goes to a recording in a log, and returns the graph that it begins with. The log stays where it is, or is copied to become an unsaved recording,
+    /// as one that a crash left. Ids: those of Replay and copyRunLog.
+    Result<graph::Graph> open (const std::filesystem::path& log, bool copies);
+
     /// The role of the hand in the recording; empty if it has none.
     std::string role() const { return current ? current->hand : std::string(); }
 
@@ -84,6 +92,8 @@ public:
 
 private:
     bool readOn();
+    StretchReader::Options optionsFor (StretchReader::Options);
+    std::shared_ptr<Recording> newRecording();
     std::shared_ptr<Recording> logNext();
     void runRestarts();
     void noteLength();
@@ -95,6 +105,7 @@ private:
     State now = State::empty;
     std::shared_ptr<Recording> current;
     std::vector<std::shared_ptr<Recording>> following;   // of the runs that have begun again since, or will once the forces are zero
+    std::size_t made = 0;                                // folders in `home`
     bool is_asked = false;                               // stop() was called
     bool reads_all = false;
     std::unique_ptr<StretchReader> reader;

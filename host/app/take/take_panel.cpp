@@ -66,7 +66,7 @@ TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (
     for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &list, &ports, &from, &until, &clip, &gesture, &test })
         addAndMakeVisible (child);
     document.add (*this);
-    listPorts();
+    listPorts (document.graph());
     refresh();
 }
 
@@ -81,19 +81,19 @@ void TakePanel::documentChanged()
 /// A large graph has many ports, so they are listed only while somebody can see them.
 void TakePanel::visibilityChanged()
 {
-    if (is_stale && isVisible()) listPorts();
+    if (is_stale && isVisible()) listPorts (document.graph());
 }
 
-/// The ports of the graph. While there is a recording, they stay those of the recorded graph.
-void TakePanel::listPorts()
+/// The ports of a graph. While there is a recording, they stay those of the recorded graph.
+void TakePanel::listPorts (const graph::Graph& graph)
 {
     is_stale = false;
     names.clear();
-    for (const auto& p : scopePorts (document.graph(), catalogue))
+    for (const auto& p : scopePorts (graph, catalogue))
         names.push_back (p.name);
     if (std::ranges::count (names, shown_port) == 0)
     {
-        const auto suggested = suggestedScope (ScopeKind::time, document.graph(), catalogue).ports;
+        const auto suggested = suggestedScope (ScopeKind::time, graph, catalogue).ports;
         const auto first = names.empty() ? std::string() : names.front();
         shown_port = suggested.empty() ? first : suggested.front();
     }
@@ -114,23 +114,29 @@ void TakePanel::toggleRecording()
 {
     if (recording.state() == Take::State::recording) return recording.stop();
     before = shown();
-    listPorts();
+    listPorts (document.graph());
     curve.show ({});
     recording.record();
     refresh();
 }
 
-void TakePanel::restore (const Shown& to)
+/// What was recorded so far joins the list.
+void TakePanel::endRecording()
 {
-    while (recording.state() == Take::State::recording)   // what was recorded so far joins the list
+    while (recording.state() == Take::State::recording)
     {
         recording.stop();
         recording.poll();
     }
+}
+
+void TakePanel::restore (const Shown& to)
+{
+    endRecording();
     recording.restore (to.recording);
     names = to.names;
     shown_port = to.port;
-    if (! to.recording) listPorts();
+    if (! to.recording) listPorts (document.graph());
     fillPorts();
     curve.show ({});
     if (to.recording) readPort();
@@ -176,6 +182,8 @@ void TakePanel::keep (const Shown& complete, bool goes_on)
 juce::String TakePanel::nameOf (std::size_t take) const
 {
     const auto& r = *all[take].recording;
+    if (r.length_s <= 0.0) return filled (TRANS ("Take %1"), take + 1);   // left by a crash, and not shown yet
+    if (r.stays) return fromUtf8 (printableName (r.file.filename().string()));
     return filled (r.is_saved ? TRANS ("Take %1: %2 s") : TRANS ("Take %1: %2 s, not saved"), take + 1, juce::String (r.length_s, 1));
 }
 
@@ -193,7 +201,38 @@ void TakePanel::openMenu()
     menu.addSeparator();
     const bool has_take = is_free && recording.recorded() != nullptr;
     add (TRANS ("Save take..."), has_take, false, [] (TakePanel& p) { p.saveAs (p.recording.recorded(), {}); });
+    add (TRANS ("Open take..."), is_free && onOpen, false, [] (TakePanel& p) {
+        p.onOpen ([&p] (const std::filesystem::path& log) { p.open (log, false); });
+    });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list));
+}
+
+bool TakePanel::open (const std::filesystem::path& log, bool copies)
+{
+    endRecording();
+    const auto graph = recording.open (log, copies);
+    if (! graph)
+    {
+        if (onSaid)
+            onSaid (filled (TRANS ("Cannot open %1"), printableName (log.filename().string())),
+                    juce::String (graph.error().where + ": " + messageText (graph.error())) + ".", {});
+        return false;
+    }
+    listPorts (*graph);
+    const auto take = shown();
+    all.push_back (take);
+    resized();
+    restore (take);
+    return true;
+}
+
+bool TakePanel::leave()
+{
+    endRecording();
+    const auto rest = unsaved();
+    for (const auto& take : rest)
+        take->stays = ! recording.home.empty();
+    return ! rest.empty() && ! recording.home.empty();
 }
 
 /// The latest part of what is being recorded, as far as it is kept.
@@ -320,8 +359,7 @@ std::vector<std::shared_ptr<Take::Recording>> TakePanel::unsaved() const
 
 void TakePanel::save (const std::function<void()>& then)
 {
-    recording.stop();
-    refresh();   // the recording is complete
+    endRecording();
     const auto rest = unsaved();
     if (rest.empty()) return then();
     saveAs (rest.front(), [this, then] { save (then); });

@@ -42,6 +42,15 @@ public:
     /// are saved.
     void save (const std::function<void()>& then);
 
+    /// Shows a take from a log, see Take::open(). Says why, and returns false, if the log cannot be played.
+    bool open (const std::filesystem::path& log, bool copies);
+
+    /// The program must close now: this ends the recording, and leaves the unsaved takes for the next start. True if there are any.
+    bool leave();
+
+    /// Asks for a take to open.
+    std::function<void (std::function<void (const std::filesystem::path&)>)> onOpen;
+
     /// Asks for a file to write; `name` is the suggested name.
     std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
 
@@ -68,6 +77,7 @@ private:
         std::string port;
     };
     Shown shown() const { return { recording.recorded(), names, shown_port }; }
+    void endRecording();
     void restore (const Shown&);
     std::function<void()> restored (const Shown&);   ///< for a step of the history
     void recorded (const std::shared_ptr<Take::Recording>&, Take::End);
@@ -80,7 +90,7 @@ private:
     void showLatest();
     void runTest (const std::filesystem::path&);
     void useGesture (const std::filesystem::path&);
-    void listPorts();
+    void listPorts (const graph::Graph&);
     void showMark();
     void applyFields();
     void refuse (const Message&);
@@ -95,7 +105,7 @@ private:
     Take recording;
     TakePlot curve;
     ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle, TRANS ("Start the run again and record it, from its first tick on") };
-    ToolButton list { TRANS ("Takes"), ToolButton::Kind::framed, TRANS ("All takes since the window was opened: show or save one") };
+    ToolButton list { TRANS ("Takes"), ToolButton::Kind::framed, TRANS ("All takes since the window was opened: show, save or open one") };
     ToolButton clip { TRANS ("Make a clip..."), ToolButton::Kind::framed, TRANS ("Save the marked stretch of this port as a clip that signal.clip plays") };
     ToolButton gesture { TRANS ("Make a gesture..."), ToolButton::Kind::framed,
                          TRANS ("Save the movement of the hand in the marked stretch as a path that a simulated hand follows") };

@@ -71,6 +71,8 @@ void Files::beginSession (const fs::path& h)
     if (! session->problem().empty()) callbacks.notify (session->problem());
 }
 
+fs::path Files::sessionFolder() const { return session && session->problem().empty() ? session->folder() : fs::path(); }
+
 std::string Files::name() const
 {
     if (! document.graph().name.empty()) return printableName (document.graph().name);
@@ -269,7 +271,10 @@ void Files::restoreNext (bool runs)
     auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
     show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, false);
-    if (autosave()) crashed.front().discard();   // only now that the document is autosaved in this session
+    bool has_takes = true;
+    for (const auto& take : crashed.front().takes())
+        has_takes = callbacks.openTake (take) && has_takes;
+    if (autosave() && has_takes) crashed.front().discard();   // only now that the document is autosaved in this session
     const auto more = crashed.size() - 1;
     crashed.clear();
     auto text = TRANS ("Recovered. Press Ctrl+S to save.");
@@ -339,11 +344,11 @@ void Files::end()
     session.reset();
 }
 
-void Files::endSuddenly()
+void Files::endSuddenly (bool has_takes)
 {
     if (! session) return;
     endTyping();
-    if (! document.isChanged()) return end();
+    if (! document.isChanged() && ! has_takes) return end();
     autosave();
     autosaver.reset();
     session->endTrial();

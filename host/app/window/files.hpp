@@ -23,7 +23,8 @@ public:
         std::function<void()> stop;                  ///< called before another graph is opened
         std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
-        std::function<void()> onSettings;   ///< called when the settings have changed and must be saved
+        std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
+        std::function<void()> onSettings;                                   ///< called when the settings have changed and must be saved
 
         /// Asks for a file to open or save, and calls back with it unless the user cancels.
         std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> choose;
@@ -35,6 +36,7 @@ public:
     std::function<double()> clock;   ///< the time in s since 1970
 
     void beginSession (const std::filesystem::path& home);
+    std::filesystem::path sessionFolder() const;   ///< what a crash leaves; empty if it leaves nothing
 
     void create();
     void open();                                ///< asks the user for the file
@@ -58,7 +60,8 @@ public:
     void poll();             ///< call many times a second: an edit that came while another one was being autosaved is handed over here
     void finishAutosave();   ///< waits until the autosave matches the document
     void end();              ///< removes the autosave; call it when the program closes normally
-    void endSuddenly();      ///< autosaves unsaved changes; call it when the program must close now
+    /// Autosaves unsaved changes; call it when the program must close now. The folder of the session stays if there are takes in it.
+    void endSuddenly (bool has_takes = false);
 
 private:
     void documentChanged() override;

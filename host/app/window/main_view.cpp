@@ -88,6 +88,7 @@ void MainView::begin (const StartOptions& how)
     if (how.osc) openOscPort (*how.osc);
     if (! how.live.empty()) live_nodes.emplace (how.live);
     files.beginSession (home);
+    takes.take().home = files.sessionFolder();
     for (const auto& file : how.files)
         open (file);
     const bool is_asked = files.recover();

@@ -87,7 +87,7 @@ void MainView::attendFilm()
 void MainView::closeSuddenly()
 {
     run().letGo();
-    files.endSuddenly();
+    files.endSuddenly (takes.leave());
 }
 
 }   // namespace tactus::host

@@ -195,6 +195,8 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 {
     if (saves) return askWhereToSave (SaveWords::of (begin), begin, std::move (chosen));
     using Choice = juce::FileBrowserComponent;
+    if (extensionOf (begin) == ".jsonl")
+        return launchChooser (TRANS ("Open take"), "*.jsonl", fileAt (begin.parent_path()), Choice::openMode | Choice::canSelectFiles, std::move (chosen));
     launchChooser (TRANS ("Open graph or clip"), graphs_and_clips, fileAt (begin), Choice::openMode | Choice::canSelectFiles, std::move (chosen));
 }
 

@@ -16,6 +16,7 @@ Files::Callbacks MainView::fileCallbacks()
             run().stop(); },
         .run = [this] (bool by_pointer) { startOpened (by_pointer); },
         .isRunning = [this] { return playback.current().isRunning(); },
+        .openTake = [this] (const std::filesystem::path& take) { return takes.open (take, true); },
         .onSettings = [this] {
             saveSettingsSoon();
             presets.reload(); },
@@ -117,6 +118,7 @@ void MainView::connectRun()
 
     takes.onHint = patching.onHint;
     takes.onNotice = patching.onNotice;
+    takes.onOpen = [this] (auto chosen) { chooseFile (false, ownFolder() / "take.jsonl", std::move (chosen)); };
     takes.onChoose = [this] (const std::string& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); };
     takes.onClip = [this] (const Clip& clip, Messages notes, std::optional<double> gain, const std::filesystem::path& to) {
         return writeClip (clip, std::move (notes), gain, to);

@@ -273,3 +273,90 @@ TEST_CASE ("a take can be undone\\, which brings back the one before", "[app][ta
     CHECK_FALSE (std::filesystem::exists (second.first));
     CHECK_FALSE (std::filesystem::exists (first.first));
 }
+
+TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app][take][recovery]")
+{
+    Recorder r;
+    const bool is_crash = GENERATE (false, true), is_complete = GENERATE (false, true);
+    INFO ((is_crash ? "crash, " : "signal, ") << (is_complete ? "complete" : "recording"));
+    if (is_complete)
+    {
+        r.w.click ("Stop");
+        REQUIRE (waitFor ([&] { return r.isReady(); }));
+    }
+    REQUIRE (waitFor ([&] { return std::filesystem::file_size (r.take.log()) > 10000; }));
+    const auto sessions = r.w.home / "sessions";
+    const auto own = std::filesystem::directory_iterator (sessions)->path();
+    if (is_crash)   // what is on the disk now
+        std::filesystem::copy (own, sessions / "crashed", std::filesystem::copy_options::recursive);
+    else
+        r.w.view->closeSuddenly();
+    const auto left = r.take.log();
+    r.w.view.reset();
+    CHECK (std::filesystem::exists (left) == ! is_crash);
+    if (is_crash) std::filesystem::remove_all (own);
+
+    auto& w = r.w;
+    w.view = std::make_unique<MainView> (catalogue());
+    w.stage->fill (*w.view);
+    w.view->begin ({ .home = w.home.path() });
+    WindowRig::settle();
+    REQUIRE (w.view->asked().isOpen());
+    CHECK (w.view->asked().getDescription().contains ("A take was not saved."));
+    w.click ("Recover without running");
+    auto& panel = w.view->takePanel();
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
+    CHECK (panel.unsaved() == std::vector { panel.take().recorded() });
+    CHECK (panel.port() == "motor.force");
+    CHECK_FALSE (std::filesystem::exists (sessions / "crashed"));
+    CHECK_FALSE (std::filesystem::exists (left));
+    CHECK (lowest (panel.take().log(), panel.take().program).z() < 0.01);
+    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
+        chosen (w.home / "gesture.csv");
+    };
+    w.click ("Take");
+    w.click ("Make a gesture...");   // as of any other take
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+}
+
+TEST_CASE ("a take is saved from the list\\, and opened again\\, also with another graph", "[app][take]")
+{
+    Recorder r;
+    bool saves = false;
+    auto file = r.w.home / "wood.jsonl";
+    r.w.view->chooseFile = [&] (bool to_save, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+        saves = to_save;
+        CHECK (begin.filename() == "take.jsonl");
+        chosen (file);
+    };
+    r.w.click ("Stop");
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    const double length = r.panel.plot().length();
+    const auto port = r.panel.port();
+    r.choose (2);
+    CHECK (saves);
+    REQUIRE (std::filesystem::exists (file));
+    CHECK (r.panel.unsaved().empty());
+
+    r.w.view->open (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json");
+    r.choose (3);
+    CHECK_FALSE (saves);
+    REQUIRE (waitFor ([&] { return r.isReady() && r.take.log() == file; }));
+    CHECK (r.panel.plot().length() == length);
+    CHECK (r.take.seconds() == length);
+    CHECK (r.panel.port() == port);
+    CHECK (r.take.role() == "stylus");
+    CHECK (r.panel.unsaved().empty());
+
+    file = r.w.home / "broken.jsonl";
+    r.w.home.write ("broken.jsonl", "{}\n");
+    r.choose (4);
+    REQUIRE (r.w.view->asked().isOpen());
+    CHECK (r.w.view->asked().title() == "Cannot open broken.jsonl");
+    CHECK (r.w.view->asked().getDescription().contains ("broken.jsonl:1"));
+    r.w.click ("Close");
+    CHECK (r.take.log() != file);
+    CHECK (r.isReady());
+    r.w.view.reset();
+    CHECK (std::filesystem::exists (r.w.home / "wood.jsonl"));   // the file of the user
+}

@@ -215,15 +215,19 @@ TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it 
     }
     SECTION ("Save")
     {
+        FileAssets assets;
+        Messages warnings;
+        Result<Stretch> original { Stretch {} };
+        c.w.view->chooseFile = [&, choose = c.w.view->chooseFile] (bool saves, const fs::path& begin, const std::function<void (const fs::path&)>& then) {
+            original = readStretch (c.take().log().string(), { .assets = &assets, .program = c.take().program }, warnings);
+            choose (saves, begin, then);
+        };
         c.question().answer (0);
         CHECK (c.closed == 1);
         CHECK (c.chosen == c.folder / "take.jsonl");
-        FileAssets assets;
-        Messages warnings;
         const auto played = readStretch (c.chosen.string(), { .assets = &assets, .program = c.take().program }, warnings);
         INFO ((played ? "" : describe (played.error())));
         REQUIRE (played);
-        const auto original = readStretch (c.take().log().string(), { .assets = &assets, .program = c.take().program }, warnings);
         REQUIRE (original);
         CHECK (played->ticks() > 40);
         CHECK (played->values == original->values);

@@ -53,6 +53,7 @@ struct Rig
                 by_pointer = pointer;
                 ++starts; },
             .isRunning = [this] { return runs; },
+            .openTake = {},
             .onSettings = [] {},
             .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) {
                 if (! chosen.empty()) then (chosen); }
