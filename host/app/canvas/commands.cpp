@@ -92,7 +92,8 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Add node"), "spacebar|tab", always, addNode },
     { NEEDS_TRANS ("Add note, or region around selection"), "n", always, call<&CanvasCommands::addNote> },
     { NEEDS_TRANS ("Next region colour"), "k", hasNote, call<&CanvasCommands::recolourNotes> },
-    { NEEDS_TRANS ("Connect to..."), "w", hasOneNode, call<&CanvasCommands::wireFromSelection> },
+    { NEEDS_TRANS ("Connect to..."), "w", hasOneNode, call<&CanvasCommands::wireFromSelection>, false, true,
+      NEEDS_TRANS ("Select one node first: W lists what it can be wired to.") },
     { NEEDS_TRANS ("Save clip as..."), "", hasClip, call<&CanvasCommands::saveClipOfSelection> },
     { NEEDS_TRANS ("Probe signal"), "p", hasSelection, call<&CanvasCommands::probeSelection>, true },
 

@@ -23,6 +23,7 @@ struct CanvasCommand
     void (*run) (Canvas&);
     bool ends_group = false;   ///< a separator follows in the menu
     bool in_menu = true;       ///< false: keyboard only
+    const char* lacks = "";    ///< what its key says if the command does not apply, in English; "" for nothing
 };
 
 std::span<const CanvasCommand> canvasCommands() noexcept;
@@ -93,7 +94,6 @@ public:
 
 private:
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
-    std::vector<PaletteEntry> newBehind (graph::Id, const std::string& query) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored

@@ -7,134 +7,151 @@
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/find.hpp>
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace tactus::host
 {
 
 namespace
 {
-/// The entry for a new node behind an output: "friction.elasto_plastic (resistance)".
-constexpr const char* before_port = " (";
-
-/// The words of a query without those that name this output or say "new".
-struct OutputQuery
+/// A wire between a port of the selected node and another port, or a new node of a type, or a node that the user is still to choose.
+struct WireChoice
 {
-    juce::StringArray words;
-    bool names_it = false;
-
-    OutputQuery (const std::string& query, const std::string& port)
-    {
-        for (const auto& word : juce::StringArray::fromTokens (fromUtf8 (query), " .", {}))
-        {
-            if (word.isEmpty() || word.equalsIgnoreCase (TRANS ("new"))) continue;
-            if (fromUtf8 (port).equalsIgnoreCase (word))
-                names_it = true;
-            else
-                words.add (word);
-        }
-    }
+    PaletteEntry entry;
+    Findable searched;
+    PortId own, other {};
+    std::string type {};
 };
 
-/// The entries that fit the query, without guesses. With `summaries`, these are searched, too.
-std::vector<PaletteEntry> exactly (const std::vector<PaletteEntry>& entries, const std::string& query, bool summaries)
+/// What W can do with a node: wires to and from what is there, then nodes still to be chosen, then each type of node that fits.
+class WireChoices
 {
-    std::vector<Findable> searched;
-    for (const auto& e : entries)
-        searched.push_back ({ {}, e.type, {}, summaries ? e.summary : std::string() });
-    std::vector<PaletteEntry> found;
-    for (const auto i : bestMatches (searched, query, false))
-        found.push_back (entries[i]);
-    return found;
-}
-
-void addOthers (std::vector<PaletteEntry>& all, std::vector<PaletteEntry> more)
-{
-    for (auto& e : more)
-        if (std::ranges::count (all, e.type, &PaletteEntry::type) == 0) all.push_back (std::move (e));
-}
-}   // namespace
-
-/// The new nodes that a query finds behind the outputs of a node, the best of each output first.
-std::vector<PaletteEntry> CanvasCommands::newBehind (graph::Id id, const std::string& query) const
-{
-    const auto* from = canvas.scene().find (id);
-    if (from == nullptr) return {};
-    std::vector<std::vector<PaletteEntry>> columns;
-    std::size_t most = 0;
-    const bool is_named = std::ranges::any_of (from->face->outputs, [&] (const FacePort& out) { return OutputQuery (query, out.id).names_it; });
-    for (const auto& out : from->face->outputs)
+public:
+    WireChoices (const Scene& s, const SceneNode& n) : scene (s), node (n)
     {
-        const OutputQuery asked (query, out.id);
-        if (asked.words.isEmpty() || asked.names_it != is_named) continue;
-        const std::vector<WireEnd> ends { { &out, from->quantityOf (out) } };
-        auto& column = columns.emplace_back (
-            searchPalette (asked.words.joinIntoString (" ").toStdString(), document.graph(), canvas.types(), ends, {}, canvas.patch()));
-        for (auto& e : column)
-        {
-            e.name = from->name + '.' + out.id + " -> " + filled (TRANS ("new %1"), e.name).toStdString();
-            e.type += before_port + out.id + ')';
-        }
-        most = std::max (most, column.size());
+        for (const auto& w : scene.wires())
+            wired.insert (w.text);
     }
-    std::vector<PaletteEntry> all;
-    for (std::size_t i = 0; i < most; ++i)
-        for (auto& column : columns)
-            if (i < column.size()) all.push_back (std::move (column[i]));
-    return all;
-}
+
+    /// Wires from and into what is there. Those that only fit one component of a vector come after the others.
+    void addWires()
+    {
+        for (const bool whole : { true, false })
+            for (const auto& own : portsOf (node))
+                for (const auto& n : scene.nodes())
+                    for (const auto& there : portsOf (n))
+                        if (n.id != node.id && isOutput (own) != isOutput (there) && (own.port->width == there.port->width) == whole) addWire (own, there);
+    }
+
+    void addNewNode (const FacePort& own)
+    {
+        const auto name = wireText (own, TRANS ("new node").toStdString());
+        add ({ { name, {}, TRANS ("Adds a node that fits.").toStdString() }, { {}, name, {}, {} }, idOf (own) });
+    }
+
+    /// A new node is found as in the list of all nodes, and by the name of the port and "new", too.
+    void addType (const FacePort& own, const PaletteType& t)
+    {
+        auto searched = t.searched;
+        searched.names += ' ' + own.id + ' ' + TRANS ("new").toStdString();
+        const auto key = t.entry.type + (own.role == Role::output ? " (" + own.id + ')' : " -> " + own.id);   // an input may have the name of an output
+        add ({ { key, wireText (own, filled (TRANS ("new %1"), t.entry.name).toStdString()), t.entry.summary }, std::move (searched), idOf (own), {}, t.entry.type });
+    }
+
+    std::size_t size() const { return found.size(); }
+    std::vector<WireChoice> take() { return std::move (found); }
+
+private:
+    static bool isOutput (const ScenePort& p) { return p.port->role == Role::output; }
+
+    static std::vector<ScenePort> portsOf (const SceneNode& n)
+    {
+        std::vector<ScenePort> all;
+        for (const auto role : { Role::output, Role::input, Role::param })
+            for (const auto& p : n.face->of (role))
+                all.push_back ({ &n, &p });
+        return all;
+    }
+
+    void add (WireChoice c) { found.push_back (std::move (c)); }
+    PortId idOf (const FacePort& own) const { return { node.id, own.role, own.id }; }
+
+    std::string wireText (const FacePort& own, const std::string& other) const
+    {
+        const auto here = node.name + '.' + own.id;
+        return own.role == Role::output ? here + " -> " + other : other + " -> " + here;
+    }
+
+    void addWire (const ScenePort& own, const ScenePort& there)
+    {
+        const bool leaves = isOutput (own);
+        if (! checkWireByComponent ((leaves ? own : there).end(), (leaves ? there : own).end())) return;
+        const auto text = wireText (*own.port, there.node->name + '.' + there.port->id);
+        if (wired.contains (text)) return;
+        const auto& about = (leaves ? there : own).port->about;
+        add ({ { text, {}, about },
+               { there.node->name, text, {}, about + ' ' + there.node->type },
+               idOf (*own.port),
+               { there.node->id, there.port->role, there.port->id } });
+    }
+
+    const Scene& scene;
+    const SceneNode& node;
+    std::set<std::string, std::less<>> wired;
+    std::vector<WireChoice> found;
+};
+}   // namespace
 
 void CanvasCommands::wireFromSelection()
 {
     const auto nodes = selectedNodes();
-    if (nodes.empty() || ! canvas.onChoose) return;
-    const auto& from = *nodes.back();
-    std::vector<std::pair<PortId, PortId>> wires;
-    std::vector<PaletteEntry> entries;
-    const auto list = [&] (const FacePort& out, bool whole) {   // else, one component of a vector
-        for (const auto& n : canvas.scene().nodes())
-            for (const auto* ports : { &n.face->inputs, &n.face->params })
-                for (const auto& in : *ports)
-                {
-                    if (n.id == from.id || (out.width == in.width) != whole) continue;
-                    if (! checkWireByComponent ({ &out, from.quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
-                    entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
-                    wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
-                }
+    if (nodes.size() != 1 || ! canvas.onChoose) return;
+    const auto& node = *nodes.front();
+    WireChoices made (canvas.scene(), node);
+    made.addWires();
+    for (const auto role : { Role::output, Role::input })
+        for (const auto& own : node.face->of (role))
+            made.addNewNode (own);
+    const auto shown_first = made.size();
+    for (const auto& type : paletteTypes (document.graph(), canvas.types(), canvas.patch()))
+        for (const auto role : { Role::output, Role::input })
+            for (const auto& own : node.face->of (role))
+                if (type.fits ({ &own, node.quantityOf (own) })) made.addType (own, type);
+
+    const auto choices = std::make_shared<const std::vector<WireChoice>> (made.take());
+    std::vector<Findable> searched, names;   // of all, and of what is shown first, without descriptions
+    for (const auto& c : *choices)
+        searched.push_back (c.searched);
+    for (std::size_t i = 0; i < shown_first; ++i)
+        names.push_back ({ searched[i].title, searched[i].names, {}, {} });
+    // First the wires to what is there, by name; then new nodes, and wires whose description fits.
+    const auto search = [choices, searched = std::move (searched), names = std::move (names)] (const std::string& query) {
+        auto order = bestMatches (names, query, false);
+        const auto words = juce::StringArray::fromTokens (fromUtf8 (query).toLowerCase(), " .", {});
+        const auto isNamed = [&] (const WireChoice& c) { return words.contains (fromUtf8 (c.own.port)); };
+        const bool names_port = std::ranges::any_of (*choices, isNamed), is_empty = words.joinIntoString ({}).isEmpty();
+        const std::set<std::size_t> known (order.begin(), order.end());
+        for (const auto i : is_empty ? std::vector<std::size_t> {} : bestMatches (searched, query))
+            if (! known.contains (i) && (i < names.size() || ! names_port || isNamed ((*choices)[i]))) order.push_back (i);
+        std::vector<PaletteEntry> found;
+        for (const auto i : order)
+            found.push_back ((*choices)[i].entry);
+        return found;
     };
-    for (const bool whole : { true, false })
-        for (const auto& out : from.face->outputs)
-            list (out, whole);
-    for (const auto& out : from.face->outputs)
-    {
-        entries.push_back ({ from.name + '.' + out.id + " -> " + TRANS ("new node").toStdString(), {}, TRANS ("Adds a node that fits.").toStdString() });
-        wires.push_back ({ { from.id, Role::output, out.id }, {} });
-    }
-    // First the wires to what is there, by name; then new nodes; then wires whose description fits; and only then, guesses.
-    const auto search = [this, entries, id = from.id] (const std::string& query) {
-        if (fromUtf8 (query).trim().isEmpty()) return entries;
-        auto found = exactly (entries, query, false);
-        addOthers (found, newBehind (id, query));
-        addOthers (found, exactly (entries, query, true));
-        return found.empty() ? matching (entries, query) : found;
-    };
-    const auto beside = from.bounds().getTopRight().translated (3 * Box::grid, 0.0f);
-    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), search, [this, wires, entries, beside, id = from.id] (const std::string& chosen) {
-        const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
-        if (entry == entries.end())
-        {
-            const auto end = chosen.rfind (before_port);
-            if (end == chosen.npos) return;
-            const auto port = chosen.substr (end + std::string_view (before_port).size());
-            return addNodeAt (chosen.substr (0, end), { beside, PortId { id, Role::output, port.substr (0, port.size() - 1) } });
-        }
-        const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
-        if (in.node == 0) return requestNode ({ beside, out });
-        const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
-        if (a && b) join (a, b);
+    canvas.onChoose (filled (TRANS ("Connect %1 to..."), node.name), search, [this, choices] (const std::string& chosen) {
+        const auto choice = std::ranges::find (*choices, chosen, [] (const WireChoice& c) { return c.entry.type; });
+        const auto own = choice == choices->end() ? ScenePort {} : canvas.scene().findPort (choice->own);
+        if (! own) return;
+        const bool leaves = own.port->role == Role::output;
+        if (const auto other = canvas.scene().findPort (choice->other)) return leaves ? join (own, other) : join (other, own);
+        if (choice->other.node != 0) return;
+        constexpr float gap = 3 * Box::grid, wide = 26 * Box::grid;   // of a new node
+        const auto box = own.node->bounds();
+        const NodeRequest request { leaves ? box.getTopRight().translated (gap, 0.0f) : box.getTopLeft().translated (-gap - wide, 0.0f), choice->own };
+        choice->type.empty() ? requestNode (request) : addNodeAt (choice->type, request);
     });
 }
 

@@ -185,7 +185,11 @@ bool Canvas::keyPressed (const juce::KeyPress& key)
             if (key == juce::KeyPress::createFromDescription (keys))
             {
                 is_known = true;
-                if (! c.can (*this)) continue;   // another command may have the same key
+                if (! c.can (*this))
+                {
+                    if (*c.lacks != 0) notice (juce::translate (c.lacks));
+                    continue;   // another command may have the same key
+                }
                 c.run (*this);
                 return true;
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/find.hpp>
 
 #include <functional>
 #include <string>
@@ -19,14 +20,26 @@ struct PaletteEntry
     bool isTitle() const noexcept { return type.empty(); }
 };
 
-/// Finds the node types of the catalogue and the subgraphs of a graph, as text/find.hpp says, by their names and ids, the names that new nodes of
-/// them get, their keywords, and their summaries, ports, units and quantities. Each result has a port for every wire end in `fits`: one end for a
-/// dropped wire, two for inserting into a wire. Subgraphs that are or contain `patch`, where the node will be, are left out. Without a query, all
-/// entries come in groups: the types in `recent`, then the families.
+/// A type of node: its entry, what is searched in it, and its ports.
+struct PaletteType
+{
+    PaletteEntry entry;
+    Findable searched;   ///< names and ids, the name that a new node gets, keywords, and in the text, the summary, ports, units and quantities
+    Face face;
+
+    bool fits (const WireEnd&) const;   ///< whether it has a port for this end of a wire
+};
+
+/// The types of the catalogue and the subgraphs of a graph, without the subgraphs that are or contain `patch`, where a node will be.
+std::vector<PaletteType> paletteTypes (const graph::Graph&, const Catalogue&, const std::string& patch = {});
+
+/// Finds types of nodes, as text/find.hpp says. Each result has a port for every wire end in `fits`: one end for a dropped wire, two for inserting
+/// into a wire. Without a query, all entries come in groups: those whose port is made for the one end in `fits`, if they are few, the types in
+/// `recent`, and the families.
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits,
                                          const std::vector<std::string>& recent = {}, const std::string& patch = {});
 
-/// The entries that fit the query, the best first.
+/// The entries that fit the query, the best first. An entry without a name is known by its type.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
 
 /// What a palette lists for a query.

@@ -200,9 +200,10 @@ private:
     juce::PopupMenu windowMenu();
     void openMenu (juce::Component& at);
     void tellAboutOsc();
-    struct Action;   ///< what a click would do
+    struct Action;   ///< what a click would do, or the way to a node
     void addEdits (std::vector<Action>&);
     void addTabsAndButtons (std::vector<Action>&);
+    void addNodes (std::vector<Action>&);
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything that a click can do, found by its name, so that nothing needs the mouse.
+// Everything that a click can do, and the nodes of the graph, found by their names, so that nothing needs the mouse.
 #include "main_view.hpp"
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace tactus::host
 {
@@ -17,6 +20,8 @@ struct MainView::Action
 {
     juce::String name, about;
     std::function<void()> act;
+    std::string key {};                  // what the list calls it; empty: its name
+    std::vector<Findable> searched {};   // it is found as the best of them; empty: by its name, and by what is said about it
 };
 
 namespace
@@ -105,23 +110,75 @@ void MainView::addTabsAndButtons (std::vector<Action>& all)
     });
 }
 
+/// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
+void MainView::addNodes (std::vector<Action>& all)
+{
+    if (welcome.isVisible()) return;
+    const auto types = paletteTypes (edited.graph(), catalogue);
+    std::vector<std::pair<std::size_t, Action>> found;   // with the number of the type
+    std::vector<std::string> patches { {} };
+    for (std::size_t i = 0; i < patches.size(); ++i)
+    {
+        const auto in = patches[i];
+        const auto* patch = findPatch (edited.graph(), in);
+        if (patch == nullptr) continue;
+        for (const auto& n : patch->nodes)
+        {
+            if (n.type.starts_with ("graph:") && std::ranges::count (patches, n.type.substr (6)) == 0) patches.push_back (n.type.substr (6));
+            const auto path = in.empty() ? n.name : in + '/' + n.name;
+            const auto type = std::ranges::find (types, n.type, [] (const PaletteType& t) { return t.entry.type; });
+            std::vector<Findable> searched { { n.name, path + ' ' + n.type, {}, {} } };
+            if (type != types.end()) searched.push_back (type->searched);
+            const auto about = filled (TRANS ("A node of this graph: %1"), type == types.end() ? n.type : type->entry.name);
+            const auto show = [this, in, id = n.id] {
+                turnTo (patching);
+                patching.show (in, id);
+                if (const auto* node = patching.scene().find (id)) patching.bringIntoView (node->bounds());
+            };
+            found.push_back ({ static_cast<std::size_t> (type - types.begin()), { fromUtf8 (path), about, show, n.type + " (" + path + ')', std::move (searched) } });
+        }
+    }
+    std::ranges::stable_sort (found, {}, [] (const auto& f) { return f.first; });
+    for (auto& f : found)
+        all.push_back (std::move (f.second));
+}
+
 void MainView::findAction()
 {
     std::vector<Action> all;
     addEdits (all);
     addTabsAndButtons (all);
     addItems (windowMenu(), {}, all);
+    addNodes (all);
+    std::map<std::string, std::function<void()>> acts;
     std::vector<PaletteEntry> entries;
-    for (const auto& a : all)
-        if (const auto name = a.name.toStdString(); ! name.empty() && std::ranges::count (entries, name, &PaletteEntry::type) == 0)
-            entries.push_back ({ name, {}, a.about.toStdString() });
-    const auto search = [entries] (const std::string& query) { return matching (entries, query); };
-    const auto choose = [this, all] (const std::string& chosen) {
-        takeFocus (keyboardHome());
-        const auto found = std::ranges::find (all, fromUtf8 (chosen), &Action::name);
-        if (found != all.end()) found->act();
+    std::vector<Findable> searched;
+    std::vector<std::size_t> entry_of;   // by the number in `searched`
+    for (auto& a : all)
+    {
+        const auto name = a.name.toStdString(), about = a.about.toStdString();
+        const auto& key = a.key.empty() ? name : a.key;
+        if (key.empty() || ! acts.try_emplace (key, a.act).second) continue;
+        if (a.searched.empty()) a.searched.push_back ({ name, {}, {}, about });
+        for (auto& f : a.searched)
+        {
+            searched.push_back (std::move (f));
+            entry_of.push_back (entries.size());
+        }
+        entries.push_back ({ key, name, about });
+    }
+    const auto search = [entries, searched, entry_of] (const std::string& query) {
+        std::vector<PaletteEntry> found;
+        std::set<std::size_t> seen;
+        for (const auto i : bestMatches (searched, query))
+            if (seen.insert (entry_of[i]).second) found.push_back (entries[entry_of[i]]);
+        return found;
     };
-    palette.open ({ (getWidth() - Palette::width) / 2, top.getBottom() }, search, TRANS ("Find a command, a button or a panel"), choose,
+    const auto choose = [this, acts] (const std::string& chosen) {
+        takeFocus (keyboardHome());
+        if (const auto found = acts.find (chosen); found != acts.end()) found->second();
+    };
+    palette.open ({ (getWidth() - Palette::width) / 2, top.getBottom() }, search, TRANS ("Find a node of this graph, a command, a button or a panel"), choose,
                   Palette::Finds::others);
 }
 
