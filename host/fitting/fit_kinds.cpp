@@ -16,6 +16,27 @@ FitColumn column (const char* role, const char* unit, bool required, std::vector
     return { role, unit, required, std::move (names), about };
 }
 
+FitColumn positive (FitColumn column)
+{
+    column.is_positive = true;
+    return column;
+}
+
+/// Depth and force of a tool that is pressed on.
+std::vector<FitColumn> pressed (std::vector<std::string> depth_names, const char* depth_about, const char* force_about)
+{
+    depth_names.insert (depth_names.begin(), { "indentation", "z" });
+    return { positive (column ("depth", "m", true, std::move (depth_names), depth_about)),
+             positive (column ("force", "N", true, { "resistance", "fz", "fn", "f" }, force_about)) };
+}
+
+std::vector<FitColumn> impact()
+{
+    auto columns = pressed ({ "displacement" }, "depth", "force out of the object");
+    columns.push_back (column ("t", "s", false, { "time" }, "time"));
+    return columns;
+}
+
 const std::vector<std::string> along { "x", "displacement", "travel" };
 
 std::vector<double> valuesOf (const Table& table, const FitColumn& wanted)
@@ -86,7 +107,9 @@ FitKind guessPressed (const Table& table)
     constexpr double brief = 0.1;   // s
     if (t.size() > 1 && t.back() - t.front() < brief) return FitKind::shock;
     const auto& columns = infoOf (FitKind::curve).columns;
-    const auto depth = valuesOf (table, columns[0]), force = valuesOf (table, columns[1]);
+    RecordedColumns recorded { { "depth", valuesOf (table, columns[0]) }, { "force", valuesOf (table, columns[1]) } };
+    turnSigns (columns, recorded);
+    const auto &depth = recorded["depth"], &force = recorded["force"];
     if (depth.empty()) return FitKind::curve;
     const double deepest = *std::ranges::max_element (depth);
     if (depth.back() < 0.5 * deepest)   // pressed and released
@@ -111,8 +134,8 @@ const std::vector<FitKindInfo>& fitKinds()
           "Friction",
           "How a tool sticks and slides: friction.elasto_plastic",
           { column ("position", "m", true, { "x", "displacement", "travel", bareName (integrated_position) }, "position along the stroke"),
-            column ("force", "N", true, { "friction", "friction_force", "drag" }, "friction force along the stroke"),
-            column ("load", "N", false, { "normal", "normal_force", "push" }, "normal force") } },
+            column ("force", "N", true, { "friction", "friction_force", "drag", "fx", "ft" }, "friction force along the stroke"),
+            positive (column ("load", "N", false, { "normal", "normal_force", "push", "fz", "fn" }, "normal force")) } },
         { FitKind::modes,
           "modes",
           "Ring",
@@ -127,7 +150,7 @@ const std::vector<FitKindInfo>& fitKinds()
           { column ("t", "s", true, { "time" }, "time"),
             column ("acceleration", "m/s2", true, { "accel", "acc", "vibration", "a" }, "acceleration of the tool"),
             column ("speed", "m/s", false, { "velocity", "v" }, "speed of the tool"),
-            column ("force", "N", false, { "normal", "normal_force", "load" }, "normal force") } },
+            positive (column ("force", "N", false, { "normal", "normal_force", "load", "fz", "fn" }, "normal force")) } },
         { FitKind::grating,
           "grating",
           "Ridges",
@@ -138,23 +161,22 @@ const std::vector<FitKindInfo>& fitKinds()
           "blade",
           "Cut",
           "How a sample bursts and is cut: cut.blade",
-          { column ("depth", "m", true, along, "depth of the blade"), column ("force", "N", true, { "resistance" }, "force against the blade") } },
+          pressed (along, "depth of the blade", "force against the blade") },
         { FitKind::curve,
           "curve",
           "Press",
           "Force over depth of a soft body: deform.surface",
-          { column ("depth", "m", true, along, "depth"), column ("force", "N", true, { "resistance" }, "force out of the object") } },
+          pressed (along, "depth", "force out of the object") },
         { FitKind::key_switch,
           "switch",
           "Key switch",
           "The force of a key, pressed and released: deform.plane and friction.elasto_plastic",
-          { column ("depth", "m", true, along, "travel of the key"), column ("force", "N", true, { "resistance" }, "force of the key") } },
+          pressed (along, "travel of the key", "force of the key") },
         { FitKind::shock,
           "shock",
           "Impact",
           "The spring and damper of an impact: shock.hunt_crossley",
-          { column ("depth", "m", true, { "displacement" }, "depth"), column ("force", "N", true, { "resistance" }, "force out of the object"),
-            column ("t", "s", false, { "time" }, "time") } },
+          impact() },
     };
     return kinds;
 }
@@ -167,7 +189,8 @@ std::optional<FitKind> guessKind (const Table& table)
         return std::ranges::all_of (infoOf (kind).columns, [&] (const FitColumn& c) { return ! c.required || findColumn (table, c); });
     };
     if (table.rows() < 2) return {};
-    if (has (table, FitKind::grating, "height") && bareName (table.columns[0]) != "column_1" && fits (FitKind::grating)) return FitKind::grating;
+    const bool is_scan = has (table, FitKind::grating, "height") && ! has (table, FitKind::curve, "force") && ! has (table, FitKind::friction, "force");
+    if (is_scan && bareName (table.columns[0]) != "column_1" && fits (FitKind::grating)) return FitKind::grating;
     if (fits (FitKind::texture) && (has (table, FitKind::texture, "speed") || has (table, FitKind::texture, "force"))) return FitKind::texture;
     if (fits (FitKind::friction))
     {

@@ -238,7 +238,7 @@ graph::Graph bladePreset (const BladeFit& fit, const std::string& source)
 graph::Graph shockPreset (const ShockFit& fit, const std::string& source)
 {
     auto graph = graphOf (shockSketch());
-    graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: " + shortNumber (1e3 * fit.recorded_area) + " mJ at "
+    graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: " + energyText (fit.recorded_area) + " at "
                   + shortNumber (fit.speed) + " m/s.";
     auto& blow = nodeIn (graph, "blow");
     blow.params["mass"] = tidy (fit.mass);

@@ -4,7 +4,6 @@
 #include "surface_preset.hpp"
 
 #include <tactus/fit/curve_fit.hpp>
-#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-using Columns = std::map<std::string, std::vector<double>>;
+using Columns = RecordedColumns;
 
 Result<Columns> columnsOf (FitKind kind, const Table& table, const std::string& file, const ColumnChoice& choice)
 {
@@ -123,16 +122,9 @@ Result<FittedGraph> grating (const Columns& c, const std::string& file, const Fi
     return made;
 }
 
-std::vector<double> fromTouch (std::vector<double> depth, double touch)
-{
-    for (double& d : depth)
-        d -= touch;
-    return depth;
-}
-
 Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitBlade ({ fromTouch (c.at ("depth"), s.touch), c.at ("force"), orElse (s.width, 0.02) }, course);
+    auto fit = fitBlade ({ c.at ("depth"), c.at ("force"), orElse (s.width, 0.02) }, course);
     if (! fit) return fit.error();
     FittedGraph made { .kind = FitKind::blade, .preset = bladePreset (*fit, sourceOf (FitKind::blade, file, fit->report)), .nodes = { "blade" } };
     made.snippets.push_back ("law       " + toJson (fit->law).dump() + (fit->cracked_law ? ", with a crack " + toJson (fit->cracked_law).dump() : ""));
@@ -144,16 +136,16 @@ Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitS
 
 Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points, course);
+    auto fit = fitCurve ({ .depth = c.at ("depth"), .force = c.at ("force") }, s.points, course);
     if (! fit) return fit.error();
     const UniformBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
     std::string about = "A uniform body with the curve of a recorded indentation.";
-    if (! fit->out.empty()) about += " The recording lost " + shortNumber (1e3 * fit->area) + " mJ per push; this body loses energy only by friction.";
+    if (! fit->out.empty()) about += " The recording lost " + energyText (fit->area) + " per push; this body loses energy only by friction.";
     FittedGraph made { .kind = FitKind::curve, .preset = surfacePreset (body, {}, about, sourceOf (FitKind::curve, file, fit->report)), .nodes = { "body" } };
     if (fit->out.empty())
         made.details.push_back ("hysteresis  unknown: the way out was not recorded");
     else
-        made.details.push_back ("hysteresis  " + shortNumber (1e3 * fit->area, 6) + " mJ, " + shortNumber (100.0 * fit->area / fit->work, 2)
+        made.details.push_back ("hysteresis  " + energyText (fit->area, 6) + ", " + shortNumber (100.0 * fit->area / fit->work, 2)
                                 + " % of the work on the way in; the curve is the mean of both ways and loses nothing");
     if (fit->clicks())
         made.warnings.push_back (Message::warning (
@@ -173,8 +165,7 @@ Result<FittedGraph> keySwitch (const Columns& c, const std::string& file, const 
     FittedGraph made { .kind = FitKind::key_switch,
                        .preset = switchPreset (fit->loop, s.stiffness, sourceOf (FitKind::key_switch, file, fit->report)),
                        .nodes = { "key", "bound", "rub" } };
-    const auto lost_mj = roundedText (1e3 * lostEnergy (fit->loop), 4);
-    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + lost_mj + " mJ per stroke");
+    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + energyText (lostEnergy (fit->loop), 4) + " per stroke");
     made.report = std::move (fit->report);
     return made;
 }
@@ -198,8 +189,8 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
     FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
     made.snippets = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump() };
     made.details = { "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
-                     "area       " + shortNumber (1e3 * fit->recorded_area, 6) + " mJ recorded, " + shortNumber (1e3 * fit->fitted_area, 6) + " mJ fitted, "
-                         + shortNumber (1e3 * fit->played_area, 6) + " mJ when the shock is played at this speed" };
+                     "area       " + energyText (fit->recorded_area, 6) + " recorded, " + energyText (fit->fitted_area, 6) + " fitted, "
+                         + energyText (fit->played_area, 6) + " when the shock is played at this speed" };
     if (! is_free) made.warnings.push_back (not_free);
     made.report = std::move (fit->report);
     return made;
@@ -234,8 +225,11 @@ std::string verdictOf (const FitReport& report) { return report.is_good ? "good"
 
 Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::string& file, const FitSettings& settings, FitCourse* course)
 {
-    const auto columns = columnsOf (kind, table, file, settings.columns);
+    auto columns = columnsOf (kind, table, file, settings.columns);
     if (! columns) return columns.error();
+    for (double& d : (*columns)["depth"])
+        d -= settings.touch;
+    const auto turned = turnSigns (infoOf (kind).columns, *columns);
     if (auto once = checkGivenOnce (*columns, kind, settings); ! once) return Message::error (once.error().id, file, once.error().text, once.error().remedy);
     auto made = fitted (kind, *columns, file, settings, course);
     if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
@@ -243,16 +237,18 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
     const auto along = findColumn (table, infoOf (kind).columns.front(), settings.columns);
     if (along && table.columns[*along] == integrated_position)
         made->report.notes.emplace_back ("the position was not recorded: it is the integral of the velocity over the time");
+    made->report.notes.insert (made->report.notes.end(), turned.begin(), turned.end());
     return made;
 }
 
 FitPicture pictureOf (FitKind kind, const Table& table, const ColumnChoice& choice)
 {
     const auto& columns = infoOf (kind).columns;
-    auto x = columnOf (table, {}, columns[0], choice), y = columnOf (table, {}, columns[1], choice);
-    if (! x || ! y) return {};
+    auto recorded = columnsOf (kind, table, {}, choice);
+    if (! recorded) return {};
+    turnSigns (columns, *recorded);
     const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };
-    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { { "recorded", std::move (*x), std::move (*y), true } } };
+    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { { "recorded", std::move ((*recorded)[columns[0].role]), std::move ((*recorded)[columns[1].role]), true } } };
 }
 
 }   // namespace tactus::host

@@ -35,19 +35,32 @@ std::string symbolIn (const std::string& unit)
 }
 
 bool isUnit (const std::string& text) { return text == "gf" || text == "g" || parseMeasure ("1 " + symbolIn (text)).has_value(); }
-}   // namespace
 
-std::string unitIn (const std::string& column)
+/// "m_s" as "m/s"
+std::string quotient (std::string unit)
+{
+    std::ranges::replace (unit, '_', '/');
+    return unit;
+}
+
+/// The unit as the name of a column has it, such as the "m_s" of speed_m_s.
+std::string writtenUnit (const std::string& column)
 {
     for (const auto& [open, close] : { std::pair { '[', ']' }, std::pair { '(', ')' } })
         if (const auto from = column.find (open), to = column.rfind (close); from != std::string::npos && to != std::string::npos && from < to)
             return trimmed (column.substr (from + 1, to - from - 1));
     const auto from = column.find_last_of ("_ ");
     if (from == std::string::npos) return "";
+    const auto before = from == 0 ? std::string::npos : column.find_last_of ("_ ", from - 1);
+    if (before != std::string::npos && column[from] == '_' && std::isalpha (static_cast<unsigned char> (column[before + 1])) != 0)
+        if (const auto over = column.substr (before + 1); isUnit (quotient (over))) return over;
     const auto unit = column.substr (from + 1);
     const bool is_number = unit.find_first_not_of ("0123456789.") == std::string::npos;   // "channel 1" is a name
     return ! is_number && isUnit (unit) ? unit : "";
 }
+}   // namespace
+
+std::string unitIn (const std::string& column) { return quotient (writtenUnit (column)); }
 
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit)
 {
@@ -80,7 +93,7 @@ void integrate (Table& table)
     };
     const auto t = find ("s", { "t", "time" }), v = find ("m/s", { "velocity", "v" });
     const bool is_stroke =
-        find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force" }) && find ("N", { "load", "normal", "normal_force" }));
+        find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force", "fx", "ft" }) && find ("N", { "load", "normal", "normal_force", "fz", "fn" }));
     if (! t || ! v || ! is_stroke || find ("m", { "position", "x", "displacement", "travel", "depth" })) return;
     const auto time = valuesIn (*t, "s"), velocity = valuesIn (*v, "m/s");
     if (! time || ! velocity) return;
@@ -131,7 +144,7 @@ Table tableOf (const Signal& signal)
 std::string bareName (const std::string& column)
 {
     auto name = column;
-    if (const auto unit = unitIn (column); ! unit.empty()) name = column.substr (0, column.rfind (unit) - 1);
+    if (const auto unit = writtenUnit (column); ! unit.empty()) name = column.substr (0, column.rfind (unit) - 1);
     name = trimmed (name);
     std::ranges::transform (name, name.begin(), [] (unsigned char c) { return c == ' ' ? '_' : static_cast<char> (std::tolower (c)); });
     return name;
@@ -179,6 +192,28 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
     for (std::size_t r = 0; r < table.rows(); ++r)
         values.push_back (factor * table.at (r, *found));
     return values;
+}
+
+std::vector<std::string> turnSigns (const std::vector<FitColumn>& columns, RecordedColumns& recorded)
+{
+    constexpr double noise = 0.05;   // what may have the other sign, over the largest value
+    const auto force = recorded.find ("force");
+    const auto isLarger = [] (double a, double b) { return std::abs (a) < std::abs (b); };
+    const auto pressed =   // the row of the largest force, in which the tool touches
+        force == recorded.end() || force->second.empty() ? std::ptrdiff_t { -1 } : std::ranges::max_element (force->second, isLarger) - force->second.begin();
+    std::vector<std::string> notes;
+    for (const auto& column : columns)
+    {
+        auto& values = recorded[column.role];
+        if (! column.is_positive || values.empty()) continue;
+        const auto [least, most] = std::ranges::minmax (values);
+        const bool is_turned = least < 0.0 && most <= -noise * least;
+        if (! is_turned || (pressed >= 0 && ! (values[static_cast<std::size_t> (pressed)] < 0.0))) continue;
+        for (double& v : values)
+            v = 0.0 - v;   // -0 would be printed
+        notes.push_back ("the " + column.role + " is negative in the recording; its sign was turned");
+    }
+    return notes;
 }
 
 }   // namespace tactus::host

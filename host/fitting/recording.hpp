@@ -21,6 +21,7 @@ struct FitColumn
     bool required = true;
     std::vector<std::string> names;   ///< column names to look for if the user names none; lower case, without a unit
     std::string about;
+    bool is_positive = false;   ///< where the tool is pressed on
 };
 
 /// The columns, and their units, that the user has chosen for each role.
@@ -42,7 +43,7 @@ Result<Table> readRecording (const std::filesystem::path&);
 /// The samples of a WAV as a recording: the column t, and "channel 1", "channel 2" and so on.
 Table tableOf (const Signal&);
 
-/// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm; empty if there is none.
+/// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm, and "m/s" for speed_m_s; empty if there is none.
 std::string unitIn (const std::string& column);
 
 /// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N. Empty if the text does not fit.
@@ -57,5 +58,12 @@ std::optional<std::size_t> findColumn (const Table&, const FitColumn&, const Col
 /// The values for a role in SI. Without a choice of the user, the unit follows from the name of the column, such as x_um, "Force [mN]" or
 /// force_gf; a name without a unit is in SI. Empty if the column is missing and not required. Errors: fit/column, fit/unit.
 Result<std::vector<double>> columnOf (const Table&, const std::string& file, const FitColumn&, const ColumnChoice& = {});
+
+/// The values of each role in SI; empty for what was not recorded.
+using RecordedColumns = std::map<std::string, std::vector<double>>;
+
+/// Some programs record a force as that on the sensor, or a depth as a height. Turns the sign of what should be positive and is negative, but for noise:
+/// in the whole column, and where the force is largest, so that a depth which is negative in the air stays as it is. Returns a sentence for each of them.
+std::vector<std::string> turnSigns (const std::vector<FitColumn>&, RecordedColumns&);
 
 }   // namespace tactus::host

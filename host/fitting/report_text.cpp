@@ -53,6 +53,14 @@ std::string fixedText (double v, double wide)
 Json orNull (double v) { return std::isfinite (v) ? Json (v) : Json (nullptr); }
 }   // namespace
 
+std::string energyText (double joules, int digits)
+{
+    constexpr double least = 1e-12;
+    const double shown = std::abs (joules) < least ? 0.0 : joules;
+    const auto prefix = prefixFor (shown, "J");
+    return shortNumber (prefix.factor * shown, digits) + " " + prefix.text + "J";
+}
+
 std::string textOf (const FitValue& v)
 {
     double size = std::abs (v.value);

@@ -30,6 +30,9 @@ graph::Graph surfacePreset (const UniformBody&, const std::string& name, const s
 /// The number with this many significant digits.
 std::string shortNumber (double value, int digits = 3);
 
+/// "2.48 mJ"; less than a picojoule is 0.
+std::string energyText (double joules, int digits = 3);
+
 /// The number rounded to so many digits. Six are more than the accuracy of any fit; places along a path need them.
 double tidy (double value, int digits = 6);
 

@@ -125,7 +125,9 @@ TEST_CASE ("fit curve: a recording or a command that cannot be used is refused, 
     const Scratch scratch;
     const auto csv = scratch.write ("push.csv", indentation()), preset = scratch.path ("push.json");
     const auto refused = [&] (const std::vector<std::string>& arguments, int status, const char* id) { checkRefused (arguments, status, id, preset); };
-    refused ({ "fit", "curve", csv, "-o", preset }, 1, "[fit/column]");
+    const auto rows = indentation();
+    const auto unknown = scratch.write ("unknown.csv", "x_um,w_mN" + rows.substr (rows.find ('\n')));
+    refused ({ "fit", "curve", unknown, "-o", preset }, 1, "[fit/column]");
     refused ({ "fit", "curve", scratch.path ("none.csv"), "-o", preset }, 1, "[csv/unreadable]");
     refused ({ "fit", "curve", scratch.write ("short.csv", "depth,force\n1,2\n"), "-o", preset }, 1, "[fit/too_short]");
     refused ({ "fit", "curve", csv, "-o", csv, "--depth", "x_um", "--force", "f_mN" }, 1, "[output/is_input]");

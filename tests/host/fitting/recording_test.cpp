@@ -5,8 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace tactus;
@@ -81,4 +83,69 @@ TEST_CASE ("the unit in the name of a column may be its last word, or written in
     CHECK (*host::factorOf ("sec", "s") == 1.0);
     CHECK_FALSE (host::factorOf ("Micrometer", "N"));
     CHECK (host::bareName ("Raw Micrometer") == "raw");
+}
+
+TEST_CASE ("the unit of a column may follow an underscore, and the usual short names of forces and places are known", "[fit]")
+{
+    using host::FitKind;
+    const std::vector<std::array<const char*, 3>> columns {
+        { "fz_N", "N", "fz" },
+        { "Fz_mN", "mN", "fz" },
+        { "depth_mm", "mm", "depth" },
+        { "x_um", "um", "x" },
+        { "z_m", "m", "z" },
+        { "time_s", "s", "time" },
+        { "t_ms", "ms", "t" },
+        { "speed_m_s", "m/s", "speed" },
+        { "velocity_mm_s", "mm/s", "velocity" },
+        { "acc_m_s2", "m/s2", "acc" },
+        { "normal_force_N", "N", "normal_force" },
+        { "force_2_N", "N", "force_2" },
+        { "normal_force", "", "normal_force" },
+        { "m_s", "s", "m" },
+    };
+    for (const auto& [column, unit, name] : columns)
+    {
+        INFO (column);
+        CHECK (host::unitIn (column) == unit);
+        CHECK (host::bareName (column) == name);
+    }
+    const auto speed = tableOf ("speed_mm_s,t_ms\n20,1\n30,2\n");
+    const auto values = host::columnOf (speed, "", { "speed", "m/s", true, { "speed" }, {} });
+    REQUIRE (values);
+    CHECK (values->at (1) == Approx (0.03));
+    const auto kindOf = [] (const std::string& text) { return host::guessKind (tableOf (text)); };
+    CHECK (kindOf ("depth_mm,fz_N\n0,0\n1,2\n") == FitKind::curve);
+    CHECK (kindOf ("time_s,z_mm,Fz_mN\n0,0,0\n1,-1,-2\n") == FitKind::curve);
+    CHECK (kindOf ("x_mm,z_mm,Fx_N,Fz_N\n0,0,0,1\n1,0,1,1\n") == FitKind::friction);
+    CHECK (kindOf ("x_mm,z_um\n0,0\n1,3\n") == FitKind::grating);
+}
+
+TEST_CASE ("a sign is turned only where a whole column has the other one", "[fit]")
+{
+    using Values = std::vector<double>;
+    const auto& columns = host::infoOf (host::FitKind::curve).columns;
+    const auto turned = [&] (Values depth, Values force) {
+        host::RecordedColumns recorded { { "depth", std::move (depth) }, { "force", std::move (force) } };
+        const auto notes = host::turnSigns (columns, recorded);
+        return std::tuple (notes.size(), recorded["depth"], recorded["force"]);
+    };
+    const Values in { 0.0, 1.0, 2.0 }, out { 0.0, -1.0, -2.0 };
+    CHECK (turned (in, in) == std::tuple (0u, in, in));
+    CHECK (turned (out, in) == std::tuple (1u, in, in));
+    CHECK (turned (in, out) == std::tuple (1u, in, in));
+    CHECK (turned (out, out) == std::tuple (2u, in, in));
+    const Values noisy { 0.01, -1.0, -2.0 }, approach { -5.0, -2.0, 0.1 }, both { -1.0, 0.5, 2.0 };
+    CHECK (std::get<0> (turned (noisy, in)) == 1);
+    CHECK (turned (approach, in) == std::tuple (0u, approach, in));   // in the air first, as deform.plane has it
+    CHECK (turned (approach, out) == std::tuple (1u, approach, in));
+    CHECK (turned (both, both) == std::tuple (0u, both, both));
+    CHECK (turned ({}, out) == std::tuple (1u, Values {}, in));
+    CHECK (std::get<0> (turned ({ 0.0, 0.0 }, { 0.0, 0.0 })) == 0);
+    const auto& strokes = host::infoOf (host::FitKind::friction).columns;   // there, the force has both signs, or that of the only stroke
+    host::RecordedColumns stroke { { "position", out }, { "force", out }, { "load", { -3.0, -3.0, -3.0 } } };
+    CHECK (host::turnSigns (strokes, stroke).size() == 1);
+    CHECK (stroke["force"] == out);
+    CHECK (stroke["position"] == out);
+    CHECK (stroke["load"] == Values { 3.0, 3.0, 3.0 });
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/seen_text.hpp"
+
 #include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/window/main_view.hpp>
 
@@ -339,6 +341,32 @@ TEST_CASE ("fit panel: a press that snaps is said, and the depth of the touch ca
     rig.finish();
     REQUIRE (rig.panel().fitted());
     CHECK (rig.panel().fitted()->report.picture.curves.front().x.back() == Approx (whole - 5e-4));
+}
+
+TEST_CASE ("fit panel: a height and the force on the sensor are guessed, fitted and drawn as depth and force, and that is said", "[app][fit]")
+{
+    FitRig rig;
+    std::ostringstream text;
+    text << "time_s,z_mm,Fz_mN\n";
+    for (int i = 0; i < 800; ++i)
+    {
+        const double depth = 0.005 * std::min (i, 800 - i);   // mm
+        text << i * 1e-3 << "," << -depth << "," << -400.0 * depth - 50.0 * depth * depth << "\n";
+    }
+    rig.view.fitRecordingIn (rig.write ("press.csv", text.str()));
+    CHECK (rig.panel().kind() == FitKind::curve);
+    rig.finish();
+    INFO (rig.panel().problem());
+    REQUIRE (rig.panel().fitted());
+    const auto& report = rig.panel().fitted()->report;
+    CHECK (report.is_good);
+    for (const char* role : { "depth", "force" })
+        CHECK (std::ranges::count (report.notes, "the " + std::string (role) + " is negative in the recording; its sign was turned") == 1);
+    const auto& recorded = report.picture.curves.front();
+    CHECK (*std::ranges::max_element (recorded.x) == Approx (2e-3));
+    CHECK (*std::ranges::max_element (recorded.y) == Approx (1.0));
+    const auto texts = tactus::host::test::readTexts (rig.panel());
+    CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.contains ("sign was turned"); }));
 }
 
 TEST_CASE ("fit panel: the time of the blow can be given for a ring, and a time that cannot be is refused with the times that can", "[app][fit]")

@@ -5,6 +5,7 @@
 #include "table_text.hpp"
 
 #include <host/fitting/fitting.hpp>
+#include <host/fitting/surface_preset.hpp>
 #include <host/io/wav.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/random.hpp>
@@ -131,6 +132,60 @@ TEST_CASE ("fit: places and times may be 0 or negative", "[cli][fit]")
     const auto refused = runTactus ({ "fit", "modes", scratch.write ("tap.csv", tap()), "-o", scratch.path ("p.json"), "--from", "1 m" });
     CHECK (refused.status == 2);
     CHECK (refused.err.find ("--from") != std::string::npos);
+}
+
+TEST_CASE ("fit: a depth or a force of the other sign gives the same fit, which says so", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto press = [] (const std::string& header, double depth_factor, double force_factor, double zero) {
+        return table (header, 400, [=] (std::ostream& out, int i) {
+            const double depth = 1e-5 * std::min (i, 400 - i);
+            out << depth_factor * depth + zero << "," << force_factor * (800.0 * depth + 2e5 * depth * depth);
+        });
+    };
+    const auto parameters = [&] (const std::string& csv, const std::vector<std::string>& options, std::size_t notes) {
+        std::string printed;
+        auto with_json = options;
+        with_json.emplace_back ("--json");
+        fitted (scratch, "curve", csv, with_json, &printed);
+        const auto report = Json::parse (printed);
+        std::size_t turned = 0;
+        for (std::size_t i = 0; i < report["notes"].size(); ++i)
+            turned += static_cast<std::size_t> (report["notes"][i].asString().find ("sign was turned") != std::string::npos);
+        CHECK (turned == notes);
+        CHECK (report["verdict"] == "good");
+        return report["parameters"].dump();
+    };
+    const auto plain = parameters (press ("depth,force", 1.0, 1.0, 0.0), {}, 0);
+    CHECK (parameters (press ("depth,force", -1.0, 1.0, 0.0), {}, 1) == plain);
+    CHECK (parameters (press ("depth,force", 1.0, -1.0, 0.0), {}, 1) == plain);
+    CHECK (parameters (press ("z,fz", -1.0, -1.0, 0.0), {}, 2) == plain);
+    CHECK (parameters (press ("z_m,Fz_N", -1.0, -1.0, 0.5), { "--touch", "500 mm" }, 2).size() > 10);   // a height, and where it touches
+    const auto loaded = [] (double load) {
+        double d = 0.0, last = 0.0;
+        return table ("x_mm,fx_N,fz_N", 600, [=] (std::ostream& out, int i) mutable {
+            const double phase = std::fmod (i / 200.0, 1.0), x = 1.0 - std::abs (2.0 * phase - 1.0);
+            d = std::clamp (d + x - last, -0.1, 0.1);
+            last = x;
+            out << x << "," << -8.0 * d << "," << load;
+        });
+    };
+    const auto muOf = [&] (double load) {
+        std::string text;
+        fitted (scratch, "friction", loaded (load), { "--json" }, &text);
+        return Json::parse (text)["parameters"][0]["value"].get<double>();
+    };
+    CHECK (muOf (2.0) == Approx (0.4).epsilon (0.01));
+    CHECK (muOf (-2.0) == muOf (2.0));
+}
+
+TEST_CASE ("fit: an energy is said with the prefix of its size, and one of rounding errors is 0", "[fit]")
+{
+    CHECK (host::energyText (6.46e-11) == "0.0646 nJ");
+    CHECK (host::energyText (6.465e-15) == "0 J");
+    CHECK (host::energyText (-2.5e-5) == "-25 uJ");
+    CHECK (host::energyText (2.4813e-3, 5) == "2.4813 mJ");
+    CHECK (host::energyText (0.0) == "0 J");
 }
 
 TEST_CASE ("fit: a column without a name, such as the index that pandas writes, is no obstacle", "[cli][fit]")
