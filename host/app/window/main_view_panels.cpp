@@ -14,13 +14,29 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// True if a graph has a tool with a place, which the mouse or a gesture can move.
+bool hasTool (const graph::Graph& g)
+{
+    const auto reads = [] (const graph::Patch& p) { return std::ranges::count (p.nodes, "device.position", &graph::Node::type) > 0; };
+    return reads (g.root) || std::ranges::any_of (g.graphs, [&] (const auto& named) { return reads (named.second); });
+}
+}   // namespace
+
 bool MainView::hasBoundRole() const
 {
     const auto& session = device_setup.session().session;
     return std::ranges::any_of (rolesNamed (edited.graph()), [&] (const std::string& role) { return session.binding (role) != nullptr; });
 }
 
-void MainView::startOpened (bool by_pointer) { playback.startOther (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {}); }
+/// The mouse or the gesture that the user has chosen goes on to the next graph. A device does only if the session binds it to a role of that name.
+void MainView::startOpened (bool by_pointer)
+{
+    const auto& chosen = hand.chosen();
+    if (chosen.kind != LiveRun::Hand::Kind::described && hasTool (edited.graph())) return playback.startOther (chosen);
+    playback.startOther (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {});
+}
 
 void MainView::openPreset (const Preset& p, bool is_own)
 {

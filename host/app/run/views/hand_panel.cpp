@@ -191,10 +191,11 @@ void HandPanel::enlarge (bool large)
 void HandPanel::choose()
 {
     const int id = source.getSelectedId();
-    if (id == as_described) playback.moveBy ({});
-    if (id == by_pointer) playback.moveBy (LiveRun::Hand::pointer());
-    if (const auto i = id - first_gesture; i >= 0 && i < static_cast<int> (gestures().size()))
-        playback.moveBy ({ LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (i)].id) });
+    if (id == 0 || id == by_recording) return;   // as it is
+    chosen_hand = {};
+    if (id == by_pointer) chosen_hand = LiveRun::Hand::pointer();
+    if (id >= first_gesture) chosen_hand = { LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (id - first_gesture)].id) };
+    playback.moveBy (chosen_hand);
 }
 
 void HandPanel::refresh()
@@ -286,6 +287,7 @@ bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return
 
 void HandPanel::filesDropped (const juce::StringArray& files, int, int)
 {
+    chosen_hand = {};   // a recording belongs to this graph
     playback.moveBy ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
 }
 

@@ -18,6 +18,9 @@ public:
 
     void refresh();   ///< call many times a second
 
+    /// What the user has chosen in the list to move the tool, whatever moves it now. It is meant for other graphs, too, unless it is their own device.
+    const LiveRun::Hand& chosen() const noexcept { return chosen_hand; }
+
     HandView& view() noexcept { return surface; }
     SceneView& scene() noexcept { return space; }
     FilmButton& film() noexcept { return film_button; }
@@ -67,6 +70,7 @@ private:
     bool is_scene = false, is_large = false, is_seen = true, is_watching = false;
     int film_width = 0;   // that the label of the button needed at the last layout
     juce::ComboBox source, tools;
+    LiveRun::Hand chosen_hand;
     std::vector<std::string> tool_roles;   // those in the list of tools
     std::string shown_tool;                // the one that is selected in it
     std::unique_ptr<juce::Button> play, listen;

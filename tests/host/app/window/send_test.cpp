@@ -2,6 +2,8 @@
 // Layers that are sent to a vibration motor, and the tool that the mouse moves, in the window while the graph runs.
 #include "host/app/support/wait_for.hpp"
 
+#include <tactus/run/device/gestures.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -112,5 +114,52 @@ TEST_CASE ("one chooses which of two fingers the mouse moves", "[app][hand]")
     w.view->open (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
     CHECK (run.handRole() == "stylus");
     CHECK (waitFor ([&] { return w.titled ("Which tool the hand moves") == nullptr; }));
+    run.letGo();
+}
+
+TEST_CASE ("the mouse or the gesture that the user has chosen moves the next preset's tool, too, until the user chooses otherwise", "[app][hand]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto& run = w.view->run();
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.tool(); }));
+    const auto list = [&] { return dynamic_cast<juce::ComboBox*> (w.titled ("What moves the tool")); };
+    const auto choose = [&] (const char* key, const char* shown) {
+        REQUIRE (list() != nullptr);
+        list()->grabKeyboardFocus();
+        w.key (key);
+        CHECK (list()->getText() == shown);
+    };
+    const auto open = [&] (const char* preset) {
+        w.key ("ctrl + f");
+        w.stage->type (preset);
+        WindowRig::settle();
+        w.key ("return");
+        REQUIRE (w.graph().name == preset);
+        REQUIRE (waitFor ([&] { return run.isRunning() && run.tool(); }));
+        WindowRig::settle (100);
+    };
+    open ("Liver");
+    CHECK (run.hand() == LiveRun::Hand {});
+
+    choose ("cursor down", "Mouse or pen");
+    open ("Soft pad");
+    CHECK (run.hand() == LiveRun::Hand::pointer());
+    CHECK (list()->getText() == "Mouse or pen");
+    CHECK (followsMouse (w));
+    open ("Velvet");
+    CHECK (run.hand() == LiveRun::Hand::pointer());
+
+    choose ("cursor down", ("Gesture: " + std::string (gestures()[0].id)).c_str());
+    open ("Liver");
+    CHECK (run.hand() == LiveRun::Hand { LiveRun::Hand::Kind::path, std::string (gestures()[0].id) });
+
+    choose ("cursor up", "Mouse or pen");
+    choose ("cursor up", "Device of the graph");
+    open ("Soft pad");
+    CHECK (run.hand() == LiveRun::Hand {});
+    CHECK (followsMouse (w));   // a press takes the tool for this graph only
+    CHECK (run.hand() == LiveRun::Hand::pointer());
+    open ("Velvet");
+    CHECK (run.hand() == LiveRun::Hand {});
     run.letGo();
 }
