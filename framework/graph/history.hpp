@@ -41,6 +41,9 @@ public:
     /// errors are those of edit.hpp and of compile().
     Result<> perform (Command, Step = Step::own);
 
+    /// Gives the graph another name. This is no step: undo keeps the name, unless it undoes an edit of the name or brings back another graph.
+    void call (std::string name) { edited.name = std::move (name); }
+
     /// Inserts a step that changes nothing before the steps that could be redone, which can still be redone after it.
     void insertStep (std::string name);
 

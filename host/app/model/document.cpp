@@ -39,6 +39,13 @@ bool Document::perform (graph::Command command, graph::Step step)
     return true;
 }
 
+void Document::call (std::string name)
+{
+    edits.call (std::move (name));
+    ++changes;
+    notifyChanged();
+}
+
 void Document::addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo)
 {
     if (is_stepping) return;

@@ -62,6 +62,9 @@ public:
     /// Returns false if the edit was refused; the listeners get the reason.
     bool perform (graph::Command, graph::Step = graph::Step::own);
 
+    /// Gives the graph another name, as saving does. This is no step, so undo keeps the name.
+    void call (std::string name);
+
     /// Adds a step that changes only the window, such as a closed scope. Undoing and redoing it calls these functions, and leaves the graph alone.
     /// The change itself has been made. Edits that could be redone can still be redone, but not
     /// earlier steps of the window, which began with another window.

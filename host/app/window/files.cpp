@@ -202,13 +202,12 @@ void Files::saveAs (std::function<void()> then)
     });
 }
 
-/// Gives the graph the name that its new file has. Returns false if it has this name already.
-bool Files::rename (const fs::path& file)
+/// The name for the graph in its new file: that of the file, unless the graph has it already.
+std::string Files::nameIn (const fs::path& file) const
 {
+    const auto& now = document.graph().name;
     const auto stem = file.stem().string();
-    if (file == document.file() || stemFor (document.graph().name) == stemFor (stem)) return false;
-    return document.perform (
-        graph::Batch { filled (TRANS ("call the graph %1"), nameFor (stem)).toStdString(), { graph::SetHeader { .name = nameFor (stem) } } });
+    return file == document.file() || stemFor (now) == stemFor (stem) ? now : nameFor (stem);
 }
 
 void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
@@ -222,9 +221,10 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
     if (is_shipped && file != document.file() && fs::exists (file, failed))
         return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
-    const bool is_renamed = rename (file);
+    const auto before = document.graph().name, name = nameIn (file);
+    if (name != before) document.call (name);
     const auto messages = document.save (file, carriedTo (file.parent_path(), document.graph()));
-    if (! messages.empty() && is_renamed) document.undo();
+    if (! messages.empty() && name != before) document.call (before);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     autosave();
     settings.noteRecent (file);

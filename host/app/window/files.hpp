@@ -73,7 +73,7 @@ private:
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
-    bool rename (const std::filesystem::path&);
+    std::string nameIn (const std::filesystem::path&) const;
     void askAboutNext();
     void restoreNext (bool runs);
     std::string name() const;
