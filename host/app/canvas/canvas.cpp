@@ -23,9 +23,9 @@ Canvas::~Canvas() { document.remove (*this); }
 
 void Canvas::documentChanged()
 {
-    std::set<graph::Id> before;
+    std::map<graph::Id, juce::Point<float>> before;
     for (const auto& n : shown->nodes())
-        before.insert (n.id);
+        before[n.id] = n.at;
     if (! document.isStepping()) beginEdit();
     const auto previous = shown;
     const auto patch_before = patch();
@@ -35,10 +35,11 @@ void Canvas::documentChanged()
     patch() == patch_before ? repaintEdit (*previous) : repaint();
     if (entered.size() != depth_before) frameStart();   // the patch that was shown is gone
     if (document.isStepping()) followStep (*previous);
-    // A view that the user has not moved stays fitted when a node appears outside of it, such as by a click in another panel.
+    // A view that the user has not moved stays fitted when a node appears outside of it or is moved there, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {
         const auto b = n.bounds();
-        return ! before.contains (n.id)
+        const auto was = before.find (n.id);
+        return (was == before.end() || was->second != n.at)
                && ! getLocalBounds().toFloat().contains (juce::Rectangle<float> (window.toPixels (b.getTopLeft()), window.toPixels (b.getBottomRight())));
     };
     if (isFitted() && ! drag && ! document.isStepping())

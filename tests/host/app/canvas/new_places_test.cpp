@@ -279,3 +279,47 @@ TEST_CASE ("new boxes go between what feeds them and what they feed, clear of bo
         }
     }
 }
+
+TEST_CASE ("a mixer before the motor leaves the motor in view", "[app][canvas][layers]")
+{
+    WindowRig w ("dry_wood.json", 1920, 1080);
+    auto& canvas = w.view->canvas();
+    REQUIRE (canvas.isFitted());
+    w.click ("Layers");
+    w.click ("Add a mixer before the motor");
+    for (const auto& n : canvas.scene().nodes())
+    {
+        INFO (n.name);
+        const auto b = n.bounds();
+        const juce::Rectangle<float> pixels (canvas.view().toPixels (b.getTopLeft()), canvas.view().toPixels (b.getBottomRight()));
+        CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
+    }
+    CHECK (canvas.isFitted());
+}
+
+TEST_CASE ("the first node is where the double click was", "[app][canvas]")
+{
+    WindowRig w;
+    w.key ("ctrl + n");
+    auto& canvas = w.view->canvas();
+    for (const auto& part : { juce::Point<float> (0.3f, 0.4f), juce::Point<float> (0.85f, 0.2f), juce::Point<float> (0.97f, 0.97f) })
+    {
+        w.key ("ctrl + n");
+        const auto at = canvas.getLocalBounds().toFloat().getRelativePoint (part.x, part.y);
+        const auto on_canvas = canvas.view().toCanvas (at);
+        w.stage->doubleClick (w.stage->getLocalPoint (&canvas, at));
+        WindowRig::settle();
+        REQUIRE (w.titled ("Palette") != nullptr);
+        w.stage->type ("plane");
+        WindowRig::settle();
+        w.key ("return");
+        WindowRig::settle();
+        REQUIRE (canvas.scene().nodes().size() == 1);
+        const auto b = canvas.scene().nodes().front().bounds();
+        INFO (part.toString() << ": " << on_canvas.toString() << " " << b.toString());
+        CHECK (b.expanded (1.0f).contains (on_canvas));
+        const juce::Rectangle<float> pixels (canvas.view().toPixels (b.getTopLeft()), canvas.view().toPixels (b.getBottomRight()));
+        CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
+        w.key ("ctrl + z");
+    }
+}
