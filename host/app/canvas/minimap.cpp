@@ -19,11 +19,24 @@ Minimap::Minimap (const Scene& s, const View& view, juce::Rectangle<int> window)
     seen = { view.toCanvas (pixels.getTopLeft()), view.toCanvas (pixels.getBottomRight()) };
     const float size = std::min ({ 1.0f, widest * pixels.getWidth() / map_width, highest * pixels.getHeight() / map_height });
     if (scene.nodes().empty() || seen.contains (scene.bounds()) || size < least_size) return;
-    area = juce::Rectangle<float> (size * map_width, size * map_height).withBottomY (pixels.getBottom() - margin).withRightX (pixels.getRight() - margin);
+    area = freeCorner (view, pixels.reduced (margin), { size * map_width, size * map_height });
     world = scene.bounds().getUnion (seen);
     const auto room = area.reduced (padding);
     scale = std::min (room.getWidth() / world.getWidth(), room.getHeight() / world.getHeight());
     inner = room.withSizeKeepingCentre (world.getWidth() * scale, world.getHeight() * scale);
+}
+
+/// The corner that no node is under, else the lower right one.
+juce::Rectangle<float> Minimap::freeCorner (const View& view, juce::Rectangle<float> inside, juce::Rectangle<float> size) const
+{
+    const auto lower_right = size.withBottomY (inside.getBottom()).withRightX (inside.getRight());
+    const auto isFree = [&] (juce::Rectangle<float> corner) {
+        const juce::Rectangle<float> on_canvas (view.toCanvas (corner.getTopLeft()), view.toCanvas (corner.getBottomRight()));
+        return std::ranges::none_of (scene.nodes(), [&] (const SceneNode& n) { return n.bounds().intersects (on_canvas); });
+    };
+    for (const auto& corner : { lower_right, lower_right.withX (inside.getX()), lower_right.withY (inside.getY()), size.withPosition (inside.getPosition()) })
+        if (isFree (corner)) return corner;
+    return lower_right;
 }
 
 void Minimap::paint (juce::Graphics& g, const Theme& theme) const

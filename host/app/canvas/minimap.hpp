@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// An overview in the corner of the canvas, with the visible area marked. Shown while part of the scene is out of view.
+/// An overview in a corner of the canvas, if possible one without nodes, with the visible area marked. Shown while part of the scene is out of view.
 class Minimap
 {
 public:
@@ -24,6 +24,7 @@ public:
     void paint (juce::Graphics&, const Theme&) const;
 
 private:
+    juce::Rectangle<float> freeCorner (const View&, juce::Rectangle<float> inside, juce::Rectangle<float> size) const;
     juce::Rectangle<float> toMap (juce::Rectangle<float> r) const noexcept { return (r - world.getPosition()) * scale + inner.getPosition(); }
 
     const Scene& scene;

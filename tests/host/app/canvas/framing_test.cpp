@@ -59,6 +59,35 @@ TEST_CASE ("every preset opens so that its labels can be read, with the hand in 
     }
 }
 
+TEST_CASE ("the map is in a corner without nodes, if there is one", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    auto& view = rig.canvas->view();
+    const auto& scene = rig.canvas->scene();
+    const auto window = rig.canvas->getLocalBounds().toFloat();
+    const auto isFree = [&] (juce::Rectangle<float> place) {
+        return std::ranges::none_of (scene.nodes(), [&] (const SceneNode& n) {
+            const auto b = n.bounds();
+            return place.intersects (juce::Rectangle<float> (view.toPixels (b.getTopLeft()), view.toPixels (b.getBottomRight())));
+        });
+    };
+    view.zoom = 1.5f;
+    int moved = 0;
+    for (int x = -8; x <= 2; ++x)
+        for (int y = -6; y <= 2; ++y)
+        {
+            view.origin = { 200.0f * static_cast<float> (x), 150.0f * static_cast<float> (y) };
+            const auto place = Minimap (scene, view, rig.canvas->getLocalBounds()).bounds();
+            REQUIRE_FALSE (place.isEmpty());
+            CHECK (window.contains (place));
+            const auto left = place.withX (window.getRight() - place.getRight()), up = place.withY (window.getBottom() - place.getBottom());
+            const auto across = left.withY (up.getY());
+            CHECK ((isFree (place) || (! isFree (left) && ! isFree (up) && ! isFree (across))));
+            moved += static_cast<int> (place.getCentreX() < window.getCentreX() || place.getCentreY() < window.getCentreY());
+        }
+    CHECK (moved > 0);
+}
+
 TEST_CASE ("in the smallest window, Dry wood opens with labels at its ports; Home shows all of it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
