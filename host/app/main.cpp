@@ -33,7 +33,7 @@ public:
         setContentOwned (view.release(), false);
         setResizable (true, false);
         const auto screen = usable();
-        setResizeLimits (std::min (960, screen.getWidth()), std::min (600, screen.getHeight()), 32000, 32000);
+        setResizeLimits (std::min (800, screen.getWidth()), std::min (600, screen.getHeight()), 32000, 32000);
         fitToScreen();
         setVisible (true);
         content->begin (how);

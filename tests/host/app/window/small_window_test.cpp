@@ -156,6 +156,22 @@ TEST_CASE ("in a small window\\, every panel can be opened\\, and no button is o
     CHECK (w.titled ("Search presets")->hasKeyboardFocus (true));
 }
 
+TEST_CASE ("in the smallest window of the program, all panels are side by side, and no button is out of reach", "[app][small]")
+{
+    WindowRig w ("dry_wood.json", 800, 600);
+    CHECK (w.view->canvas().isShowing());
+    CHECK (w.titled ("Surface") != nullptr);
+    CHECK (w.titled ("Inspector") != nullptr);
+    CHECK (w.titled ("Search presets") != nullptr);
+    for (const char* title : { "Nodes", "History", "Presets", "Take", "Layers", "Devices", "Problems", "Scopes" })
+    {
+        turnTo (w, title);
+        WindowRig::settle (60);
+        INFO (title << ": " << outOfReach (w).joinIntoString ("; "));
+        CHECK (outOfReach (w).isEmpty());
+    }
+}
+
 TEST_CASE ("the columns of a small window are resized by a drag\\, halved again by a double click\\, undone and remembered", "[app][small]")
 {
     WindowRig w ("dry_wood.json", small_width, small_height);

@@ -8,7 +8,7 @@ using tactus::host::test::WindowRig;
 
 TEST_CASE ("the snapshots have a caption, which never covers the name of the graph")
 {
-    for (const int width : { 960, 1024, 1280, 1920 })
+    for (const int width : { 800, 960, 1024, 1280, 1920 })
         for (const auto* name : { "Dry wood", "A very long name of a graph that fills the bar up to the buttons on its right" })
         {
             WindowRig rig ("dry_wood.json", width, 700);
