@@ -31,8 +31,7 @@ public:
             g.setColour (theme.accent);
             g.drawRoundedRectangle (area, 4.0f, 1.0f);
         }
-        const auto plain = over ? theme.text : theme.dim;
-        g.setColour (is_on ? theme.accent : plain);
+        g.setColour (is_on ? theme.accent : theme.text);
         g.setFont (look.font (12.0f));
         g.drawText (getButtonText(), getLocalBounds(), juce::Justification::centred, false);
     }

@@ -42,6 +42,27 @@ TEST_CASE ("each part of the strip says what it means", "[app][words]")
     w.view->run().letGo();
 }
 
+TEST_CASE ("START and STOP say what they do, and which key does it, too", "[app][words]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto tipOf = [&] (const char* text) {
+        auto* button = WindowRig::buttonIn (*w.view, text);
+        REQUIRE (button != nullptr);
+        return button->getTooltip();
+    };
+    WindowRig::settle (100);
+    CHECK (tipOf ("START").contains ("F5"));
+    w.key ("F5");
+    for (int i = 0; i < 3000 && WindowRig::buttonIn (*w.view, "STOP") == nullptr; ++i)
+        WindowRig::settle (10);
+    CHECK (tipOf ("STOP").contains ("Esc"));
+    w.key ("escape");
+    for (int i = 0; i < 3000 && WindowRig::buttonIn (*w.view, "START") == nullptr; ++i)
+        WindowRig::settle (10);
+    CHECK (tipOf ("START").contains ("F5"));
+    w.view->run().letGo();
+}
+
 TEST_CASE ("while nothing runs\\, a port says what it is\\, also at its label; while it runs\\, a card does", "[app][words]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
