@@ -133,11 +133,12 @@ StretchReader::Options Take::optionsFor (StretchReader::Options options)
 void Take::read (StretchReader::Options options, std::function<void (Result<Stretch>)> then)
 {
     if (now != State::ready && now != State::reading) return;
-    auto opened = StretchReader::open (current->file.string(), optionsFor (options));
+    const bool is_all = options.from_s <= 0.0 && std::isinf (options.until_s);
+    auto opened = StretchReader::open (current->file.string(), optionsFor (std::move (options)));
     if (! opened) return then (std::move (opened).error());
     reader = std::move (*opened);
     done = std::move (then);
-    reads_all = options.from_s <= 0.0 && std::isinf (options.until_s);
+    reads_all = is_all;
     now = State::reading;
 }
 
