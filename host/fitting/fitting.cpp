@@ -165,7 +165,8 @@ Result<FittedGraph> keySwitch (const Columns& c, const std::string& file, const 
     FittedGraph made { .kind = FitKind::key_switch,
                        .preset = switchPreset (fit->loop, s.stiffness, sourceOf (FitKind::key_switch, file, fit->report)),
                        .nodes = { "key", "bound", "rub" } };
-    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + energyText (lostEnergy (fit->loop), 4) + " per stroke");
+    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses "
+                            + energyText (lostEnergy (fit->loop), 4) + " per stroke");
     made.report = std::move (fit->report);
     return made;
 }
@@ -248,7 +249,8 @@ FitPicture pictureOf (FitKind kind, const Table& table, const ColumnChoice& choi
     if (! recorded) return {};
     turnSigns (columns, *recorded);
     const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };
-    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { { "recorded", std::move ((*recorded)[columns[0].role]), std::move ((*recorded)[columns[1].role]), true } } };
+    FitCurve curve { "recorded", (*recorded)[columns[0].role], (*recorded)[columns[1].role], true };
+    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { std::move (curve) } };
 }
 
 }   // namespace tactus::host

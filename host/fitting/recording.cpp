@@ -93,7 +93,8 @@ void integrate (Table& table)
     };
     const auto t = find ("s", { "t", "time" }), v = find ("m/s", { "velocity", "v" });
     const bool is_stroke =
-        find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force", "fx", "ft" }) && find ("N", { "load", "normal", "normal_force", "fz", "fn" }));
+        find ("N", { "friction", "friction_force", "drag" })
+        || (find ("N", { "force", "fx", "ft" }) && find ("N", { "load", "normal", "normal_force", "fz", "fn" }));
     if (! t || ! v || ! is_stroke || find ("m", { "position", "x", "displacement", "travel", "depth" })) return;
     const auto time = valuesIn (*t, "s"), velocity = valuesIn (*v, "m/s");
     if (! time || ! velocity) return;

@@ -58,7 +58,8 @@ public:
         auto searched = t.searched;
         searched.names += ' ' + own.id + ' ' + TRANS ("new").toStdString();
         const auto key = t.entry.type + (own.role == Role::output ? " (" + own.id + ')' : " -> " + own.id);   // an input may have the name of an output
-        add ({ { key, wireText (own, filled (TRANS ("new %1"), t.entry.name).toStdString()), t.entry.summary }, std::move (searched), idOf (own), {}, t.entry.type });
+        const auto name = wireText (own, filled (TRANS ("new %1"), t.entry.name).toStdString());
+        add ({ { key, name, t.entry.summary }, std::move (searched), idOf (own), {}, t.entry.type });
     }
 
     std::size_t size() const { return found.size(); }

@@ -135,7 +135,8 @@ void MainView::addNodes (std::vector<Action>& all)
                 patching.show (in, id);
                 if (const auto* node = patching.scene().find (id)) patching.bringIntoView (node->bounds());
             };
-            found.push_back ({ static_cast<std::size_t> (type - types.begin()), { fromUtf8 (path), about, show, n.type + " (" + path + ')', std::move (searched) } });
+            Action way { fromUtf8 (path), about, show, n.type + " (" + path + ')', std::move (searched) };
+            found.emplace_back (static_cast<std::size_t> (type - types.begin()), std::move (way));
         }
     }
     std::ranges::stable_sort (found, {}, [] (const auto& f) { return f.first; });

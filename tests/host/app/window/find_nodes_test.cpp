@@ -85,7 +85,10 @@ std::vector<std::string> frictionsIn (const std::vector<PaletteEntry>& entries)
 {
     std::vector<std::string> types;
     for (const auto& e : entries)
-        if (const auto type = e.type.substr (0, e.type.find (' ')); type.starts_with ("friction.") && std::ranges::count (types, type) == 0) types.push_back (type);
+    {
+        const auto type = e.type.substr (0, e.type.find (' '));
+        if (type.starts_with ("friction.") && std::ranges::count (types, type) == 0) types.push_back (type);
+    }
     return types;
 }
 }   // namespace
@@ -183,13 +186,18 @@ TEST_CASE ("W wires into the selected node, too, and finds names before descript
 TEST_CASE ("a wire that is dropped from an input offers what the input is made for first", "[app][canvas]")
 {
     SearchDesk d ("dry_wood.json");
-    for (const auto& [port, type, wire] : { std::tuple { "normal_force", "cut.blade", "resistance" }, std::tuple { "position", "device.position", "position" } })
+    for (const auto& [port, type, wire] :
+         { std::tuple { "normal_force", "cut.blade", "resistance" }, std::tuple { "position", "device.position", "position" } })
     {
         INFO (port);
         const auto* socket = d.shown ("drag").box.find (Role::input, port);
         REQUIRE (socket != nullptr);
         auto to = d.canvas().view().toPixels (d.shown ("drag").bounds().getCentre());
-        while (d.canvas().scene().nodeAt (d.canvas().view().toCanvas (to)) != nullptr || d.canvas().scene().wireAt (d.canvas().view().toCanvas (to), 12.0f) != nullptr)
+        const auto isTaken = [&, &scene = d.canvas().scene()] {
+            const auto at = d.canvas().view().toCanvas (to);
+            return scene.nodeAt (at) != nullptr || scene.wireAt (at, 12.0f) != nullptr;
+        };
+        while (isTaken())
             to.y += 10.0f;
         REQUIRE (d.canvas().getLocalBounds().toFloat().contains (to));
         d.w.key ("spacebar");   // what was chosen before is no better
