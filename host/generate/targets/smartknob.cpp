@@ -351,8 +351,9 @@ Result<KnobFit> fitKnob (const std::shared_ptr<Plan>& plan, const KnobOptions& o
                         "make the detents weaker, or say how strong the motor is: --torque-per-volt \"5 mN*m\"");
     if (const double strongest = strongestOf (fit.config, fit.torque_per_volt); strongest > max_torque)
         return refusal ("smartknob/limit",
-                        "the knob could give " + roundedText (strongest, 3) + " N*m" + (fit.config.hasEnds() ? " at its stops" : "") + ", but the role "
-                            + quote (plan->roles().front().name) + " is limited to " + roundedText (max_torque, 3) + " N*m, and no guard comes after a SmartKnob",
+                        "the knob could give " + roundedText (strongest, 3) + " N*m" + (fit.config.hasEnds() ? " at its stops" : "")
+                            + ", but no guard comes after it, and the role " + quote (plan->roles().front().name) + " is limited to "
+                            + roundedText (max_torque, 3) + " N*m",
                         fit.config.hasEnds() ? "allow the role more, or leave out the stops" : "make the detents weaker, or allow the role more");
     if (off > 0.5 * all)
         return refusal ("smartknob/shape",
