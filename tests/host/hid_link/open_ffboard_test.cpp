@@ -245,7 +245,7 @@ TEST_CASE ("a board is stopped only at rest, and rearmed only for a while and af
     CHECK (step (false, true, true) == Says::rearm);
 }
 
-TEST_CASE ("a session records the torque of an OpenFFBoard; STOP reaches the board, and REARM lets it go", "[hid][ffboard][live][safety]")
+TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the board, and REARM lets it go", "[hid][ffboard][live][safety]")
 {
     FarBoard board;
     const LoadedProfiles none;

@@ -239,7 +239,7 @@ TEST_CASE ("plot: the name of the file decides whether it is a PNG, an SVG or a 
     CHECK (errorOf (figure, folder / "a.gif") == "plot/kind");
 }
 
-TEST_CASE ("plot: a map shows the colour of each value at its place\\, and the scale next to it", "[host][io][plot]")
+TEST_CASE ("plot: a map shows the colour of each value at its place, and the scale next to it", "[host][io][plot]")
 {
     Axes panel { .x = { "time", "s" }, .y = { "frequency", "Hz" } };
     panel.map = HeatMap { .x = { 0.0, 2.0 },

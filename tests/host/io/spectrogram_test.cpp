@@ -63,7 +63,7 @@ TEST_CASE ("spectrogram: the strength of a vector does not depend on the directi
     });
 }
 
-TEST_CASE ("spectrogram: columns end at the highest frequency\\, and a signal shorter than a window gives no columns", "[host][io][spectrum]")
+TEST_CASE ("spectrogram: columns end at the highest frequency, and a signal shorter than a window gives no columns", "[host][io][spectrum]")
 {
     const auto s = spectrogramOf ({ toneOf (1.0, 100.0, 4000) }, sample_rate, 0.1, 500.0);
     REQUIRE_FALSE (s.columns.empty());
@@ -75,7 +75,7 @@ TEST_CASE ("spectrogram: columns end at the highest frequency\\, and a signal sh
     CHECK (spectrogramOf ({ toneOf (1.0, 100.0, 400'000) }, sample_rate, 0.1, 500.0, 100).columns.size() <= 101);
 }
 
-TEST_CASE ("spectrogram: a map is in decibels relative to one unit\\, from the loudest line down", "[host][io][spectrum]")
+TEST_CASE ("spectrogram: a map is in decibels relative to one unit, from the loudest line down", "[host][io][spectrum]")
 {
     const auto map = heatMapOf (spectrogramOf ({ toneOf (0.1, 200.0, 8000) }, sample_rate, 0.128, 1000.0), "N", 40.0);
     CHECK (map.colour.unit == "dB re 1 N");

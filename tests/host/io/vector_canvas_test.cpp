@@ -41,7 +41,7 @@ std::string inflated (const std::string& data)
 }
 }   // namespace
 
-TEST_CASE ("vector canvas: an SVG has the size on paper\\, each shape, its colour and its clip", "[host][io][plot]")
+TEST_CASE ("vector canvas: an SVG has the size on paper, each shape, its colour and its clip", "[host][io][plot]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_is_up;   // JUCE's fonts exist only while this does
     VectorCanvas canvas (200.0f, 100.0f);
@@ -73,7 +73,7 @@ TEST_CASE ("vector canvas: an SVG has the size on paper\\, each shape, its colou
     CHECK (triangle->getStringAttribute ("d").startsWith ("M60 5"));
 }
 
-TEST_CASE ("vector canvas: the table of a PDF points to its objects\\, and the page has the same shapes", "[host][io][plot]")
+TEST_CASE ("vector canvas: the table of a PDF points to its objects, and the page has the same shapes", "[host][io][plot]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_is_up;   // JUCE's fonts exist only while this does
     VectorCanvas canvas (200.0f, 100.0f);
@@ -111,7 +111,7 @@ TEST_CASE ("vector canvas: the table of a PDF points to its objects\\, and the p
     CHECK (page.find ("1 0 0 rg\n60 5 m\n") != std::string::npos);
 }
 
-TEST_CASE ("vector canvas: an image is in the file with its pixels\\, at its place", "[host][io][plot]")
+TEST_CASE ("vector canvas: an image is in the file with its pixels, at its place", "[host][io][plot]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_is_up;
     juce::Image image (juce::Image::RGB, 3, 2, true, juce::SoftwareImageType());
@@ -152,7 +152,7 @@ TEST_CASE ("vector canvas: an image is in the file with its pixels\\, at its pla
     CHECK (page.find ("q 60 0 0 -20 20 30 cm /I0 Do Q") != std::string::npos);   // its first row is at the top
 }
 
-TEST_CASE ("vector canvas: texts are outlines\\, each defined once\\, and opacity is kept", "[host][io][plot]")
+TEST_CASE ("vector canvas: texts are outlines, each defined once, and opacity is kept", "[host][io][plot]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_is_up;
     VectorCanvas canvas (200.0f, 100.0f);

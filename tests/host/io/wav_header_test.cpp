@@ -25,7 +25,7 @@ std::size_t contentOf (const std::string& header, const std::string& chunk)
 }
 }   // namespace
 
-TEST_CASE ("wav header: a format with an extension\\, the number of frames and the sizes", "[host][io][wav]")
+TEST_CASE ("wav header: a format with an extension, the number of frames and the sizes", "[host][io][wav]")
 {
     const auto header = wavHeader (48'000.0, 3, 1000);
     const auto format = contentOf (header, "fmt ");

@@ -10,7 +10,7 @@
 using tactus::host::statusLine;
 using tactus::host::StatusPart;
 
-TEST_CASE ("status line: what matters least is left out first\\, and what is still too long is cut", "[host][platform]")
+TEST_CASE ("status line: what matters least is left out first, and what is still too long is cut", "[host][platform]")
 {
     const std::vector<StatusPart> parts { { "1.00 s", 0 }, { ", peak 2 N", 3 }, { ", late 5 µs", 4 }, { ", board lost", 1 } };
     CHECK (statusLine (parts, 0) == "1.00 s, peak 2 N, late 5 µs, board lost");

@@ -133,7 +133,7 @@ double nearHalfTurn (Random& dice)
 #define CALL_ONE(name) #name, [](double x) { return math::name (x); }, mpfr_##name
 #define CALL_TWO(name) #name, [](double x, double y) { return math::name (x, y); }, mpfr_##name
 
-TEST_CASE ("math: no function is wrong by 2 ulp\\, compared with MPFR", "[framework][math]")
+TEST_CASE ("math: no function is wrong by 2 ulp, compared with MPFR", "[framework][math]")
 {
     const auto exponents = { range (-746.0, 710.0), range (-1.0, 1.0), size (-60.0, 9.0) };
     check (CALL_ONE (exp), exponents);

@@ -31,7 +31,7 @@ TEST_CASE ("a wire can be drawn from an output to a matching input, or from the 
     CHECK (rig.hasWire ("drag.deflection -> grain.position"));
 }
 
-TEST_CASE ("a wire that is dropped on a node goes to the first port that fits\\, best one without a wire", "[app][canvas]")
+TEST_CASE ("a wire that is dropped on a node goes to the first port that fits, best one without a wire", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto body = [&] (const std::string& name) {

@@ -106,7 +106,7 @@ bool isSamePicture (const juce::Image& a, const juce::Image& b)
 }
 }   // namespace
 
-TEST_CASE ("groups within groups show their ports at every depth\\, are no problem\\, and stay in view", "[app][canvas][groups][undo]")
+TEST_CASE ("groups within groups show their ports at every depth, are no problem, and stay in view", "[app][canvas][groups][undo]")
 {
     const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
     GroupBench w (width, height);

@@ -8,7 +8,7 @@ using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
 
-TEST_CASE ("a node shows six digits of a long number\\, and an edit of it that changes nothing keeps them all", "[app][canvas]")
+TEST_CASE ("a node shows six digits of a long number, and an edit of it that changes nothing keeps them all", "[app][canvas]")
 {
     const auto [written, shown] = GENERATE (std::pair { Json ("569.343065693 mN"), "569.343 mN" }, std::pair { Json (0.123456789), "123.457 mN" },
                                             std::pair { Json ("0.30 N"), "0.30 N" }, std::pair { Json ("100 mN"), "100 mN" });

@@ -71,7 +71,7 @@ std::string bytesOf (const fs::path& file)
 }
 }   // namespace
 
-TEST_CASE ("a film has a picture every 40 ms\\, in the requested size", "[app][film]")
+TEST_CASE ("a film has a picture every 40 ms, in the requested size", "[app][film]")
 {
     const Dressing dressing;
     const TemporaryFolder folder;
@@ -262,7 +262,7 @@ TEST_CASE ("the button saves what the scene showed, while the run continues", "[
     playback.run().letGo();
 }
 
-TEST_CASE ("a film is made of the scene while it is hidden\\, too", "[app][film]")
+TEST_CASE ("a film is made of the scene while it is hidden, too", "[app][film]")
 {
     const Dressing dressing;
     Document document { host::test::presetGraph ("dry_wood") };

@@ -95,7 +95,7 @@ TEST_CASE ("fit panel: a recording opens with the kind that its columns suggest,
     CHECK (drag->params.at ("mu").get<double>() == Approx (0.4).epsilon (0.02));
 }
 
-TEST_CASE ("fit panel: time\\, velocity\\, normal force and friction are strokes\\, whose position is integrated\\, and that is said", "[app][fit]")
+TEST_CASE ("fit panel: time, velocity, normal force and friction are strokes, whose position is integrated, and that is said", "[app][fit]")
 {
     FitRig rig;
     Random random { 5 };
@@ -274,7 +274,7 @@ std::string keyRows (double snap, const char* header, bool has_contact)
 }
 }   // namespace
 
-TEST_CASE ("fit panel: a key is guessed by its snap or by the column of its contact\\, and a soft body is none", "[app][fit]")
+TEST_CASE ("fit panel: a key is guessed by its snap or by the column of its contact, and a soft body is none", "[app][fit]")
 {
     FitRig rig;
     const auto kindOf = [&] (const std::string& rows) {
@@ -291,7 +291,7 @@ TEST_CASE ("fit panel: a key is guessed by its snap or by the column of its cont
     CHECK (kindOf (keyRows (0.3, "x_mm,force_N", false)) == FitKind::curve);   // no key travels 4 m
 }
 
-TEST_CASE ("fit panel: a doubt about a fit is a reason for a poor verdict\\, which all texts give", "[app][fit]")
+TEST_CASE ("fit panel: a doubt about a fit is a reason for a poor verdict, which all texts give", "[app][fit]")
 {
     FitRig rig;
     std::ostringstream text;

@@ -343,7 +343,7 @@ TEST_CASE ("a law keeps about the same stiffness when its kind changes, and is p
     CHECK (rig.node ("blow").settings["stiffness"]["power"][0] == 2000.0);
 }
 
-TEST_CASE ("the description of a device is shown value by value\\, not as JSON\\, and values can be added and removed", "[inspector]")
+TEST_CASE ("the description of a device is shown value by value, not as JSON, and values can be added and removed", "[inspector]")
 {
     InspectorRig rig ("dry_wood.json");
     rig.select ("motor");
@@ -362,7 +362,7 @@ TEST_CASE ("the description of a device is shown value by value\\, not as JSON\\
     CHECK (device()["hand"].contains ("stiffness"));
 }
 
-TEST_CASE ("the inspector of a subgraph explains count\\, every\\, times and overrides", "[inspector]")
+TEST_CASE ("the inspector of a subgraph explains count, every, times and overrides", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
     const auto subgraph = std::ranges::find_if (rig.document->graph().root.nodes, [] (const auto& n) { return n.type.starts_with ("graph:"); });

@@ -251,7 +251,7 @@ TEST_CASE ("if the motors are inside a subgraph, the message says where to add a
     CHECK (added.error().id == "mixer/in_subgraph");
 }
 
-TEST_CASE ("a layer never takes a force along the surface\\, or of another effect\\, as its load", "[layers]")
+TEST_CASE ("a layer never takes a force along the surface, or of another effect, as its load", "[layers]")
 {
     auto graph = readGraph (R"({"format":"tactus-graph","version":2,"devices":{"pen":{"driver":"sim"}},"nodes":{"hand":{"type":"device.position","role":"pen"},
         "grain":{"type":"texture.grating"},"ring":{"type":"vibration.modal"},"motor":{"type":"device.force","role":"pen"}},

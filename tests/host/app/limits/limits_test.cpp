@@ -101,7 +101,7 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     CHECK_FALSE (fixOf (read.graph, *told));
 }
 
-TEST_CASE ("the message of a limit is one short sentence with short numbers\\, and the first remedy", "[app][limits]")
+TEST_CASE ("the message of a limit is one short sentence with short numbers, and the first remedy", "[app][limits]")
 {
     for (const auto* device : { R"("damping": 0.4)", R"("damping": 0.4, "quantum": "3.21987 um", "coulomb": "1.2345 mN")",
                                 R"("damping": 0.51, "guard": { "max_force": "51 mN" })" })

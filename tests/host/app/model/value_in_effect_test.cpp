@@ -109,7 +109,7 @@ struct Editor
 };
 }   // namespace
 
-TEST_CASE ("no value in effect changes while controls are added\\, extended and removed and nodes are copied and renamed", "[app][controls]")
+TEST_CASE ("no value in effect changes while controls are added, extended and removed and nodes are copied and renamed", "[app][controls]")
 {
     const char* preset = GENERATE ("layered_cloth", "bronze_bell", "two_fingers");
     INFO (preset);
@@ -134,7 +134,7 @@ TEST_CASE ("no value in effect changes while controls are added\\, extended and 
     }));
 }
 
-TEST_CASE ("a second parameter of a control keeps its value\\, wherever the control is", "[app][controls]")
+TEST_CASE ("a second parameter of a control keeps its value, wherever the control is", "[app][controls]")
 {
     CHECK (rc::check ([] {
         const double at = *rc::gen::element (0.0, 0.1, 0.25, 0.5, 1.0 / 3.0, 0.9, 1.0);

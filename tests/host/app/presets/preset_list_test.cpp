@@ -29,7 +29,7 @@ TEST_CASE ("presets are found by words of their name, tags and description, igno
     CHECK (matching (some(), "steel").empty());
 }
 
-TEST_CASE ("own graphs are in the documents of the user\\, and settings in the configurations\\, where XDG says they are")
+TEST_CASE ("own graphs are in the documents of the user, and settings in the configurations, where XDG says they are")
 {
     const TemporaryFolder home;
     const auto isFor = [&] (std::initializer_list<std::pair<const char*, std::string>> variables, const std::filesystem::path& graphs,

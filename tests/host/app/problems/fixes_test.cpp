@@ -115,7 +115,7 @@ TEST_CASE ("an unknown type becomes the one that was probably meant", "[app][pro
     if (std::string (meant.second) == "deform.plane") CHECK (g.root.find ("a")->params["stiffness"] == "300 N/m");
 }
 
-TEST_CASE ("a graph without a hand or a motor says so\\, and a click adds them with a device\\, the names of the presets and their wires", "[app][problems]")
+TEST_CASE ("a graph without a hand or a motor says so, and a click adds them with a device, the names of the presets and their wires", "[app][problems]")
 {
     CHECK (unfeltIn (graphOf (R"("nodes":{},"wires":[])")).empty());
     auto g = graphOf (R"("nodes":{"wall":{"type":"deform.plane","ui":{"at":[100,40]}},"rub":{"type":"friction.elasto_plastic","ui":{"at":[100,240]}},
@@ -143,7 +143,7 @@ TEST_CASE ("a graph without a hand or a motor says so\\, and a click adds them w
                .empty());
 }
 
-TEST_CASE ("what is there but cannot be felt is a problem\\, and a click wires it", "[app][problems]")
+TEST_CASE ("what is there but cannot be felt is a problem, and a click wires it", "[app][problems]")
 {
     const auto idsOf = [] (const graph::Graph& g) {
         std::vector<std::string> ids;
@@ -231,7 +231,7 @@ TEST_CASE ("what is there but cannot be felt is a problem\\, and a click wires i
     }
 }
 
-TEST_CASE ("a file that is missing is found in every kind of setting\\, and a chosen one takes its place", "[app][problems]")
+TEST_CASE ("a file that is missing is found in every kind of setting, and a chosen one takes its place", "[app][problems]")
 {
     struct Case
     {

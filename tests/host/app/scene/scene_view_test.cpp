@@ -211,7 +211,7 @@ TEST_CASE ("an enlarged scene is shown next to the view from above", "[app][scen
     CHECK_FALSE (rig.panel.isEnlarged());
 }
 
-TEST_CASE ("any visible part of the tool can be dragged\\, and the tool does not jump to the pointer", "[app][scene]")
+TEST_CASE ("any visible part of the tool can be dragged, and the tool does not jump to the pointer", "[app][scene]")
 {
     Rig rig { "dry_wood" };
     rig.playback.start (LiveRun::Hand::pointer());
@@ -243,7 +243,7 @@ TEST_CASE ("any visible part of the tool can be dragged\\, and the tool does not
     }
 }
 
-TEST_CASE ("Frame shows the tool\\, wherever it is\\, and the plate is under it", "[app][scene]")
+TEST_CASE ("Frame shows the tool, wherever it is, and the plate is under it", "[app][scene]")
 {
     Rig rig { "dry_wood" };
     rig.playback.start (LiveRun::Hand::pointer());

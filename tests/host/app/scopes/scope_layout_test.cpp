@@ -8,7 +8,7 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::Bench;
 
-TEST_CASE ("scopes in a narrow panel keep a readable width\\, and a new one is scrolled into view", "[app][scopes]")
+TEST_CASE ("scopes in a narrow panel keep a readable width, and a new one is scrolled into view", "[app][scopes]")
 {
     Bench b;
     for (const int width : { 240, 480, 640, 1600 })

@@ -24,7 +24,7 @@ ScopePanel& scopes (WindowRig& w)
 }
 }   // namespace
 
-TEST_CASE ("on a small screen and at twice the size\\, at least 120 pixels of each plot are in view", "[app][scopes]")
+TEST_CASE ("on a small screen and at twice the size, at least 120 pixels of each plot are in view", "[app][scopes]")
 {
     WindowRig w ("dry_wood.json", 1024, 700);
     for (const double scale : { 1.0, 2.0 })
@@ -49,7 +49,7 @@ TEST_CASE ("on a small screen and at twice the size\\, at least 120 pixels of ea
     Stage::plugIn();
 }
 
-TEST_CASE ("scopes in a high panel are in a grid\\, all in view and none over another", "[app][scopes]")
+TEST_CASE ("scopes in a high panel are in a grid, all in view and none over another", "[app][scopes]")
 {
     Bench b;
     for (const int scopes : { 2, 3, 4, 6, 8 })
@@ -110,7 +110,7 @@ TEST_CASE ("the numbers of the axes are whole in a scope of any size", "[app][sc
         }
 }
 
-TEST_CASE ("a new graph shows no values of the run before\\, and a new spectrum shows the selected wire", "[app][scopes]")
+TEST_CASE ("a new graph shows no values of the run before, and a new spectrum shows the selected wire", "[app][scopes]")
 {
     WindowRig w ("dry_wood.json", 1920, 1080, false);
     const auto isSeen = [&] (const juce::String& text) {

@@ -16,7 +16,7 @@ using tactus::host::test::latestStep;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
-TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take and not the graph; what is saved can be used now", "[app][take]")
+TEST_CASE ("a take shows its curve while it records, and Stop ends the take and not the graph, what is saved can be used now", "[app][take]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
     setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
@@ -136,7 +136,7 @@ Vec3 lowest (const std::filesystem::path& log, const std::string& program)
 }
 }   // namespace
 
-TEST_CASE ("who presses the surface during a take takes the tool\\, and the take begins again\\; the one before stays in the list", "[app][take]")
+TEST_CASE ("who presses the surface during a take takes the tool, and the take begins again, the one before stays in the list", "[app][take]")
 {
     Recorder r;
     REQUIRE (r.run.hand().kind == LiveRun::Hand::Kind::described);
@@ -222,7 +222,7 @@ TEST_CASE ("an undo during a take keeps what was recorded", "[app][take][undo]")
     CHECK (r.take.recorded() == r.panel.unsaved().back());
 }
 
-TEST_CASE ("a take that ends with the run says so\\, and has the length of what it holds", "[app][take]")
+TEST_CASE ("a take that ends with the run says so, and has the length of what it holds", "[app][take]")
 {
     Recorder r;
     SECTION ("STOP") { r.w.click ("STOP"); }
@@ -233,7 +233,7 @@ TEST_CASE ("a take that ends with the run says so\\, and has the length of what 
     CHECK (r.panel.unsaved().size() == 1);
 }
 
-TEST_CASE ("a take can be undone\\, which brings back the one before", "[app][take]")
+TEST_CASE ("a take can be undone, which brings back the one before", "[app][take]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
     auto& panel = w.view->takePanel();
@@ -319,7 +319,7 @@ TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app]
     REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
 }
 
-TEST_CASE ("a take is saved from the list\\, and opened again\\, also with another graph", "[app][take]")
+TEST_CASE ("a take is saved from the list, and opened again, also with another graph", "[app][take]")
 {
     Recorder r;
     bool saves = false;

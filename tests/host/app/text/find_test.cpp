@@ -32,7 +32,7 @@ bool isAmong (const std::vector<Preset>& found, const std::string& name, std::si
 }
 }   // namespace
 
-TEST_CASE ("find: the title itself comes first\\, then words of the title\\, tags\\, their beginnings\\, synonyms and the text")
+TEST_CASE ("find: the title itself comes first, then words of the title, tags, their beginnings, synonyms and the text")
 {
     const std::vector<Findable> all {
         { "In the text", "", "", "a pad that is viscous" },
@@ -50,7 +50,7 @@ TEST_CASE ("find: the title itself comes first\\, then words of the title\\, tag
     CHECK (titlesOf (all, "").size() == all.size());
 }
 
-TEST_CASE ("find: a word counts from its first letter\\, and a mistyped one only if nothing else fits")
+TEST_CASE ("find: a word counts from its first letter, and a mistyped one only if nothing else fits")
 {
     const std::vector<Findable> all { { "Sandpaper", "", "abrasive", "rough grains" }, { "Liver cut", "", "tissue", "it breaks through the skin" } };
     CHECK (titlesOf (all, "rough") == std::vector<std::string> { "Sandpaper" });
@@ -73,7 +73,7 @@ TEST_CASE ("find: every preset and every node type is first under its own name")
     }
 }
 
-TEST_CASE ("find: words that people type find what entries call otherwise\\, among presets and node types")
+TEST_CASE ("find: words that people type find what entries call otherwise, among presets and node types")
 {
     CHECK (isAmong (matching (presets(), "squeak"), "Squealing rubber", 2));
     CHECK (isAmong (matching (presets(), "viscous"), "Honey", 1));

@@ -72,7 +72,7 @@ struct Closing
 };
 }   // namespace
 
-TEST_CASE ("closing while a film is being saved waits for it\\, with progress", "[app][closing]")
+TEST_CASE ("closing while a film is being saved waits for it, with progress", "[app][closing]")
 {
     Closing c;
     c.saveFilm();
@@ -98,7 +98,7 @@ TEST_CASE ("closing while a film is being saved waits for it\\, with progress", 
     CHECK (c.closed == 1);
 }
 
-TEST_CASE ("Cancel keeps the window\\, and the film is saved\\; so does a film that cannot be saved", "[app][closing]")
+TEST_CASE ("Cancel keeps the window, and the film is saved, so does a film that cannot be saved", "[app][closing]")
 {
     Closing c;
     SECTION ("cancelled")
@@ -125,7 +125,7 @@ TEST_CASE ("Cancel keeps the window\\, and the film is saved\\; so does a film t
     CHECK (c.closed == 0);
 }
 
-TEST_CASE ("a film can be discarded at closing\\, and what was changed while it was saved is asked about", "[app][closing]")
+TEST_CASE ("a film can be discarded at closing, and what was changed while it was saved is asked about", "[app][closing]")
 {
     Closing c;
     SECTION ("discarded")
@@ -191,7 +191,7 @@ TEST_CASE ("what is being filmed is saved before the window closes or another gr
     }
 }
 
-TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it so that it can be played again", "[app][closing][take]")
+TEST_CASE ("closing asks about a take of which nothing was made, and saves it so that it can be played again", "[app][closing][take]")
 {
     Closing c { "pebbled_leather.json" };   // it reads a picture, which the saved take must find
     c.record();
@@ -236,7 +236,7 @@ TEST_CASE ("closing asks about a take of which nothing was made\\, and saves it 
     }
 }
 
-TEST_CASE ("a take of which something was made needs no question\\; a new graph keeps a take\\, and a new take the one before", "[app][closing][take]")
+TEST_CASE ("a take of which something was made needs no question, a new graph keeps a take, and a new take the one before", "[app][closing][take]")
 {
     Closing c;
     c.record();

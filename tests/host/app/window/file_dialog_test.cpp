@@ -24,7 +24,7 @@ bool isSeen (WindowRig& w, const juce::String& text)
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
 }   // namespace
 
-TEST_CASE ("Ctrl+S, a name and Return save\\, and the graph\\, the header and the title have the name of the file", "[app][files]")
+TEST_CASE ("Ctrl+S, a name and Return save, and the graph, the header and the title have the name of the file", "[app][files]")
 {
     const TemporaryFolder mine;
     setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
@@ -81,7 +81,7 @@ TEST_CASE ("Ctrl+S, a name and Return save\\, and the graph\\, the header and th
     unsetenv ("TACTUS_GRAPHS");
 }
 
-TEST_CASE ("a file is replaced only after a question of the window\\, which offers another name", "[app][files]")
+TEST_CASE ("a file is replaced only after a question of the window, which offers another name", "[app][files]")
 {
     const TemporaryFolder mine;
     setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
@@ -147,7 +147,7 @@ TEST_CASE ("a film is saved under the typed name", "[app][files][film]")
     setenv ("HOME", home.c_str(), 1);
 }
 
-TEST_CASE ("the dialog for the clip of a node waits for a name\\, and lists clips but no graphs", "[app][files]")
+TEST_CASE ("the dialog for the clip of a node waits for a name, and lists clips but no graphs", "[app][files]")
 {
     const TemporaryFolder mine;
     const std::filesystem::path assets = TACTUS_SOURCE_DIR "/graphs/assets";

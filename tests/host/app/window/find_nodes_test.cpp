@@ -93,7 +93,7 @@ std::vector<std::string> frictionsIn (const std::vector<PaletteEntry>& entries)
 }
 }   // namespace
 
-TEST_CASE ("Ctrl+K finds a node by its name and by its type\\, in a group\\, too\\, and shows it", "[app][keyboard]")
+TEST_CASE ("Ctrl+K finds a node by its name and by its type, in a group, too, and shows it", "[app][keyboard]")
 {
     SearchDesk d ("dry_wood.json");
     for (const auto& [words, node] : { std::pair { "drag", "drag" }, std::pair { "elasto-plastic", "drag" }, std::pair { "motor", "motor" } })
@@ -122,7 +122,7 @@ TEST_CASE ("Ctrl+K finds a node by its name and by its type\\, in a group\\, too
     CHECK (d.canvas().selection() == Selection { d.id ("board") });
 }
 
-TEST_CASE ("the same words find the same nodes in the same order\\, to add\\, to wire and to go to", "[app][keyboard]")
+TEST_CASE ("the same words find the same nodes in the same order, to add, to wire and to go to", "[app][keyboard]")
 {
     const TemporaryFolder folder;
     SearchDesk d (allFrictions (folder).string());

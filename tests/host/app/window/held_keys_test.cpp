@@ -87,7 +87,7 @@ TEST_CASE ("on a screen: a release that another program got", "[.screen]")
     CHECK (w.pressed ("alt+a").getModifiers().isAltDown());   // a key that is held counts
 }
 
-TEST_CASE ("after Alt+Tab back to the window\\, where another program gets the release of Alt\\, keys do what they should", "[app][keyboard]")
+TEST_CASE ("after Alt+Tab back to the window, where another program gets the release of Alt, keys do what they should", "[app][keyboard]")
 {
     onScreen ("on a screen: a release that another program got");
 }

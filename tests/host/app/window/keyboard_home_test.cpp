@@ -50,7 +50,7 @@ struct Desk
 };
 }   // namespace
 
-TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the canvas work", "[app][keyboard]")
+TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas work", "[app][keyboard]")
 {
     Desk d;
     auto& w = *d.w;
@@ -124,7 +124,7 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     d.checkKeys ("the panel of a focused field was hidden");
 }
 
-TEST_CASE ("another program gets the keyboard while the palette is open\\, and keeps it until the user comes back", "[app][keyboard]")
+TEST_CASE ("another program gets the keyboard while the palette is open, and keeps it until the user comes back", "[app][keyboard]")
 {
     Desk d;
     auto& w = *d.w;

@@ -67,7 +67,7 @@ std::string clipIn (const fs::path& file)
 }
 }   // namespace
 
-TEST_CASE ("a graph that is saved elsewhere finds its clip again\\, also one that was chosen since", "[app][files]")
+TEST_CASE ("a graph that is saved elsewhere finds its clip again, also one that was chosen since", "[app][files]")
 {
     const TemporaryFolder mine;
     setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
@@ -127,7 +127,7 @@ TEST_CASE ("an unsaved graph that is recovered finds its clip again", "[app][fil
     CHECK (compile (restored, catalogue(), { .assets = &assets }).plan != nullptr);
 }
 
-TEST_CASE ("a file that is missing is chosen from the problem\\, with one Return on its path", "[app][files][problems]")
+TEST_CASE ("a file that is missing is chosen from the problem, with one Return on its path", "[app][files][problems]")
 {
     const TemporaryFolder folder;
     auto g = loadGraph (clip_template).graph;

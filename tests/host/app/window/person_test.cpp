@@ -160,7 +160,7 @@ void checkRoughBoard (const std::filesystem::path& file)
 }
 }   // namespace
 
-TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, and saves\\, in 18 actions", "[app][person]")
+TEST_CASE ("a person builds plane, friction, a gated grating and a knob, and saves, in 18 actions", "[app][person]")
 {
     Person p { true };
     setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
@@ -198,7 +198,7 @@ TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, a
     checkRoughBoard (file);
 }
 
-TEST_CASE ("keys alone build plane\\, friction\\, a gated grating and a knob\\, and save\\, in 25 actions", "[app][person][keyboard]")
+TEST_CASE ("keys alone build plane, friction, a gated grating and a knob, and save, in 25 actions", "[app][person][keyboard]")
 {
     Person p { true };
     setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
@@ -266,7 +266,7 @@ TEST_CASE ("a person finds a preset and loads it in three actions", "[app][perso
     CHECK (p.actions == 3);
 }
 
-TEST_CASE ("a person types a name and Return\\, and gets what has this name", "[app][person]")
+TEST_CASE ("a person types a name and Return, and gets what has this name", "[app][person]")
 {
     Person p { true };
     p.click (p.titled ("Search presets"));
@@ -287,7 +287,7 @@ TEST_CASE ("a person types a name and Return\\, and gets what has this name", "[
     }
 }
 
-TEST_CASE ("presets are in view in a low window\\, whatever the user has opened and saved\\, and nothing is listed twice", "[app][person]")
+TEST_CASE ("presets are in view in a low window, whatever the user has opened and saved, and nothing is listed twice", "[app][person]")
 {
     const TemporaryFolder mine;
     for (int i = 0; i < 9; ++i)

@@ -15,7 +15,7 @@ bool showsText (juce::Component& in, const juce::String& text)
 }
 }   // namespace
 
-TEST_CASE ("a right press opens the menu however long it is held\\, and moves the canvas if the mouse moves", "[app][mouse]")
+TEST_CASE ("a right press opens the menu however long it is held, and moves the canvas if the mouse moves", "[app][mouse]")
 {
     WindowRig w ("dry_wood.json");
     auto& canvas = w.view->canvas();

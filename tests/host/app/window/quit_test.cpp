@@ -6,7 +6,7 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::WindowRig;
 
-TEST_CASE ("Quit is in the menu\\, on a key\\, and in the search for commands", "[app][keyboard]")
+TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[app][keyboard]")
 {
     WindowRig w ("dry_wood.json");
     int quits = 0;
@@ -22,7 +22,7 @@ TEST_CASE ("Quit is in the menu\\, on a key\\, and in the search for commands", 
     CHECK (quits == 3);
 }
 
-TEST_CASE ("the search for commands finds OSC\\, and says at which port messages arrive", "[app][keyboard][osc]")
+TEST_CASE ("the search for commands finds OSC, and says at which port messages arrive", "[app][keyboard][osc]")
 {
     WindowRig w ("dry_wood.json");
     const auto told = [&] {

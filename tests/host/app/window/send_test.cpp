@@ -51,7 +51,7 @@ bool followsMouse (WindowRig& w)
 }
 }   // namespace
 
-TEST_CASE ("a force that contact gates is sent to a new vibration motor\\, and the run goes on", "[app][layers]")
+TEST_CASE ("a force that contact gates is sent to a new vibration motor, and the run goes on", "[app][layers]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
     auto& run = w.view->run();

@@ -75,7 +75,7 @@ void turnTo (WindowRig& w, const juce::String& title)
 }
 }   // namespace
 
-TEST_CASE ("a window of 1024 by 700 at 200 % has a canvas\\, a hand and a scope that can be used", "[app][small]")
+TEST_CASE ("a window of 1024 by 700 at 200 % has a canvas, a hand and a scope that can be used", "[app][small]")
 {
     WindowRig w ("dry_wood.json", small_width, small_height);
     auto& canvas = w.view->canvas();
@@ -131,7 +131,7 @@ TEST_CASE ("a window of 1024 by 700 at 200 % has a canvas\\, a hand and a scope 
     }
 }
 
-TEST_CASE ("in a small window\\, every panel can be opened\\, and no button is out of reach", "[app][small]")
+TEST_CASE ("in a small window, every panel can be opened, and no button is out of reach", "[app][small]")
 {
     WindowRig w ("dry_wood.json", small_width, small_height);
     for (const char* title : { "Hand", "Inspector", "Presets", "Canvas", "Take", "Layers", "Devices", "Problems", "Scopes" })
@@ -172,7 +172,7 @@ TEST_CASE ("in the smallest window of the program, all panels are side by side, 
     }
 }
 
-TEST_CASE ("the columns of a small window are resized by a drag\\, halved again by a double click\\, undone and remembered", "[app][small]")
+TEST_CASE ("the columns of a small window are resized by a drag, halved again by a double click, undone and remembered", "[app][small]")
 {
     WindowRig w ("dry_wood.json", small_width, small_height);
     auto& canvas = w.view->canvas();
@@ -274,7 +274,7 @@ TEST_CASE ("the labels of a take are whole in a small window", "[app][small][tak
     w.view->run().letGo();
 }
 
-TEST_CASE ("in a small window\\, the tour leaves free what one is to try\\, and a dialog for files leaves STOP free", "[app][small]")
+TEST_CASE ("in a small window, the tour leaves free what one is to try, and a dialog for files leaves STOP free", "[app][small]")
 {
     const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360));
     INFO (width << " x " << height);
@@ -325,7 +325,7 @@ TEST_CASE ("a search for commands says nothing about nodes", "[app][small][palet
     CHECK_FALSE (isSaid ("friction"));
 }
 
-TEST_CASE ("the titles of tabs are all in the row or in its menu\\, whatever the width", "[app][small]")
+TEST_CASE ("the titles of tabs are all in the row or in its menu, whatever the width", "[app][small]")
 {
     juce::ScopedJuceInitialiser_GUI gui;
     Look look;

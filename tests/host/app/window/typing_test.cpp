@@ -106,7 +106,7 @@ TEST_CASE ("Ctrl+S saves what is being typed into a field", "[app][keyboard][fil
     }
 }
 
-TEST_CASE ("what is being typed into a field is an unsaved change\\, and never gets into the next graph", "[app][keyboard][files]")
+TEST_CASE ("what is being typed into a field is an unsaved change, and never gets into the next graph", "[app][keyboard][files]")
 {
     Desk d;
     auto& w = *d.w;

@@ -39,7 +39,7 @@ void undoAndRedo (WindowRig& w, const std::function<bool()>& isDone)
 }
 }   // namespace
 
-TEST_CASE ("closing\\, moving and sizing scopes\\, and moving panels\\, are steps that can be undone", "[app][undo]")
+TEST_CASE ("closing, moving and sizing scopes, and moving panels, are steps that can be undone", "[app][undo]")
 {
     WindowRig w ("dry_wood.json", 1600, 900);
     const auto settled = [&] { WindowRig::settle (60); };
@@ -93,7 +93,7 @@ TEST_CASE ("storing a snapshot can be undone", "[app][undo]")
     CHECK (writeGraph (w.graph()) == text);
 }
 
-TEST_CASE ("moving a wire to another port is one step\\, and the history names wires and nodes", "[app][undo]")
+TEST_CASE ("moving a wire to another port is one step, and the history names wires and nodes", "[app][undo]")
 {
     WindowRig w ("layered_cloth.json", 1600, 900);
     auto& canvas = w.view->canvas();

@@ -80,7 +80,7 @@ TEST_CASE ("in a sweep over a grating, the strongest frequency is the speed divi
     }
 }
 
-TEST_CASE ("a sweep prints the period of the pattern that it finds\\, and nothing if there is no pattern", "[cli][sweep]")
+TEST_CASE ("a sweep prints the period of the pattern that it finds, and nothing if there is no pattern", "[cli][sweep]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", gratingGraph (500.0));
@@ -112,7 +112,7 @@ TEST_CASE ("a sweep shows the force against position and speed", "[cli][sweep]")
         }
 }
 
-TEST_CASE ("a spectrogram has a row for each time and a column for each frequency\\, with units", "[cli][sweep]")
+TEST_CASE ("a spectrogram has a row for each time and a column for each frequency, with units", "[cli][sweep]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 2, "rate_hz": 4000,
@@ -133,7 +133,7 @@ TEST_CASE ("a spectrogram has a row for each time and a column for each frequenc
     }
 }
 
-TEST_CASE ("spectrograms and sweeps are written as PNG\\, SVG and PDF", "[cli][sweep]")
+TEST_CASE ("spectrograms and sweeps are written as PNG, SVG and PDF", "[cli][sweep]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", gratingGraph (500.0));
