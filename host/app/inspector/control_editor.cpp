@@ -53,7 +53,7 @@ public:
             change (
                 document, id, [v = fader.getValue()] (auto& c) { c.value = v; },
                 continues ? graph::Step::joined : graph::Step::own);
-            continues = fader.isMouseButtonDown();
+            continues = fader.isMouseButtonDown (true);   // its text covers it, and gets the mouse
         };
         cross.onClick = [this] { document.perform (removeControl (document.graph(), id, catalogue)); };
         addAndMakeVisible (name);

@@ -35,7 +35,7 @@ LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), cat
     probes.onWanted = scene_feed.onWanted = port_feed.onWanted = [this] {
         if (wanted && isLive()) takeOver();
     };
-    scene_feed.hasPlace = [this] (const std::string& role) { return ! isSoundCard (role); };
+    scene_feed.hasPlace = [this] (const std::string& role) { return hasPlace (role); };
     scene_feed.onWatched = [this] { showScene(); };
     documentChanged();
 }

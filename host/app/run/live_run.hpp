@@ -230,6 +230,7 @@ private:
     Compiled check (const graph::Graph&);
     std::string handRoleOf (const std::vector<RoleNeeds>&) const;
     void setHandRole();
+    bool hasPlace (const std::string& role) const;
     bool isSoundCard (const std::string& role) const;
     void takeOver();
     void showScene();

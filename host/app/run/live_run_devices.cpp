@@ -27,6 +27,9 @@ constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 
 /// True if the graph reads where the tool is.
 bool isRead (const DeviceParts& parts) { return parts.position || parts.rotation || parts.truth; }
+
+/// True if it has axes or motors that move it.
+bool isMoved (const DeviceParts& parts) { return parts.force || parts.torque || ! parts.others.axes.empty() || ! parts.others.efforts.empty(); }
 }   // namespace
 
 /// The role whose tool is drawn and heard, and that the mouse can move. The user may have chosen it. Otherwise a role whose place the graph reads comes
@@ -36,8 +39,7 @@ std::string LiveRun::handRoleOf (const std::vector<RoleNeeds>& roles) const
     const bool is_same_graph = hand_of == document.identity();
     const auto rank = [&] (const RoleNeeds& r) {
         const bool is_chosen = is_same_graph && r.role == chosen_role, is_kept = is_same_graph && r.role == hand_role;
-        const bool is_moved = r.parts.force || r.parts.torque || ! r.parts.others.axes.empty() || ! r.parts.others.efforts.empty();
-        return std::tuple (is_chosen, isRead (r.parts), is_moved, is_kept);
+        return std::tuple (is_chosen, isRead (r.parts), isMoved (r.parts), is_kept);
     };
     const RoleNeeds* hand = nullptr;
     for (const auto& r : roles)
@@ -58,6 +60,13 @@ std::vector<std::string> LiveRun::toolRoles() const
     for (const auto& [role, parts] : needed)
         if (isRead (parts) && ! isSoundCard (role)) all.push_back (role);
     return all;
+}
+
+/// A sound card and a vibration motor have no place.
+bool LiveRun::hasPlace (const std::string& role) const
+{
+    const auto found = std::ranges::find (needed, role, &RoleNeeds::role);
+    return ! isSoundCard (role) && (found == needed.end() || isRead (found->parts) || isMoved (found->parts));
 }
 
 bool LiveRun::isSoundCard (const std::string& role) const

@@ -252,8 +252,15 @@ def walk(w):
     w.start()
     w.wait(lambda: w.has("Recover") or w.has("Recover without running"), "the offer to recover")
     w.shot("recovery")
-    w.click("Recover" if w.has("Recover") else "Recover without running")
-    w.wait(lambda: w.has("drag"), "the recovered graph")
+
+    def recovered():   # a window that has just started may lose a click
+        for answer in ("Recover", "Recover without running"):
+            if w.has(answer):
+                w.click(answer)
+                break
+        return w.has("drag")
+
+    w.wait(recovered, "the recovered graph")
     w.shot("recovered")
 
     w.click("Devices")

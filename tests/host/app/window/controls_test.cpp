@@ -155,6 +155,34 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
     CHECK (c.w->graph().controls[0].value == 0.5);
 }
 
+TEST_CASE ("a drag of a control's fader is one step, as a drag of its knob is", "[app][controls][undo]")
+{
+    Cloth c;
+    c.w->view->canvas().select ({});   // the inspector shows the graph
+    c.w->settle();
+    const auto& control = c.w->graph().controls[0];
+    const std::function<juce::Slider*(juce::Component&)> faderIn = [&] (juce::Component& in) -> juce::Slider* {
+        auto* slider = dynamic_cast<juce::Slider*> (&in);
+        if (slider != nullptr && slider->getSliderStyle() == juce::Slider::LinearBar && slider->getTitle() == juce::String (control.name)) return slider;
+        for (auto* child : in.getChildren())
+            if (auto* found = faderIn (*child)) return found;
+        return nullptr;
+    };
+    auto* fader = faderIn (*c.w->view);
+    REQUIRE (fader != nullptr);
+    const auto at = [&] (float part) {
+        return c.w->stage->getLocalPoint (fader, fader->getLocalBounds().toFloat().getRelativePoint (part, 0.5f));
+    };
+    const auto before = c.w->view->document().history().position();
+    c.w->stage->drag (at (0.2f), at (0.8f));
+    c.w->settle();
+    CHECK (c.w->graph().controls[0].value > 0.75);
+    CHECK (c.w->view->document().history().position() == before + 1);
+    c.w->stage->drag (at (0.8f), at (0.3f));   // another drag is another step
+    c.w->settle();
+    CHECK (c.w->view->document().history().position() == before + 2);
+}
+
 TEST_CASE ("a right click on a parameter of a node opens its menu, inside a subgraph too", "[app][controls]")
 {
     Cloth c;

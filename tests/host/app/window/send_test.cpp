@@ -80,6 +80,9 @@ TEST_CASE ("a new vibration motor does not take the mouse from the tool", "[app]
     CHECK (followsMouse (w));
     CHECK (run.hand() == LiveRun::Hand::pointer());
     CHECK (w.titled ("Which tool the hand moves") == nullptr);   // a vibration motor is no tool
+    w.click ("3D");
+    REQUIRE (waitFor ([&] { return ! run.scene().now().tools.empty(); }));
+    CHECK (run.scene().now().tools.size() == 1);
     run.letGo();
 }
 
