@@ -111,11 +111,10 @@ struct Editor
 
 TEST_CASE ("no value in effect changes while controls are added, extended and removed and nodes are copied and renamed", "[app][controls]")
 {
-    const char* preset = GENERATE ("layered_cloth", "bronze_bell", "two_fingers");
-    INFO (preset);
-    CHECK (rc::check ([&] {
-        Editor editor (preset);
-        for (int i = 0; i < 25; ++i)
+    CHECK (rc::check ([] {
+        const char* presets[] { "layered_cloth", "bronze_bell", "two_fingers" };
+        Editor editor (presets[Editor::upTo (3)]);
+        for (int i = 0; i < 12; ++i)
         {
             const auto before = valuesInEffect (editor.document().graph());
             const auto action = editor.act();
