@@ -44,13 +44,12 @@ public:
     MainView& view() noexcept { return *content; }
     void closeButtonPressed() override { juce::JUCEApplication::getInstance()->systemRequestedQuit(); }
 
-    /// The window manager tells only after a while how large the title bar is. Call it until then.
+    /// Call it at each refresh: the window manager may answer late.
     void makeRoomForFrame()
     {
-        const auto frame = has_frame || getPeer() == nullptr ? juce::ComponentPeer::OptionalBorderSize {} : getPeer()->getFrameSizeIfPresent();
-        if (! frame || *frame == juce::BorderSize<int> {}) return;
-        has_frame = true;
-        if (const auto place = besideFrame (getBounds(), usable(), *frame, getDesktopScaleFactor())) setBounds (*place);
+        const auto frame = getPeer() == nullptr ? juce::ComponentPeer::OptionalBorderSize {} : getPeer()->getFrameSizeIfPresent();
+        const auto known = frame ? std::optional (*frame) : std::nullopt;
+        if (const auto to = place.next (getBounds(), usable(), known, getDesktopScaleFactor(), juce::Time::getMillisecondCounter())) setBounds (*to);
     }
 
 private:
@@ -58,7 +57,7 @@ private:
     void fitToScreen() { setBounds (usable()); }
 
     MainView* content;
-    bool has_frame = false;
+    OpeningPlace place;
 };
 
 class App final : public juce::JUCEApplication

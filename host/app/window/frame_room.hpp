@@ -4,19 +4,56 @@
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace tactus::host
 {
 
-/// Where a window that opened as large as the screen goes when its frame is known, so that the title bar and the lower edge are on the screen, too.
-/// The window manager may have moved the window by then. Empty if the window no longer has the size of the screen: then the user or the window manager
-/// has resized it. `scale`: pixels of the frame per unit of the other arguments.
-inline std::optional<juce::Rectangle<int>> besideFrame (juce::Rectangle<int> window, juce::Rectangle<int> screen, juce::BorderSize<int> frame, double scale)
+/// Brings a window that opens as large as the screen to its place, so that the title bar and the lower edge are on the screen, too.
+/// A window manager answers late: it tells only after a while how large the title bar is, and on a busy machine it may still move or resize the window
+/// after the first requests. So the place is asked for again until the window has stayed there. A window manager that has its own idea, such as one that
+/// tiles, is asked a few times.
+class OpeningPlace
 {
-    if (window.withZeroOrigin() != screen.withZeroOrigin()) return {};
-    const auto units = [scale] (int pixels) { return static_cast<int> (std::ceil (pixels / scale)); };
-    return juce::BorderSize<int> (units (frame.getTop()), units (frame.getLeft()), units (frame.getBottom()), units (frame.getRight())).subtractedFrom (screen);
-}
+public:
+    static constexpr std::uint32_t patience = 250;   ///< ms between two requests
+    static constexpr int most_requests = 20;
+    static constexpr std::uint32_t settled = 1000;              ///< ms at the place, once the frame is known
+    static constexpr std::uint32_t settled_unframed = 10'000;   ///< ms at the place if no frame is ever known: there may be no window manager
+
+    /// Where to move the window now; empty: nowhere. `frame`: empty or zero as long as it is not known; `scale`: pixels of the frame per unit of the other
+    /// rectangles; `now`: ms. [main thread]
+    std::optional<juce::Rectangle<int>> next (juce::Rectangle<int> window, juce::Rectangle<int> screen, std::optional<juce::BorderSize<int>> frame, double scale,
+                                              std::uint32_t now)
+    {
+        if (is_done) return {};
+        const bool has_frame = frame && *frame != juce::BorderSize<int> {};
+        const auto units = [scale] (int pixels) { return static_cast<int> (std::ceil (pixels / scale)); };
+        const auto place = has_frame ? juce::BorderSize<int> (units (frame->getTop()), units (frame->getLeft()), units (frame->getBottom()), units (frame->getRight()))
+                                           .subtractedFrom (screen)
+                                     : screen;
+        if (window == place)
+        {
+            if (! there_since) there_since = now;
+            is_done = now - *there_since >= (has_frame ? settled : settled_unframed);
+            return {};
+        }
+        there_since.reset();
+        if (asked_at && now - *asked_at < patience) return {};
+        if (++requests > most_requests)
+        {
+            is_done = true;
+            return {};
+        }
+        asked_at = now;
+        return place;
+    }
+
+private:
+    bool is_done = false;
+    int requests = 0;
+    std::optional<std::uint32_t> there_since, asked_at;
+};
 
 }   // namespace tactus::host
