@@ -300,4 +300,24 @@ public:
     }
 };
 
+inline FakeDriver::Sent good (std::uint64_t number = 0)
+{
+    FakeDriver::Sent sent;
+    sent.reading.valid = 1;
+    sent.number = number;
+    return sent;
+}
+
+/// The next reading that the driver sends, once the device has it.
+inline Reading readingOf (host::PluginDevice& device, FakeDriver& fake, FakeDriver::Sent sent)
+{
+    const auto before = device.counts();
+    fake.send (sent);
+    REQUIRE (FakeDriver::until ([&] {
+        const auto now = device.counts();
+        return now.readings + now.refused + now.repeated > before.readings + before.refused + before.repeated;
+    }));
+    return device.read();
+}
+
 }   // namespace tactus::test

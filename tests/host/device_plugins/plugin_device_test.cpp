@@ -16,6 +16,7 @@ using namespace tactus;
 using namespace std::chrono_literals;
 using host::PluginDevice;
 using test::FakeDriver;
+using test::good;
 
 namespace
 {
@@ -66,26 +67,6 @@ struct Pushed
     int k = 0;
 };
 
-/// The next reading that the driver sends, once the device has it.
-Reading readingOf (PluginDevice& device, FakeDriver& fake, FakeDriver::Sent sent)
-{
-    const auto before = device.counts();
-    fake.send (sent);
-    REQUIRE (FakeDriver::until ([&] {
-        const auto now = device.counts();
-        return now.readings + now.refused + now.repeated > before.readings + before.refused + before.repeated;
-    }));
-    return device.read();
-}
-
-FakeDriver::Sent good (std::uint64_t number = 0)
-{
-    FakeDriver::Sent sent;
-    sent.reading.valid = 1;
-    sent.number = number;
-    return sent;
-}
-
 std::string contentOf (const std::string& file)
 {
     std::ifstream in (file, std::ios::binary);
@@ -93,8 +74,6 @@ std::string contentOf (const std::string& file)
     text << in.rdbuf();
     return text.str();
 }
-
-std::string idOf (const Messages& messages) { return messages.empty() ? std::string() : messages.front().id; }
 }   // namespace
 
 TEST_CASE ("a device of a driver: readings arrive, efforts reach it, and it is at rest first and last", "[plugins][safety]")
@@ -395,78 +374,6 @@ TEST_CASE ("a device that comes back is not driven while its failsafe cannot be 
     run.push();
 }
 
-TEST_CASE ("a driver gets only efforts that it has named and limited", "[plugins][safety]")
-{
-    FakeDriver fake;
-    fake.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_TORQUE;
-    fake.guard = R"({"max_torque": "1 N*m", "ramp": "10 ms", "watchdog": "50 ms"})";
-    const auto device = fake.open();
-    readingOf (*device, fake, good());
-    device->write ({});
-    readingOf (*device, fake, good());
-    REQUIRE (FakeDriver::until ([&] {
-        device->write ({ .force = { 5.0, 0.0, 0.0 }, .torque = { 0.0, 0.0, 0.5 } });
-        return fake.lastEffort().torque[2] == 0.5;
-    }));
-    CHECK (fake.lastEffort().force[0] == 0.0);
-    CHECK (readingOf (*device, fake, good()).unrendered_force.x() == 5.0);
-}
-
-TEST_CASE ("a driver gets no force along a direction without a motor, and the run learns that nobody feels it", "[plugins][safety]")
-{
-    FakeDriver fake;
-    fake.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_FORCE | TACTUS_DEVICE_TORQUE;
-    fake.guard = R"({"max_force": "2 N", "max_torque": "1 N*m", "ramp": "10 ms", "watchdog": "50 ms"})";
-    const bool is_old = GENERATE (false, true);   // built before it could name such directions: all are rendered
-    if (! is_old) fake.changes = [] (tactus_device_about& about) { about.unrendered = TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_TORQUE_X; };
-    const auto device = fake.open();
-    readingOf (*device, fake, good());
-    device->write ({});
-    readingOf (*device, fake, good());
-    REQUIRE (FakeDriver::until ([&] {
-        device->write ({ .force = { 0.1, 0.2, 0.3 }, .torque = { 0.4, 0.5, 0.6 } });
-        return fake.lastEffort().force[0] == 0.1;
-    }));
-    const auto reading = readingOf (*device, fake, good());
-    if (is_old)
-    {
-        CHECK (Vec3 (fake.lastEffort().force) == Vec3 (0.1, 0.2, 0.3));
-        CHECK (reading.unrendered_force == Vec3 (Vec3::Zero()));
-        CHECK (reading.unrendered_torque == Vec3 (Vec3::Zero()));
-        return;
-    }
-    CHECK (Vec3 (fake.lastEffort().force) == Vec3 (0.1, 0.0, 0.3));
-    CHECK (Vec3 (fake.lastEffort().torque) == Vec3 (0.0, 0.5, 0.6));
-    CHECK (reading.unrendered_force == Vec3 (0.0, 0.2, 0.0));
-    CHECK (reading.unrendered_torque == Vec3 (0.4, 0.0, 0.0));
-}
-
-TEST_CASE ("a driver learns that a stop withholds the effort, and the strictest limit of signals", "[plugins][safety]")
-{
-    FakeDriver fake;
-    fake.signal_outputs = 2;
-    fake.guard = R"({"max_force": "2 N", "max_signal": 1, "ramp": "10 ms", "watchdog": "50 ms"})";
-    const auto device = fake.open();
-    const auto gets = [&] (double newtons) {
-        device->write ({ .force = { newtons, 0.0, 0.0 } });
-        return FakeDriver::until ([&] { return fake.lastEffort().force[0] == newtons; });
-    };
-    device->read();
-    device->write ({});
-    REQUIRE (gets (0.1));
-    CHECK (fake.lastEffort().is_withheld == 0u);
-    CHECK (fake.lastEffort().max_signal == 1.0);
-    device->limitSignals (0.2, GuardLimits::none);
-    device->withhold();
-    REQUIRE (gets (0.2));
-    CHECK (fake.lastEffort().is_withheld == 1u);
-    CHECK (fake.lastEffort().max_signal == 0.2);
-    device->limitSignals (5.0, GuardLimits::none);
-    REQUIRE (gets (0.3));
-    CHECK (fake.lastEffort().is_withheld == 0u);
-    CHECK (fake.lastEffort().max_signal == 1.0);
-}
-
 TEST_CASE ("a device that does not come to rest at the end is left to the guardian", "[plugins][safety]")
 {
     const TemporaryFolder folder;
@@ -573,36 +480,6 @@ TEST_CASE ("a driver whose reads fail says why, and its reading gets old", "[plu
     CHECK (FakeDriver::until ([&] { return run.device->counts().read_errors > errors; }));
 }
 
-TEST_CASE ("on the way to a driver, no force changes faster than its slew by the wall clock, however long a write takes", "[plugins][safety]")
-{
-    constexpr double slew = 20.0;
-    FakeDriver fake;
-    fake.guard = R"({"max_force": "2 N", "max_slew": "20 N/s", "ramp": "10 ms", "watchdog": "50 ms"})";
-    const auto device = fake.open();
-    device->limitSlews (GuardLimits::none, GuardLimits::none, GuardLimits::none);   // as if the guard had none
-    device->read();
-    device->write ({});
-    for (int k = 0; k < 150; ++k)
-    {
-        device->read();
-        device->write ({ .force = { k % 50 < 25 ? 2.0 : -2.0, 0.0, 0.0 } });
-        std::this_thread::sleep_for (k % 7 == 0 ? 8ms : 1ms);
-    }
-    const auto all = fake.told();
-    double most = 0.0;
-    for (std::size_t i = 3; i + 1 < all.size(); ++i)
-    {
-        REQUIRE (all[i].what == "force");
-        if (all[i + 1].what != "force") break;
-        // The limiter reads the clock before the driver does, but after the write before.
-        const double passed = std::chrono::duration<double> (all[i + 1].at - all[i - 1].at).count();
-        CHECK (std::abs (all[i + 1].force - all[i].force) <= slew * passed + 1e-9);
-        most = std::max (most, std::abs (all[i + 1].force));
-    }
-    CHECK (most > 0.1);
-    CHECK (device->read().unrendered_force.norm() > 0.0);
-}
-
 TEST_CASE ("ticks of a device of a driver lock and allocate nothing", "[plugins]")
 {
     FakeDriver fake;
@@ -617,123 +494,4 @@ TEST_CASE ("ticks of a device of a driver lock and allocate nothing", "[plugins]
     });
     CHECK (device->counts().readings > 0);
     CHECK (device->counts().writes > 0);
-}
-
-TEST_CASE ("a session tightens the limits of a driver, and never loosens them", "[plugins][safety]")
-{
-    FakeDriver fake;
-    fake.guard = R"({"max_force": "2 N", "max_slew": "500 N/s", "max_speed": "1 m/s"})";
-    const auto made = [&] (const char* guard) { return host::openPluginDevice (*fake.driver, { { "driver", "fake" }, { "guard", Json::parse (guard) } }); };
-    const auto loose = made (R"({"max_force": "50 N", "max_speed": "9 m/s", "ramp": "1 ms", "watchdog": "9 s"})");
-    REQUIRE (loose.device);
-    CHECK (loose.limits.max_force == 2.0);
-    CHECK (loose.limits.max_slew == 500.0);
-    CHECK (loose.limits.max_speed == 1.0);
-    CHECK (loose.limits.ramp == 0.2);
-    CHECK (loose.limits.watchdog == GuardLimits::default_watchdog);
-    const auto tight = made (R"({"max_force": "0.5 N", "watchdog": "10 ms"})");
-    REQUIRE (tight.device);
-    CHECK (tight.limits.max_force == 0.5);
-    CHECK (tight.limits.watchdog == 0.01);
-    CHECK (idOf (made (R"({"max_farce": 1})").messages) == "device/unknown_key");
-}
-
-TEST_CASE ("a description that the driver refuses opens nothing", "[plugins]")
-{
-    FakeDriver fake;
-    const auto idFor = [&] (const Json& description) {
-        Messages messages;
-        const auto opened = fake.driver->open (description, messages);
-        CHECK_FALSE (opened);
-        return idOf (messages);
-    };
-    CHECK (idFor ({ { "driver", "fake" }, { "port", "wrong" } }) == "device/refused");
-    CHECK (idFor ({ { "driver", "fake" }, { "prot", "a" } }) == "device/unknown_key");
-    CHECK (idFor ({ { "driver", "fake" }, { "port", 3 } }) == "device/kind");
-    CHECK (fake.told().empty());
-    fake.opens = false;
-    CHECK (idFor ({ { "driver", "fake" }, { "port", "a" } }) == "device/not_opened");
-    fake.opens = true;
-    fake.rest_fails = true;
-    CHECK (idFor ({ { "driver", "fake" }, { "port", "a" } }) == "device/not_opened");
-    CHECK (fake.lastTold() == "close");
-}
-
-TEST_CASE ("a driver that describes its device wrongly is refused, and its device closed", "[plugins][safety]")
-{
-    const auto idFor = [] (auto change) {
-        FakeDriver fake;
-        change (fake);
-        Messages messages;
-        const auto opened = fake.driver->open ({ { "driver", "fake" }, { "port", "a" } }, messages);
-        CHECK_FALSE (opened);
-        CHECK (fake.lastTold() == "close");
-        return idOf (messages);
-    };
-    CHECK (idFor ([] (FakeDriver& f) { f.guard = "{}"; }) == "device/no_limits");
-    CHECK (idFor ([] (FakeDriver& f) { f.guard = ""; }) == "device/no_limits");
-    CHECK (idFor ([] (FakeDriver& f) { f.guard = "2 N"; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.guard = R"({"max_force": "2 m"})"; }) == "device/unit");
-    CHECK (idFor ([] (FakeDriver& f) { f.guard = R"({"max_force": 2, "max_slew": 1})"; }) == "device/slow_stop");
-    CHECK (idFor ([] (FakeDriver& f) { f.tool = TACTUS_DEVICE_TORQUE; }) == "device/no_limits");
-    CHECK (idFor ([] (FakeDriver& f) { f.efforts = { "squeeze" }; }) == "device/no_limits");
-    CHECK (idFor ([] (FakeDriver& f) { f.signal_outputs = 2; }) == "device/no_limits");
-    CHECK (idFor ([] (FakeDriver& f) { f.tool = 1u << 20 | TACTUS_DEVICE_FORCE; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.changes = [] (tactus_device_about& a) { a.unrendered = 64; }; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.axes = { "a", "a" }; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.axes = { "A b" }; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.axes = { nullptr }; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.axes.assign (33, "a"); }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.signal_inputs = -1; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.rate_hz = std::nan (""); }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.mass = -1.0; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.rest_file = "tty"; }) == "device/bad_driver");
-    CHECK (idFor ([] (FakeDriver& f) { f.changes = [] (tactus_device_about& a) { a.rest_file = "/dev/null"; }; }) == "device/bad_driver");
-    const std::string endless (1'000'000, '[');
-    CHECK (idFor ([&] (FakeDriver& f) { f.guard = endless; }) == "device/bad_driver");
-}
-
-TEST_CASE ("a device without limits is allowed if it takes no efforts", "[plugins]")
-{
-    FakeDriver fake;
-    fake.tool = TACTUS_DEVICE_POSITION;
-    fake.guard = "";
-    const auto device = fake.open();
-    device->read();
-    device->write ({});
-    device->read();
-    device->write ({ .force = { 1.0, 0.0, 0.0 } });
-    std::this_thread::sleep_for (20ms);
-    CHECK (fake.count ("force") == 0);
-}
-
-TEST_CASE ("a device that nothing brings to rest when the program dies is not opened", "[plugins][safety]")
-{
-    FakeDriver fake;
-    const auto idNow = [&] {
-        const auto made = host::openPluginDevice (*fake.driver, { { "driver", "fake" } });
-        CHECK ((made.device == nullptr) == hasErrors (made.messages));
-        return idOf (made.messages);
-    };
-    CHECK (idNow() == "");   // the device has a watchdog
-    for (const double watchdog : { 0.0, 0.6, 31e6 })
-    {
-        fake.device_watchdog_s = watchdog;
-        CHECK (idNow() == "device/no_failsafe");
-    }
-    fake.rest_file = "/nowhere/tty";
-    CHECK (idNow() == "device/failsafe");
-    fake.tool = TACTUS_DEVICE_POSITION;   // nothing pushes
-    CHECK (idNow() == "");
-    CHECK (fake.count ("rest") >= fake.count ("open"));   // also of devices that are refused
-}
-
-TEST_CASE ("limits of a driver that would hold a force for long are refused", "[plugins][safety]")
-{
-    FakeDriver fake;
-    for (const auto* guard : { R"({"max_force": "2 N", "watchdog": "2 s"})", R"({"max_force": "2 N", "watchdog": "3600 s"})" })
-    {
-        fake.guard = guard;
-        CHECK (idOf (host::openPluginDevice (*fake.driver, { { "driver", "fake" } }).messages) == "device/bad_driver");
-    }
 }
