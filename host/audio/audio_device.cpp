@@ -26,8 +26,8 @@ Reading AudioDevice::read() noexcept
     return reading;
 }
 
-/// Without the gate, a steady signal that the filter has removed would come back as a push while the guard fades it out. So the gate takes what
-/// was played last to zero, and the filter starts anew behind it. Once it begins to shut, it shuts.
+/// Without the gate, a steady signal that the filter has removed would come back as a push while the guard fades it out. So on a stop,
+/// the gate fades the last sample to zero, and the filter is reset. Once the gate starts to close, it closes completely.
 void AudioDevice::write (const Effort& guarded) noexcept
 {
     const double before = gate;

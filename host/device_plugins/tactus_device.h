@@ -115,7 +115,7 @@ typedef struct tactus_device_about
     double device_watchdog_s; /**< how long the device itself keeps an effort when nothing new comes, in s; 0: forever, or unknown. Without a rest_file,
                                    at most 0.5 s */
     uint32_t unrendered;      /**< TACTUS_DEVICE_NO_FORCE_X | …: these parts are 0 in all efforts, and the guard does not count them; otherwise a force
-                                   that nobody feels could hide energy from it. 0: the motors render every direction */
+                                   without a motor could hide energy from it. 0: the motors render every direction */
 } tactus_device_about;
 
 #define TACTUS_DEVICE_ABOUT_INIT                                                                      \

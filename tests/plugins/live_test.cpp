@@ -210,7 +210,7 @@ TEST_CASE ("a live version keeps the values that were turned, and takes those th
     CHECK (live.scale.force == Approx (24.0));
 }
 
-TEST_CASE ("saved C code is compiled and loaded, with errors, or if it cannot be loaded, it is not", "[plugins][live]")
+TEST_CASE ("saved C code is compiled and loaded, but not with errors, or if it cannot be loaded", "[plugins][live]")
 {
     TemporaryFolder folder;
     const auto code = sourceOf ("written_in_c.c");

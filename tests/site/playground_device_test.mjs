@@ -242,7 +242,7 @@ const tests = {
         assert.equal (page.state.latched, 'impulse');   // as if the last force had been on the device for 30 s
     },
 
-    async 'the computer sleeps: one clock stands still, and the first thing that runs is a state of before'()
+    async 'the computer sleeps: one clock stands still, and the first thing that runs is an old state'()
     {
         const page = await pressing();
         wall += 3000;
@@ -342,7 +342,7 @@ const tests = {
         }
     },
 
-    async 'a stop before there is a graph, and while one starts anew'()
+    async 'a stop before there is a graph, and while one restarts'()
     {
         const page = new Page();
         timers = [];

@@ -40,7 +40,7 @@ class Engine extends AudioWorkletProcessor
     {
         super();
         this.graph = null;
-        this.latched = null;   // a stop that lasts until rearm(), whatever is started anew
+        this.latched = null;   // a stop that lasts until rearm(), even if the graph is restarted
         this.rest = null;      // the number of the rest that the device takes now
         this.waiting = [];     // requests, until no effort is left
         this.is_at_rest = true;
@@ -53,7 +53,7 @@ class Engine extends AudioWorkletProcessor
         };
     }
 
-    /** What starts the graph anew waits until the guards have brought all efforts to zero, and what comes after it keeps its place. */
+    /** Requests that restart the graph wait until the guards have brought all efforts to zero. Later requests keep their order. */
     ask (name, value)
     {
         const is_start = name === 'load' || name === 'device' || (name === 'record' && value);
@@ -85,7 +85,7 @@ class Engine extends AudioWorkletProcessor
         this.port.postMessage ({ loaded: about.name });
     }
 
-    /** Starts the graph anew. What was stopped stays stopped. */
+    /** Restarts the graph. A latched stop stays. */
     begin()
     {
         this.graph.prepare (this.about.rate_hz);

@@ -45,7 +45,7 @@ export class HidDevice
         this.has_to_rest = true;
         this.rests = 1;                  // how often it had to rest
         this.driven = 1;                 // reports that drive it; what it did before is unknown
-        this.rested = this.asked = 0;    // how many of them were before the last neutral report that it has taken, and that was sent
+        this.rested = this.asked = 0;    // of those, how many came before the last neutral report that was taken, and that was sent
         this.rumble = this.enabled = 0;
         this.last_write = -Infinity;
         this.post = this.onreading = () => {};

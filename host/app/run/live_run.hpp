@@ -202,7 +202,7 @@ public:
     bool isLogging() const noexcept { return isLogged() || ! log_next.empty(); }   ///< the log is wanted, or being written
     bool isLogged() const noexcept { return is_logged; }                           ///< the log is being written: the run before has ended
 
-    /// Called before a run that is being logged restarts: now logNextTo() decides about the log of the next one. A stop is no restart, nor is startOther().
+    /// Called before a run that is being logged restarts: call logNextTo() in it to log the next run, too. A stop is no restart, nor is startOther().
     std::function<void()> onRestart;
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.

@@ -121,7 +121,7 @@ bool LiveRun::holdWorkspace (bool is_held)
 }
 
 /// Moves the devices whose offset is all that differs between the session of the run and this one. False if more differs, so that the run has to begin
-/// again. Also false if there is another role: the place of the tool steps for its nodes, too, and only the guard of the role that moves knows.
+/// again. Also false if the run has other roles: their nodes may see the position of this tool jump, and only the guard of the moved role knows.
 bool LiveRun::moveWorkspaces (const DeviceSession& now)
 {
     const auto withoutOffset = [] (const Json* binding) {

@@ -66,6 +66,7 @@ public:
         return ! file.hasFileExtension (".json") || file.getSize() > most || isClipFile (file.getFullPathName().toStdString());
     }
 };
+
 /// A path may be relative, which juce::File does not take.
 juce::File fileAt (const std::filesystem::path& path) { return juce::File::getCurrentWorkingDirectory().getChildFile (fromUtf8 (path.string())); }
 }   // namespace

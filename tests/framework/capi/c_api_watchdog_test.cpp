@@ -101,7 +101,7 @@ TEST_CASE ("C API: without a guard, the force of a pushed device fades to zero 5
     CHECK (std::abs (wholeTicks (silence (opened (R"({ "max_force": "3 N" })", m), 200)) - 50) <= 1);
 }
 
-TEST_CASE ("C API: the program's own guard tightens or lengthens the watchdog, a graph only tightens it", "[c_api][safety]")
+TEST_CASE ("C API: the program's own guard tightens or lengthens the watchdog, and a graph only tightens it", "[c_api][safety]")
 {
     const MessageList m { tactus_messages_create() };
     CHECK (std::abs (wholeTicks (silence (opened (R"({ "watchdog": "20 ms" })", m), 200)) - 20) <= 1);

@@ -145,7 +145,7 @@ TEST_CASE ("the sampled loop of a wall begins to swing where simulations do, wit
     });
 }
 
-TEST_CASE ("a wall that is not passive, but rests, is called stable, one that swings is called broken", "[check]")
+TEST_CASE ("a wall that is not passive, but rests, is called stable, and one that swings is called broken", "[check]")
 {
     const Simulation arm { .mass = 0.1, .damping = 2.0 };
     const auto judged = [&] (double stiffness, double virtual_damping) {

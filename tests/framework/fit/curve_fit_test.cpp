@@ -153,7 +153,7 @@ TEST_CASE ("curve fit: recorded key switches show their hysteresis, and where th
     }
 }
 
-TEST_CASE ("curve fit: a click that the curve flattens gets a poor verdict that names the program for keys, noise and a tiny dent do not", "[kit][fit]")
+TEST_CASE ("curve fit: a click that the curve flattens gets a poor verdict that names the program for keys, but noise and a tiny dent do not", "[kit][fit]")
 {
     const auto says = [] (const CurveFit& fit, const std::string& words) {
         return std::ranges::any_of (fit.report.lacking, [&] (const std::string& text) { return text.find (words) != std::string::npos; });

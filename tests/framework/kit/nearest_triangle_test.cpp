@@ -62,7 +62,7 @@ TEST_CASE ("a point above a triangle, next to it, and beyond its corner", "[near
     CHECK (nearestOn (a, a, a, { 2.0, 2.0, 0.0 }).point == a);
 }
 
-TEST_CASE ("the nearest of all triangles is found, if there are several, the first one", "[nearest]")
+TEST_CASE ("the nearest of all triangles is found, and if there are several, the first one", "[nearest]")
 {
     test::property ("any mesh", [] {
         Mesh mesh;

@@ -25,7 +25,7 @@ State allOf (std::uint64_t n)
 }
 }   // namespace
 
-TEST_CASE ("a snapshot holds the last stored value, a partial store changes only its part", "[runtime]")
+TEST_CASE ("a snapshot holds the last stored value, and a partial store changes only its part", "[runtime]")
 {
     Snapshot<State> snapshot { allOf (1) };
     CHECK (snapshot.load().numbers == allOf (1).numbers);

@@ -285,7 +285,7 @@ TEST_CASE ("turning causes no allocation and no lock in the tick", "[live]")
     CHECK (watch.locks() == 0);
 }
 
-TEST_CASE ("a parameter set from another thread ends at the last value, values that are not finite are ignored", "[live]")
+TEST_CASE ("a parameter set from another thread ends at the last value, and values that are not finite are ignored", "[live]")
 {
     Bench bench { amplified() };
     bench.tick();

@@ -56,7 +56,7 @@ TEST_CASE ("an explicit delay delays a wire by that many ticks", "[plan]")
     CHECK (run (sketch, "late.out", 5) == 2.0);
 }
 
-TEST_CASE ("a delay node opens a loop, a plain loop is refused, with its chain and a suggested place for a delay", "[plan]")
+TEST_CASE ("a delay node opens a loop, and a plain loop is refused, with its chain and a suggested place for a delay", "[plan]")
 {
     auto sketch = Sketch {}
                       .node ("one", "signal.constant", { { "value", 1.0 } })
@@ -81,7 +81,7 @@ TEST_CASE ("a delay node opens a loop, a plain loop is refused, with its chain a
     }
 }
 
-TEST_CASE ("forces into one sink are summed, positions into one input are refused, naming both wires", "[plan]")
+TEST_CASE ("forces into one sink are summed, and positions into one input are refused, naming both wires", "[plan]")
 {
     auto sketch = Sketch {}.node ("hand", "device.position").node ("there", "device.truth").node ("x", "signal.constant").node ("motor", "device.force");
     sketch.node ("a", "vector.join").node ("b", "vector.join").node ("c", "vector.join").node ("two", "signal.constant", { { "value", "2 N" } });
@@ -351,7 +351,7 @@ TEST_CASE ("the quantity of a generic port does not depend on the order of wires
     }
 }
 
-TEST_CASE ("a force times a ratio is a force, so its components can be summed, a product of two units is not", "[plan]")
+TEST_CASE ("a force times a ratio is a force, so its components can be summed, but a product of two units is not", "[plan]")
 {
     const auto summed = [] (const char* vector, const char* factor, const char* times) {
         auto sketch = Sketch {}.node ("hand", "device.position").node ("drag", "friction.elasto_plastic").node ("touch", "contact.window");

@@ -78,7 +78,7 @@ using Doubles = std::vector<double>;
 const Strings gains { "finger[0]/amp.gain", "finger[1]/amp.gain", "finger[2]/amp.gain" };
 }   // namespace
 
-TEST_CASE ("a wire to a subgraph feeds every instance, a wire to one instance feeds that one", "[instances]")
+TEST_CASE ("a wire to a subgraph feeds every instance, and a wire to one instance feeds that one", "[instances]")
 {
     for (const auto* every : { "finger.in", "finger[*].in", "finger/amp.in", "finger[*]/amp.in" })
         CHECK (values (fingers (R"("count": 3)", std::string (R"(, "level.out -> )") + every + '"'), { "finger.out" }) == Doubles { 2.0, 2.0, 2.0 });

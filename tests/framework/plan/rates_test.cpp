@@ -209,7 +209,7 @@ TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the 
     });
 }
 
-TEST_CASE ("signals enter `times m` as straight lines that end on the value of the tick, the first line is level", "[plan][rates][property]")
+TEST_CASE ("signals enter `times m` as straight lines that end on the value of the tick, and the first line is level", "[plan][rates][property]")
 {
     property ("for any signal", [] {
         const int m = *rc::gen::inRange (2, 7);

@@ -285,7 +285,7 @@ TEST_CASE ("an edit that includes a graph with a guard tightens at once, and wit
     CHECK (bench.run.devices().front().second.limits.max_force == 1.0);
 }
 
-TEST_CASE ("a guard that an edit adds to a role, or tightens, takes effect at once, what it loosens waits and says so", "[run][safety]")
+TEST_CASE ("a guard that an edit adds to a role, or tightens, takes effect at once, and what it loosens waits and says so", "[run][safety]")
 {
     const auto plain = pushing();
     Bench bench (plain);

@@ -27,7 +27,7 @@ std::shared_ptr<Plan> counter()
 }
 }   // namespace
 
-TEST_CASE ("the selected taps are captured in order, every n-th tick, frames that are not drained are lost", "[probe]")
+TEST_CASE ("the selected taps are captured in order, every n-th tick, and frames that are not drained are lost", "[probe]")
 {
     const auto plan = counter();
     ProbeRing ring;

@@ -278,7 +278,7 @@ TEST_CASE ("an audio card can own the clock and tick a block at a time on its ow
     CHECK (run.hand.digest == alone.hand.digest);
 }
 
-TEST_CASE ("a device can own the clock, when it falls silent, its guard removes the force, and a stop request still works", "[runtime]")
+TEST_CASE ("a device can own the clock: when it falls silent, its guard removes the force, and a stop request still works", "[runtime]")
 {
     /// Sends reports for 100 ticks, then falls silent.
     struct Stylus final : Device, TickClock

@@ -31,7 +31,7 @@ TEST_CASE ("a quantile is accurate to within one bin and never exceeds the longe
     CHECK (Durations {}.quantile (0.5) == 0.0);
 }
 
-TEST_CASE ("a tick that begins one period late is a miss, a graph is overrun when every tick takes too long for half a second", "[runtime]")
+TEST_CASE ("a tick that begins one period late is a miss, and a graph is overrun when every tick takes too long for half a second", "[runtime]")
 {
     TickAccount account { 1e-3 };
     for (int k = 0; k < 1000; ++k)

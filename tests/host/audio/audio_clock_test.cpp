@@ -91,7 +91,7 @@ TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates"
     });
 }
 
-TEST_CASE ("if the card that ticks the run goes away, a timer ticks with all forces at zero, when the card is back, they ramp up", "[audio][safety]")
+TEST_CASE ("if the card that ticks the run goes away, a timer ticks with all forces at zero, and when the card is back, they ramp up", "[audio][safety]")
 {
     constexpr double rate_hz = 1000.0, ramp_s = 0.05;
     const auto sketch = test::Sketch {}

@@ -123,7 +123,7 @@ TEST_CASE ("the calibration sets full scale, and several routes on one channel a
     CHECK (s.rig.status().xruns == 3);
 }
 
-TEST_CASE ("samples beyond full scale are limited and counted, values that are not numbers are silent and counted", "[audio]")
+TEST_CASE ("samples beyond full scale are limited and counted, and values that are not numbers are silent and counted", "[audio]")
 {
     Stage s { constants(), { route ("two.out", 1, 1.0) } };
     s.run (0.5);
@@ -219,7 +219,7 @@ TEST_CASE ("routes fade to silence when the run halts and on an emergency stop",
     stopAndGo ([] {}, true);
 }
 
-TEST_CASE ("routes survive edits, a route whose port is removed is silent until it is back", "[audio]")
+TEST_CASE ("routes survive edits, and a route whose port is removed is silent until it is back", "[audio]")
 {
     Stage s { constants(), { route ("two.out", 1, 4.0) } };
     s.run (0.5);

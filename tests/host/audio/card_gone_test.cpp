@@ -124,7 +124,7 @@ TEST_CASE ("the table of sound cards in docs/safety.md matches the measurement",
     CHECK (text.substr (first, row.size()) == row);
 }
 
-TEST_CASE ("a card that went away is closed and reopened when it is back, until then the reason is available", "[audio]")
+TEST_CASE ("a card that went away is closed and reopened when it is back, and until then the reason is available", "[audio]")
 {
     using namespace std::chrono_literals;
     struct NoUser final : CardUser

@@ -240,7 +240,7 @@ TEST_CASE ("a filtered output of a role falls to zero within the time of the gua
     });
 }
 
-TEST_CASE ("a route onto the channel of a role obeys the limits of the role, other channels are unchanged, bit for bit", "[audio][safety]")
+TEST_CASE ("a route onto the channel of a role obeys the limits of the role, and other channels are unchanged, bit for bit", "[audio][safety]")
 {
     auto s = constant (2.0);
     addOut (s, "out", 1, "stylus", "wave.out");

@@ -137,7 +137,7 @@ TEST_CASE ("at any rates, block sizes and clocks, nothing runs dry and a sine ke
     });
 }
 
-TEST_CASE ("if ticks stop, the sound fades out within milliseconds, when they resume it fades in, without a click", "[audio]")
+TEST_CASE ("if ticks stop, the sound fades out within milliseconds, and when they resume it fades in, without a click", "[audio]")
 {
     Played played { { .tick_hz = 4000.0, .card_hz = 48000.0, .block = 64 }, 50.0 };
     played.run (1.0);

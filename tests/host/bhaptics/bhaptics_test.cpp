@@ -196,7 +196,7 @@ TEST_CASE ("a vest shows what a graph asks for, and falls silent when the progra
     CHECK (vest.service->counts().largest == 50);
 }
 
-TEST_CASE ("a stop silences a vest at once, whatever the rate of its messages, and nothing of before it is shown", "[bhaptics][wires][safety]")
+TEST_CASE ("a stop silences a vest at once, whatever the rate of its messages, and nothing from before it is shown", "[bhaptics][wires][safety]")
 {
     Vest vest { Patience::ample, { { "rate", 10 } } };
     REQUIRE (vest.shows());

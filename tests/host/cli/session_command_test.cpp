@@ -94,7 +94,7 @@ TEST_CASE ("a recording is found, wherever the session file is", "[sessions][cli
     CHECK (has (test::textOf (scratch.path ("out.csv")), "\n0.05,0.01,0,-0.001\n"));
 }
 
-TEST_CASE ("a run uses the option, then the session, then the graph, a render never uses a session", "[sessions][cli]")
+TEST_CASE ("a run uses the option, then the session, then the graph, and a render never uses a session", "[sessions][cli]")
 {
     const Scratch scratch;
     const auto bound = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1,
@@ -159,7 +159,7 @@ TEST_CASE ("an unreadable session prevents a run if it was named on the command 
     CHECK (test::textOf (half) == "{\"format\": ");
 }
 
-TEST_CASE ("a user's damaged session file neither ends a run nor causes a force, it is set aside, and the next run does not mention it", "[sessions][cli]")
+TEST_CASE ("a user's damaged session file neither ends a run nor causes a force, is set aside, and is not mentioned by the next run", "[sessions][cli]")
 {
     const Scratch home;
     const std::string before = std::getenv ("TACTUS_HOME");

@@ -140,7 +140,7 @@ TEST_CASE ("without numbers, losses are counted by the time of arrival, and burs
     });
 }
 
-TEST_CASE ("a pose that no arm can have makes the reading invalid and names the reason, a singular one does not", "[hid][safety]")
+TEST_CASE ("a pose that no arm can have makes the reading invalid and names the reason, but a singular one does not", "[hid][safety]")
 {
     auto profile = std::make_shared<Profile>();
     InputReport input { .id = {}, .length = 4, .longest = 4, .fields = {}, .timestamp = {}, .sequence = {}, .why_not = {} };

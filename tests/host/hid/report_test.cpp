@@ -94,7 +94,7 @@ TEST_CASE ("a counter of any size is unwrapped if each step is less than half it
     });
 }
 
-TEST_CASE ("lost reports are counted, repeated reports and restarts are not")
+TEST_CASE ("lost reports are counted, but repeated reports and restarts are not")
 {
     auto profile = deviceWith ({ fieldOf ("n", { .size = 8 }) }, 1);
     profile->inputs[0].sequence = "n";
@@ -224,7 +224,7 @@ TEST_CASE ("a hat presses one button or two")
         CHECK (model.decode (Bytes { value }).buttons == expected[value]);
 }
 
-TEST_CASE ("an effort is encoded as the nearest number of its field, if it is not finite, the field stays neutral")
+TEST_CASE ("an effort is encoded as the nearest number of its field, and if it is not finite, the field stays neutral")
 {
     test::property ("any effort", [] {
         OutputField field;

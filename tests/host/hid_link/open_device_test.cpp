@@ -117,7 +117,7 @@ TEST_CASE ("a device that cannot be opened gives an error with a remedy", "[hid]
            != std::string::npos);
 }
 
-TEST_CASE ("a description is checked without the device, without HID support only simulated devices open", "[hid]")
+TEST_CASE ("a description is checked without the device, and without HID support only simulated devices open", "[hid]")
 {
     CHECK (checkDevice ({ { "driver", "hid" }, { "profile", "board" } }, {}, profiles()).empty());
     CHECK (idOf (checkDevice ({ { "driver", "hid" }, { "profile", "brd" } }, {}, profiles())) == "hid/unknown_profile");

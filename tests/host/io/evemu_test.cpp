@@ -110,7 +110,7 @@ TEST_CASE ("evemu: units are converted to metres and centred, with y away from t
     CHECK (rowAt (coarse, 0.3).position.x() == Approx (0.1));
 }
 
-TEST_CASE ("evemu: pressure gives the force and the depth of the tip, a lifted pen is above the surface", "[host][devices]")
+TEST_CASE ("evemu: pressure gives the force and the depth of the tip, and a lifted pen is above the surface", "[host][devices]")
 {
     const auto trace = traceOf (drawing().text, { .full_pressure = 2048, .full_force = 5.0, .full_depth = 3e-3, .lift = 8e-3 });
 

@@ -118,7 +118,7 @@ TEST_CASE ("a role whose device is missing waits without force, and then starts 
     CHECK (none.locks() == 0);
 }
 
-TEST_CASE ("errors that no device can fix are reported immediately, with Absence::refuses, all errors are", "[sessions][hid]")
+TEST_CASE ("errors that no device can fix are reported immediately, and with Absence::refuses, all errors are", "[sessions][hid]")
 {
     FakeBoard board;
     board.plug (false);

@@ -118,7 +118,7 @@ TEST_CASE ("brake attacked by graph and C API: knobs of any value, late ticks an
     });
 }
 
-TEST_CASE ("brake attacked by C API: a largest damping below 0, infinite or not a number is refused, an old caller has no brake", "[c_api][brake]")
+TEST_CASE ("brake attacked by C API: a largest damping below 0, infinite or not a number is refused, and an old caller has no brake", "[c_api][brake]")
 {
     const MessageList m { tactus_messages_create() };
     const auto g = handle (braking(), m);

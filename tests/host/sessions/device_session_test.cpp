@@ -160,7 +160,7 @@ TEST_CASE ("any session reads back byte for byte", "[sessions]")
     });
 }
 
-TEST_CASE ("a damaged session is either read, or refused with a position, it is never used in part", "[sessions]")
+TEST_CASE ("a damaged session is either read, or refused with a position, and it is never used in part", "[sessions]")
 {
     test::property ("damage", [] {
         std::string text = example;

@@ -238,7 +238,7 @@ TEST_CASE ("edge: tilted, its force ramps over width times sine of the angle, up
     }
 }
 
-TEST_CASE ("edge: cut, pull out, move aside, press: a second rupture, back in the old cut there is none", "[nodes][cut]")
+TEST_CASE ("edge: cut, pull out, move aside, press: a second rupture, and back in the old cut there is none", "[nodes][cut]")
 {
     Bench bench;
     const auto stroke = [&] (double x, double y, double yaw) {
@@ -379,7 +379,7 @@ TEST_CASE ("edge: the dissipated energy does not depend on the rate, and a jump 
     CHECK (jump.out.crack == Approx (slow.out.crack));
 }
 
-TEST_CASE ("edge: inside its cut it may move aside and turn, the next cut is where it enters again", "[nodes][cut]")
+TEST_CASE ("edge: inside its cut it may move aside and turn, and the next cut is where it enters again", "[nodes][cut]")
 {
     Bench bench;
     bench.move ({ 0.0, 0.0, -0.01 }, 1000);

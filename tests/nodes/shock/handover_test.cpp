@@ -158,7 +158,7 @@ TEST_CASE ("handover: handing back to the contact gives at most the energy that 
     });
 }
 
-TEST_CASE ("handover: a fault gives 0, and the next sample is a new contact, a hit that is not finite does not count", "[nodes][shock]")
+TEST_CASE ("handover: a fault gives 0 and makes the next sample a new contact, and a hit that is not finite does not count", "[nodes][shock]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {

@@ -179,7 +179,7 @@ TEST_CASE ("height map: scanned at any speed it has no energy above f_max", "[no
     });
 }
 
-TEST_CASE ("height map: up to half of f_max nothing is lost, beyond it, detail goes first", "[nodes][texture]")
+TEST_CASE ("height map: up to half of f_max nothing is lost, and beyond it, detail goes first", "[nodes][texture]")
 {
     const auto map = rough (5);
     auto node = over (map);   // at 4 kHz, f_max is 1 kHz; the finest level ends at 6000 1/m

@@ -200,7 +200,7 @@ TEST_CASE ("texture noise: it has the spectrum of the process", "[nodes][texture
     }
 }
 
-TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated, outside, the nearest model holds", "[nodes][texture]")
+TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated, and outside, the nearest model holds", "[nodes][texture]")
 {
     // A model without coefficients passes its noise on, so the size of each sample is known exactly.
     const auto corners = [] (double v, double f) { return std::exp (3.0 * v + 0.5 * f); };

@@ -73,7 +73,7 @@ double restitution (double x)
 }
 }   // namespace
 
-TEST_CASE ("sampled wall: up to 0.9 times 2 b / ((2 d + 1) T) the tool comes to rest, at 1.3 times it buzzes", "[host][devices][deform]")
+TEST_CASE ("sampled wall: up to 0.9 times 2 b / ((2 d + 1) T) the tool comes to rest, and at 1.3 times it buzzes", "[host][devices][deform]")
 {
     for (const int delay : { 0, 1, 2, 5 })
     {

@@ -42,7 +42,7 @@ float distanceFrom (const CanvasRig& rig, juce::Point<double> p)
 int alt() { return juce::ModifierKeys::altModifier; }
 }   // namespace
 
-TEST_CASE ("a drag with Alt bends a wire, which then runs through the place, a drag moves the bend, and Delete removes it", "[app][canvas]")
+TEST_CASE ("a drag with Alt bends a wire through a place, a drag moves the bend, and Delete removes it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto before = rig.text();

@@ -88,7 +88,7 @@ TEST_CASE ("the map is in a corner without nodes, if there is one", "[app][canva
     CHECK (moved > 0);
 }
 
-TEST_CASE ("in the smallest window, Dry wood opens with labels at its ports, Home shows all of it", "[app][canvas]")
+TEST_CASE ("in the smallest window, Dry wood opens with labels at its ports, and Home shows all of it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.canvas->setSize (424, 200);

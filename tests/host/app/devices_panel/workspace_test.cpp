@@ -270,7 +270,7 @@ TEST_CASE ("a workspace that is typed while the graph runs moves the tool withou
     w.checkSteps();
 }
 
-TEST_CASE ("where there are two hands, a workspace that is moved begins another run: the guard of the other hand would not know of it",
+TEST_CASE ("with two hands, moving a workspace restarts the run, because the guard of the other hand would not know of it",
            "[app][sessions][safety]")
 {
     Bench w { "two_fingers.json", "thumb" };

@@ -230,7 +230,7 @@ TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]
     CHECK (rig.panel->layer (0).meter().rms() == Approx (2.0));
 }
 
-TEST_CASE ("a clip dropped on the desk becomes a layer, without a mixer, the same step adds one", "[layers][clips]")
+TEST_CASE ("a clip dropped on the desk becomes a layer, and without a mixer, the same step adds one", "[layers][clips]")
 {
     const juce::StringArray clip { juce::String (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic") };
     for (const auto* preset : { "bronze_bell.json", "door_knock.json" })

@@ -252,7 +252,7 @@ TEST_CASE ("a run does not start without the device of a driver in a plugin, unl
     CHECK (p.isRunning());
 }
 
-TEST_CASE ("a graph that names a device which is plugged in does not open it, the session does", "[app][run]")
+TEST_CASE ("a graph that names a device which is plugged in does not open it, but the session does", "[app][run]")
 {
     const TemporaryFolder home;
     FakeBoard board;

@@ -196,5 +196,5 @@ TEST_CASE ("a stop that comes while a take begins again with another hand lasts"
     CHECK_FALSE (rig.panel->unsaved().empty());
     rig.playback->restart();
     REQUIRE (rig.until ([&] { return run.isRunning() && ! run.isStoppedForGood(); }));
-    CHECK_FALSE (run.isLogging());   // nobody has asked for another take
+    CHECK_FALSE (run.isLogging());   // no other take was requested
 }

@@ -16,7 +16,7 @@ using tactus::host::test::latestStep;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
-TEST_CASE ("a take shows its curve while it records, and Stop ends the take and not the graph, what is saved can be used now", "[app][take]")
+TEST_CASE ("a take shows its curve while it records, Stop ends the take and not the graph, and what is saved can be used at once", "[app][take]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
     setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
@@ -41,7 +41,7 @@ TEST_CASE ("a take shows its curve while it records, and Stop ends the take and 
     w.click ("Use now");
     CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
     CHECK (run.hand().path == (w.home / "gesture.csv").string());
-    w.key ("ctrl + z");   // the hand of before moves the tool again; the take stays
+    w.key ("ctrl + z");   // the previous hand moves the tool again, and the take stays
     CHECK (run.hand().kind == LiveRun::Hand::Kind::described);
     WindowRig::settle (200);
     CHECK_FALSE (w.view->asked().isOpen());
@@ -136,7 +136,7 @@ Vec3 lowest (const std::filesystem::path& log, const std::string& program)
 }
 }   // namespace
 
-TEST_CASE ("who presses the surface during a take takes the tool, and the take begins again, the one before stays in the list", "[app][take]")
+TEST_CASE ("a press on the surface during a take takes the tool: the take begins again, and the one before stays in the list", "[app][take]")
 {
     Recorder r;
     REQUIRE (r.run.hand().kind == LiveRun::Hand::Kind::described);

@@ -201,7 +201,7 @@ TEST_CASE ("a node is dragged from the list into a wire", "[app][beginnings]")
     CHECK (std::ranges::count (canvas.scene().wires(), "drag.force -> reconstruction.in", &SceneWire::text) == 1);
 }
 
-TEST_CASE ("the list of nodes finds as the palette does, and Return adds, Esc gives the keyboard back", "[app][beginnings]")
+TEST_CASE ("the list of nodes finds as the palette does, Return adds, and Esc gives the keyboard back", "[app][beginnings]")
 {
     WindowRig w ("dry_wood.json");
     w.click ("Nodes");

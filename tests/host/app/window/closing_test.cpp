@@ -98,7 +98,7 @@ TEST_CASE ("closing while a film is being saved waits for it, with progress", "[
     CHECK (c.closed == 1);
 }
 
-TEST_CASE ("Cancel keeps the window, and the film is saved, so does a film that cannot be saved", "[app][closing]")
+TEST_CASE ("Cancel keeps the window, and the film is saved, and so does a film that cannot be saved", "[app][closing]")
 {
     Closing c;
     SECTION ("cancelled")
@@ -236,7 +236,7 @@ TEST_CASE ("closing asks about a take of which nothing was made, and saves it so
     }
 }
 
-TEST_CASE ("a take of which something was made needs no question, a new graph keeps a take, and a new take the one before", "[app][closing][take]")
+TEST_CASE ("a take of which something was made needs no question, a new graph keeps a take, and a new take keeps the one before", "[app][closing][take]")
 {
     Closing c;
     c.record();

@@ -166,7 +166,7 @@ TEST_CASE ("Don't save continues, and undo brings back the unsaved changes")
     CHECK (d.document.file() == wood);
 }
 
-TEST_CASE ("Save saves and continues, if saving fails, it does not continue")
+TEST_CASE ("Save saves and continues, and if saving fails, it does not continue")
 {
     Rig d;
     d.files->openCopy (wood, false);

@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-
 using namespace tactus::host;
 using Rectangle = juce::Rectangle<int>;
 

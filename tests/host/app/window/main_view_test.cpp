@@ -70,7 +70,7 @@ TEST_CASE ("the first start shows the welcome page, and one click runs a preset 
     CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph does not bring it back
 }
 
-TEST_CASE ("with simulated devices, Esc closes what is open, and then stops the forces, Shift+Esc stops in any case")
+TEST_CASE ("with simulated devices, Esc first closes what is open and then stops the forces, and Shift+Esc stops in any case")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });

@@ -63,7 +63,7 @@ TEST_CASE ("START and STOP say what they do, and which key does it, too", "[app]
     w.view->run().letGo();
 }
 
-TEST_CASE ("while nothing runs, a port says what it is, also at its label, while it runs, a card does", "[app][words]")
+TEST_CASE ("while nothing runs, a port says what it is, also at its label, and while it runs, a card does", "[app][words]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto at = rig.port ("drag", Role::output, "force");

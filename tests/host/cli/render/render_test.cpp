@@ -67,7 +67,7 @@ TEST_CASE ("a feed with times sets the rate, or is resampled by holding at the r
         CHECK (held.at (k, 1) == expected[k]);
 }
 
-TEST_CASE ("a feed takes precedence over wires, parameters and --set, --duration ends it early", "[cli]")
+TEST_CASE ("a feed takes precedence over wires, parameters and --set, and --duration ends it early", "[cli]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "amp.in,amp.gain\n1,5\n1,6\n1,7\n");
