@@ -47,6 +47,14 @@ TEST_CASE ("frames have the bytes that the manual describes", "[hid][wires]")
     CHECK (onTheWire (Framing::cobs, digits) == std::string ("\0\x0e"
                                                              "123456789\x26\x39\xf4\xcb\0",
                                                              16));
+
+    // The example in docs/devices.md: the neutral report to the Tactus board.
+    Bytes neutral (64, 0);
+    std::ranges::copy (Bytes { 0x54, 0x01 }, neutral.begin());
+    std::ranges::copy (Bytes { 0x90, 0x2a, 0x5e, 0x87 }, neutral.begin() + 60);
+    const auto beginning = std::string ("\0\x03\x54\x01", 4), zeros = std::string (57, '\x01');
+    CHECK (onTheWire (Framing::cobs, neutral) == beginning + zeros + std::string ("\x09\x90\x2a\x5e\x87\x1c\xdf\x44\x21\0", 10));
+
     const auto framed_length = onTheWire (Framing::length, digits);
     CHECK (framed_length.substr (0, 11) == std::string ("\x09\0"
                                                         "123456789",
