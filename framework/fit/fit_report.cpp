@@ -11,11 +11,18 @@ namespace tactus
 
 const FitValue& FitReport::at (const std::string& name) const { return *std::ranges::find (values, name, &FitValue::name); }
 
+std::string percentText (double share)
+{
+    constexpr double two_digits = 10.0, most = 1e6;   // percent
+    const double percent = 100.0 * share, size = std::abs (percent);
+    return roundedText (size >= two_digits ? std::round (percent) : percent, size >= two_digits && size < most ? 6 : 2) + " %";
+}
+
 void judge (FitReport& report, const std::string& record_more, double most)
 {
     constexpr double wide = 0.25, much_worse = 1.5;
     if (! (report.residual <= most * report.size))
-        report.lacking.push_back ("the model leaves " + roundedText (100.0 * report.residual / report.size, 2) + " % of the recording unexplained");
+        report.lacking.push_back ("the model leaves " + percentText (report.residual / report.size) + " of the recording unexplained");
     if (! (report.left_out_residual <= much_worse * report.residual + 1e-3 * report.size))
         report.lacking.push_back (
             "the model predicts a part that was left out much worse than it fits the rest: the recording is too short, or the object changed");

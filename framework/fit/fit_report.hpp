@@ -55,6 +55,9 @@ struct FitReport
     const FitValue& at (const std::string& name) const;
 };
 
+/// A share of a whole: "2.7 %" with two digits, "140 %" with all that are whole.
+std::string percentText (double share);
+
 /// Sets the verdict. It is poor if the recording is not explained (the residual is larger than `most` times its size), if the part that was left
 /// out is predicted much worse than the rest is fitted, if the interval of a main value is wider than +-25 %, or if something is already
 /// missing. `record_more` says which data would help.

@@ -34,7 +34,7 @@ double orElse (double given, double value) { return given > 0.0 ? given : value;
 std::string sourceOf (FitKind kind, const std::string& file, const FitReport& report)
 {
     return "`tactus fit " + infoOf (kind).id + "` from " + std::filesystem::path (file).filename().string() + ": residual "
-           + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording, " + verdictOf (report);
+           + percentText (report.residual / report.size) + " of the recording, " + verdictOf (report);
 }
 
 /// An error if an option gives what the recording contains. One of the two would be ignored.
@@ -145,8 +145,8 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     if (fit->out.empty())
         made.details.push_back ("hysteresis  unknown: the way out was not recorded");
     else
-        made.details.push_back ("hysteresis  " + energyText (fit->area, 6) + ", " + shortNumber (100.0 * fit->area / fit->work, 2)
-                                + " % of the work on the way in; the curve is the mean of both ways and loses nothing");
+        made.details.push_back ("hysteresis  " + energyText (fit->area, 6) + ", " + percentText (fit->area / fit->work)
+                                + " of the work on the way in; the curve is the mean of both ways and loses nothing");
     if (fit->clicks())
         made.warnings.push_back (Message::warning (
             "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",

@@ -85,7 +85,7 @@ std::string textOf (const FitReport& report)
     std::string text;
     for (const auto& v : report.values)
         text += line (v.name, textOf (v));
-    text += line ("residual", shortNumber (report.residual) + unit + " rms, " + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording; "
+    text += line ("residual", shortNumber (report.residual) + unit + " rms, " + percentText (report.residual / report.size) + " of the recording; "
                                   + shortNumber (report.left_out_residual) + unit + " on a part that was left out");
     text += line ("verdict", verdictOf (report));
     for (const auto& lack : report.lacking)

@@ -20,7 +20,7 @@ constexpr int verdict_height = 34, header_height = 22, row_height = 22, gap = 10
 /// "402 um" and "[398, 407]" of "402 um  [398, 407]".
 std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
 {
-    const auto text = fromUtf8 (textOf (v)).replace (" u", juce::String::fromUTF8 (" \xc2\xb5"));
+    const auto text = fromUtf8 (textOf (v)).replace (" u" + fromUtf8 (v.unit), juce::String::fromUTF8 (" \xc2\xb5") + fromUtf8 (v.unit));
     const int at = text.indexOf ("  [");
     auto interval = text.substring (at + 3).upToLastOccurrenceOf ("]", false, false).replace (", ", juce::String::fromUTF8 (" \xe2\x80\xa6 "));
     if (! std::isfinite (v.low) && ! std::isfinite (v.high)) interval = TRANS ("unknown");

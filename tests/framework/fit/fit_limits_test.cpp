@@ -370,3 +370,10 @@ TEST_CASE ("fits: 95 % intervals are those of Student's t", "[fit]")
     for (const auto& [freedom, half] : known)
         CHECK (detail::halfWidth95 (freedom) == Approx (half).epsilon (0.005));
 }
+
+TEST_CASE ("a share is written in percent, without an exponent", "[fit]")
+{
+    using Case = std::pair<double, const char*>;
+    for (const auto& [share, text] : { Case { 1.0, "100 %" }, Case { 0.027, "2.7 %" }, Case { 0.0996, "10 %" }, Case { 3.456, "346 %" } })
+        CHECK (percentText (share) == text);
+}

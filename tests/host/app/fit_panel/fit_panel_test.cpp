@@ -2,6 +2,7 @@
 #include "host/app/support/seen_text.hpp"
 
 #include <host/app/fit_panel/fit_panel.hpp>
+#include <host/app/fit_panel/fit_table.hpp>
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -11,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 using namespace tactus;
@@ -449,4 +451,29 @@ TEST_CASE ("fit panel: a recording of numbers near the smallest is fitted or ref
     rig.view.fitRecordingIn (rig.write ("tiny.csv", rows));
     rig.finish();
     CHECK ((rig.panel().fitted().has_value() || rig.panel().problem().isNotEmpty()));
+}
+
+TEST_CASE ("fit panel: a bound that is not known is called unknown, with and without a prefix", "[app][fit]")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        FittedGraph made;
+        made.report.values = { { "d_max", "m", 402e-6, 398e-6, none }, { "mu", "", 0.4, -none, 0.5 }, { "load", "N", 2.0, -none, none } };
+        made.report.residual = made.report.size = 1.0;
+        FitTable table;
+        table.setSize (400, 300);
+        table.show (made);
+        juce::StringArray texts;
+        for (const auto& t : tactus::host::test::readTexts (table))
+            texts.add (t.text);
+        const auto all = texts.joinIntoString ("|");
+        INFO (all);
+        CHECK (all.contains (juce::String::fromUTF8 ("402 \xc2\xb5m")));
+        CHECK (all.contains (juce::String::fromUTF8 ("398 \xe2\x80\xa6 unknown")));
+        CHECK_FALSE (all.contains (juce::String::fromUTF8 ("\xc2\xb5nknown")));
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
