@@ -61,11 +61,15 @@ std::vector<PaletteEntry> grouped (const std::vector<PaletteEntry>& entries, con
             if (const auto at = std::ranges::find (entries, type, &PaletteEntry::type); at != entries.end()) all.push_back (*at);
         if (std::ssize (all) > begin) all.insert (all.begin() + begin, PaletteEntry { {}, title.toStdString(), {} });
     };
+    const auto isBest = [&] (const std::string& type) { return std::ranges::find (best, type) != best.end(); };
+    auto others = recent;
+    std::erase_if (others, isBest);
     add (TRANS ("Fits best"), best);
-    add (TRANS ("Recent"), recent);
+    add (TRANS ("Recent"), others);
     std::string family;
     for (const auto& e : entries)
     {
+        if (isBest (e.type)) continue;
         if (auto its_family = familyOf (e.type); its_family != family)
         {
             family = std::move (its_family);

@@ -34,8 +34,8 @@ struct PaletteType
 std::vector<PaletteType> paletteTypes (const graph::Graph&, const Catalogue&, const std::string& patch = {});
 
 /// Finds types of nodes, as text/find.hpp says. Each result has a port for every wire end in `fits`: one end for a dropped wire, two for inserting
-/// into a wire. Without a query, all entries come in groups: those whose port is made for the one end in `fits`, if they are few, the types in
-/// `recent`, and the families.
+/// into a wire. Without a query, all entries come in groups: those whose port is made for the one end in `fits`, if they are few; of the others,
+/// the types in `recent`; and the families.
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits,
                                          const std::vector<std::string>& recent = {}, const std::string& patch = {});
 

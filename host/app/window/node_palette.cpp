@@ -56,7 +56,7 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     if (request.wire != 0)
         purpose = TRANS ("Insert into wire");
     else if (request.start)
-        purpose = filled (TRANS ("Connect %1 to"), request.start->port);
+        purpose = filled (request.start->role == Role::output ? TRANS ("Connect %1 to") : TRANS ("Connect %1 from"), request.start->port);
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
     const auto search = [&canvas, &catalogue, recent, request, beginnings] (const std::string& query) {
         auto found = searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());

@@ -208,7 +208,12 @@ TEST_CASE ("a wire that is dropped from an input offers what the input is made f
         const auto from = d.canvas().view().toPixels (d.shown ("drag").placeOf (*d.shown ("drag").box.find (Role::input, port)));
         d.w.stage->drag (d.w.stage->getLocalPoint (&d.canvas(), from), d.w.stage->getLocalPoint (&d.canvas(), to));
         WindowRig::settle();
-        REQUIRE (d.w.titled ("Palette") != nullptr);
+        auto* palette = dynamic_cast<Palette*> (d.w.titled ("Palette"));
+        REQUIRE (palette != nullptr);
+        const auto texts = tactus::host::test::readTexts (*palette);
+        CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == "Connect " + juce::String (port) + " from"; }));
+        CHECK (palette->entries()[0].name == "Fits best");
+        CHECK (std::ranges::count (palette->entries(), std::string (type), &PaletteEntry::type) == 1);   // not listed again
         d.w.key ("return");
         WindowRig::settle();
         REQUIRE (d.w.graph().root.nodes.size() == count + 1);
