@@ -44,6 +44,7 @@ public:
         name.setTooltip (TRANS ("The name of the control"));
         name.onApply = [this] (const juce::String& text) { change (document, id, [to = text.trim().toStdString()] (auto& c) { c.name = to; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
+        fader.setSliderSnapsToMousePosition (false);   // a press leaves the value
         fader.setRange (0.0, 1.0);
         fader.setWantsKeyboardFocus (true);
         fader.setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
@@ -78,6 +79,7 @@ public:
         cross.setBounds (area.removeFromRight (24));
         name.setBounds (area.removeFromLeft (getWidth() * 2 / 5).withTrimmedRight (4));
         fader.setBounds (area);
+        fader.setMouseDragSensitivity (std::max (1, area.getWidth()));   // the bar follows the pointer
     }
 
 private:

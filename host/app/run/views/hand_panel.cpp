@@ -108,6 +108,7 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
         if (transport != nullptr) transport->seek (position.getValue());
     };
     speed.setSliderStyle (juce::Slider::LinearBar);
+    speed.setSliderSnapsToMousePosition (false);   // a press leaves the speed
     speed.setRange (TransportPath::least_speed, TransportPath::most_speed);
     speed.setSkewFactorFromMidPoint (1.0);
     speed.setNumDecimalPlacesToDisplay (2);
@@ -346,6 +347,7 @@ void HandPanel::resized()
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);
     speed.setBounds (low.removeFromRight (72));
+    speed.setMouseDragSensitivity (std::max (1, speed.getWidth()));
     low.removeFromRight (4);
     position.setBounds (low);
     area.reduce (margin, 0);

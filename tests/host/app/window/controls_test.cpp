@@ -174,9 +174,16 @@ TEST_CASE ("a drag of a control's fader is one step, as a drag of its knob is", 
         return c.w->stage->getLocalPoint (fader, fader->getLocalBounds().toFloat().getRelativePoint (part, 0.5f));
     };
     const auto before = c.w->view->document().history().position();
-    c.w->stage->drag (at (0.2f), at (0.8f));
+    c.w->stage->move (at (0.2f));
+    c.w->stage->press();
     c.w->settle();
-    CHECK (c.w->graph().controls[0].value > 0.75);
+    CHECK (control.value == 0.7);   // a press moves nothing, wherever it is
+    c.w->stage->move (at (0.3f));
+    CHECK (control.value == Approx (0.8).epsilon (0.02));
+    c.w->stage->move (at (0.1f));
+    CHECK (control.value == Approx (0.6).epsilon (0.02));
+    c.w->stage->release();
+    c.w->settle();
     CHECK (c.w->view->document().history().position() == before + 1);
     c.w->stage->drag (at (0.8f), at (0.3f));   // another drag is another step
     c.w->settle();
