@@ -95,6 +95,7 @@ public:
 private:
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
+    void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
     graph::Graph graphWithPlaces() const;                   ///< stores in the nodes of the patch where they are

@@ -5,6 +5,8 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/obvious_wires.hpp>
+#include <host/app/model/param_now.hpp>
+#include <host/app/model/param_value.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -30,6 +32,8 @@ struct WireChoice
 class WireChoices
 {
 public:
+    static constexpr std::array roles { Role::output, Role::input, Role::param };
+
     WireChoices (const Scene& s, const SceneNode& n) : scene (s), node (n)
     {
         for (const auto& w : scene.wires())
@@ -71,7 +75,7 @@ private:
     static std::vector<ScenePort> portsOf (const SceneNode& n)
     {
         std::vector<ScenePort> all;
-        for (const auto role : { Role::output, Role::input, Role::param })
+        for (const auto role : roles)
             for (const auto& p : n.face->of (role))
                 all.push_back ({ &n, &p });
         return all;
@@ -113,12 +117,12 @@ void CanvasCommands::wireFromSelection()
     const auto& node = *nodes.front();
     WireChoices made (canvas.scene(), node);
     made.addWires();
-    for (const auto role : { Role::output, Role::input })
+    for (const auto role : WireChoices::roles)
         for (const auto& own : node.face->of (role))
-            made.addNewNode (own);
+            if (! own.isChoice()) made.addNewNode (own);
     const auto shown_first = made.size();
     for (const auto& type : paletteTypes (document.graph(), canvas.types(), canvas.patch()))
-        for (const auto role : { Role::output, Role::input })
+        for (const auto role : WireChoices::roles)
             for (const auto& own : node.face->of (role))
                 if (type.fits ({ &own, node.quantityOf (own) })) made.addType (own, type);
 
@@ -142,7 +146,7 @@ void CanvasCommands::wireFromSelection()
             found.push_back ((*choices)[i].entry);
         return found;
     };
-    canvas.onChoose (filled (TRANS ("Connect %1 to..."), node.name), search, [this, choices] (const std::string& chosen) {
+    canvas.onChoose (filled (TRANS ("Connect %1 with..."), node.name), search, [this, choices] (const std::string& chosen) {
         const auto choice = std::ranges::find (*choices, chosen, [] (const WireChoice& c) { return c.entry.type; });
         const auto own = choice == choices->end() ? ScenePort {} : canvas.scene().findPort (choice->own);
         if (! own) return;
@@ -187,6 +191,16 @@ juce::Point<float> CanvasCommands::placeFor (const std::string& type, const Node
     return canvas.isFitted() || canvas.getLocalBounds().toFloat().contains (canvas.view().toPixels (beside)) ? beside : below;
 }
 
+/// A new source of a param begins near the value that the param has. Before the wire, so that the param never gets another one.
+void CanvasCommands::addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const
+{
+    const auto* node = patchShown().find (driven.name);
+    if (node == nullptr || param.sheet == nullptr || param.width != 1) return;
+    auto& commands = std::get<graph::Batch> (joined.edit).commands;
+    for (auto& [id, value] : valuesOfSource (*source.face, paramNow (document.graph(), canvas.seen(), *node, param).value, *param.sheet))
+        commands.insert (commands.begin(), graph::SetParam { canvas.patch(), source.name, id, std::move (value) });
+}
+
 void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& request)
 {
     graph::Id made = 0;
@@ -212,7 +226,9 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         if (! checkWire (from.end(), to.end())) continue;
         const bool has_more = is_output && (other.port->id == "position" || other.port->id == "resistance");
         const auto name = node->name;
-        perform (connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port }), graph::Step::joined);
+        auto joined = connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port });
+        if (to.port->role == Role::param) addValues (*to.node, *to.port, *from.node, joined);
+        perform (std::move (joined), graph::Step::joined);
         if (has_more)
             if (auto wires = wiring::obviousWires (document.graph(), canvas.patch(), name, canvas.types()); ! wires.commands.empty())
                 perform (std::move (wires), graph::Step::joined);

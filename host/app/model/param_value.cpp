@@ -128,4 +128,24 @@ std::pair<Json, Json> sweepThrough (const Json& now, const PortSheet& sheet, dou
     return { value.exactly (a).toJson(), value.exactly (b).toJson() };
 }
 
+std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, const Json& now, const PortSheet& sheet)
+{
+    constexpr double part_of_value = 0.1, part_of_range = 0.05;
+    const auto [value, low, high] = usualSweep (now, sheet);
+    const auto& hard = sheet.limits.hard;
+    const double si = value.si(), room = hard.max - hard.min;
+    const double swing = std::min (si == 0.0 ? part_of_range * (high - low) : part_of_value * std::abs (si), 0.5 * room);
+    const double middle = std::clamp (si, hard.min + swing, hard.max - swing);
+    const auto text = withBestPrefix (value, sheet);
+    std::vector<std::pair<std::string, Json>> values;
+    const auto give = [&] (const char* id, double to) {
+        const auto* own = source.find (Role::param, id);
+        if (own != nullptr && own->width == 1 && own->quantity() == Quantity::any) values.emplace_back (id, (to == si ? text : text.moved (to)).toJson());
+    };
+    give ("value", si);
+    give ("amplitude", swing);
+    give ("offset", middle);
+    return values;
+}
+
 }   // namespace tactus::host

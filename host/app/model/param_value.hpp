@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tactus::host
 {
@@ -29,5 +30,9 @@ std::pair<Json, Json> sweepOf (const Json& now, const PortSheet&);
 /// The widest part of that range in which a control at `at` (0 to 1) leaves the value as it is. It may run downwards, and goes beyond the
 /// usual range if the value is at one end of it. Both ends are the value if the hard range leaves no other choice.
 std::pair<Json, Json> sweepThrough (const Json& now, const PortSheet&, double at);
+
+/// The params of a new source that give the param it is wired to what the param has now: an oscillator swings around it by a small part of it, a
+/// constant is it. What has no offset swings around 0 by as much. Stays in the hard range of the param.
+std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, const Json& now, const PortSheet&);
 
 }   // namespace tactus::host
