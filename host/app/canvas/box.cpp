@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tactus::host
 {
@@ -26,6 +27,13 @@ std::string briefly (const std::string& text)
     const auto end = std::min (text.find (' '), text.size());
     const auto number = end > usual_length ? wholeNumber (text.substr (0, end)) : std::nullopt;
     return number ? roundedText (*number) + text.substr (end) : text;
+}
+
+/// A text about as long as that of a value while a graph runs.
+std::string longestLive (const FacePort& port)
+{
+    const auto unit = port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.symbol != "1" ? " m" + std::string (port.unit.unit.symbol) : std::string();
+    return port.width == 3 ? "(-0.00, -0.00, -0.00)" : "-0.0000" + unit;
 }
 }   // namespace
 
@@ -58,25 +66,23 @@ const Socket* Box::find (Role role, std::string_view id) const noexcept
 
 namespace
 {
+/// In the order of the datasheet, so that no row moves as the user sets or wires one. A wire adds its row, if it is not shown, and takes none away.
 std::vector<const FacePort*> shownParams (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired)
 {
-    std::vector<const FacePort*> params;
-    for (const auto& p : face.params)
-        if (wired (p)) params.push_back (&p);
-    int room = Box::most_params;
+    std::set<const FacePort*> chosen;
     for (const bool set : { true, false })
         for (const auto& p : face.params)
-            if (room > 0 && ! wired (p) && node.params.contains (baseOf (p.id)) == set)
-            {
-                params.push_back (&p);
-                --room;
-            }
+            if (chosen.size() < Box::most_params && node.params.contains (baseOf (p.id)) == set) chosen.insert (&p);
+    std::vector<const FacePort*> params;
+    for (const auto& p : face.params)
+        if (chosen.contains (&p) || wired (p)) params.push_back (&p);
     return params;
 }
 }   // namespace
 
 Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired,
-           const std::function<Json (const FacePort&)>& valueNow, bool has_plot, const TextWidth& widthOf)
+           const std::function<Json (const FacePort&)>& valueNow, const std::function<std::string (const FacePort&)>& driver, bool has_plot,
+           const TextWidth& widthOf)
 {
     const auto params = shownParams (node, face, wired);
     Box box;
@@ -89,11 +95,13 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
         const float right = i < face.outputs.size() ? textWidth (readableName (face.outputs[i])) : 0.0f;
         box.width = std::max (box.width, left + right + (left > 0.0f && right > 0.0f ? gap : 0.0f) + 2 * Box::padding);
     }
-    std::vector<std::string> values;
+    std::vector<std::string> values, drivers;
     for (const auto* p : params)
     {
-        values.push_back (valueText (valueNow (*p), *p));
-        box.width = std::max (box.width, textWidth (readableName (*p)) + textWidth (values.back()) + gap + 2 * Box::padding);
+        drivers.push_back (driver (*p));
+        values.push_back (drivers.back().empty() ? valueText (valueNow (*p), *p) : std::string());
+        const float shown = drivers.back().empty() ? textWidth (values.back()) : std::max (textWidth (drivers.back()), textWidth (longestLive (*p)));
+        box.width = std::max (box.width, textWidth (readableName (*p)) + shown + gap + 2 * Box::padding);
     }
     box.width = toGrid (box.width);
 
@@ -110,7 +118,7 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     for (std::size_t i = 0; i < params.size(); ++i, y += Box::row_height)
     {
         const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
-        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i], readableName (*params[i]) });
+        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i], readableName (*params[i]), drivers[i] });
     }
     if (has_plot)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drags.hpp"
 
+#include <host/app/look/drag_way.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
@@ -174,7 +175,7 @@ private:
 class DragParam final : public Drag
 {
 public:
-    DragParam (Canvas& c, const SceneNode& n, const FacePort& p, QuantityText v)
+    DragParam (Canvas& c, const SceneNode& n, const FacePort& p, const QuantityText& v)
         : canvas (c), id { n.id, Role::param, p.id }, sheet (*p.sheet), grabbed (v), now (v)
     {
         if (const auto address = c.seen().address (n.name + '.' + p.id); ! address.empty()) control = controlOf (c.edited().graph(), address);
@@ -182,9 +183,7 @@ public:
 
     void move (const juce::MouseEvent& e) override
     {
-        constexpr double fine = 0.1;
-        const double up = -static_cast<double> (e.getDistanceFromDragStartY());
-        auto to = dragged (grabbed, sheet, e.mods.isShiftDown() ? up * fine : up);
+        auto to = dragged (grabbed, sheet, way.to (e));
         if (control)
         {
             const auto [low, high] = std::minmax (control->low, control->high);
@@ -203,6 +202,7 @@ private:
     const PortSheet& sheet;
     std::optional<ControlledParam> control;   // set if a control drives the param; it limits the range
     QuantityText grabbed, now;
+    DragWay way;
     bool begun = false;
 };
 }   // namespace
@@ -216,7 +216,7 @@ std::unique_ptr<Drag> panByMap (Canvas& c, const juce::MouseEvent& e) { return s
 std::unique_ptr<Drag> dragParam (Canvas& c, const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
-    if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return nullptr;
+    if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice() || ! socket.driver.empty()) return nullptr;
     const auto value = readQuantity (readValue (socket.value), *sheet);
     return value ? std::make_unique<DragParam> (c, node, *socket.port, *value) : nullptr;
 }

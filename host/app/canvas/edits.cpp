@@ -310,6 +310,7 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
     if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
+    if (! socket.driver.empty()) return canvas.notice (drivenText (socket.driver));
     const PortId id { node.id, Role::param, socket.port->id };
     const juce::String before (socket.value);
     canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, [this, id, before] (const juce::String& text) {

@@ -14,11 +14,11 @@ namespace tactus::host
 
 namespace
 {
+bool hasSameTexts (const Socket& x, const Socket& y) { return x.value == y.value && x.driver == y.driver && x.label == y.label; }
+
 bool isSame (const SceneNode& a, const SceneNode& b)
 {
-    const auto sameSocket = [] (const Socket& x, const Socket& y) { return x.value == y.value && x.label == y.label; };
-    return a.name == b.name && a.type == b.type && a.at == b.at && a.bypass == b.bypass
-           && std::ranges::equal (a.box.sockets, b.box.sockets, sameSocket);
+    return a.name == b.name && a.type == b.type && a.at == b.at && a.bypass == b.bypass && std::ranges::equal (a.box.sockets, b.box.sockets, hasSameTexts);
 }
 
 /// Large graphs have thousands of nodes, and Scene::find() looks at one after another.
@@ -58,7 +58,7 @@ namespace
 bool looksSame (const SceneNode& a, const SceneNode& b)
 {
     const auto sameSocket = [&] (const Socket& x, const Socket& y) {
-        return x.at == y.at && x.value == y.value && x.label == y.label && x.port->role == y.port->role && x.port->isChoice() == y.port->isChoice()
+        return x.at == y.at && hasSameTexts (x, y) && x.port->role == y.port->role && x.port->isChoice() == y.port->isChoice()
                && a.quantityOf (*x.port) == b.quantityOf (*y.port);
     };
     return a.name == b.name && a.type == b.type && a.at == b.at && a.bypass == b.bypass && a.curve == b.curve && a.face->kind == b.face->kind

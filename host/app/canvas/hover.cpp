@@ -52,9 +52,11 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at, const SceneWire* wire) con
     if (const auto* node = shown->nodeAt (at))
     {
         const auto* socket = node->paramAt (at);
+        if (socket != nullptr && ! socket->driver.empty())
+            return { node->id, filled (TRANS ("%1: %2. A wire from %3 sets it"), nameOf (*socket->port), socket->port->about, socket->driver) };
         if (socket != nullptr && ! socket->port->isChoice())
-            return { node->id, filled (TRANS ("%1: %2. Drag up or down; hold Shift for fine steps"), nameOf (*socket->port), socket->port->about),
-                     juce::MouseCursor::UpDownResizeCursor };
+            return { node->id, filled (TRANS ("%1: %2. Drag to the right or up; hold Shift for fine steps"), nameOf (*socket->port), socket->port->about),
+                     juce::MouseCursor::UpDownLeftRightResizeCursor };
         if (node->face->type == nullptr) return { node->id, node->type };
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
     }
@@ -146,7 +148,7 @@ void Canvas::repaintAround (juce::Rectangle<float> area)
     repaint (area.expanded (glow).transformedBy (window.transform()).getSmallestIntegerContainer());
 }
 
-/// Lamps, wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
+/// Lamps, wires, driven params and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
 void Canvas::repaintChanged (const LiveState& before)
 {
     const auto& now = highlights.live;
@@ -160,6 +162,13 @@ void Canvas::repaintChanged (const LiveState& before)
             if (differs (now.states, before.states, n.id)) repaintAround (n.bounds().withHeight (Box::header_height));
     for (const auto& w : shown->wires())
         if (differs (now.levels, before.levels, w.id) || differs (now.hits, before.hits, w.id)) repaintAround (w.path().getBounds());
+    for (const auto& [first, second] : { std::pair (&now, &before), std::pair (&before, &now) })
+        for (const auto& [of, text] : first->driven)
+        {
+            const auto other = second->driven.find (of);
+            const auto* node = other != second->driven.end() && other->second == text ? nullptr : shown->find (of.first);
+            if (const auto* socket = node == nullptr ? nullptr : node->box.find (Role::param, of.second)) repaintAround (socket->row + node->at);
+        }
     for (const auto* card : { &now.card, &before.card })
         if (*card && now.card != before.card) repaint (boundsOf (**card, window.toPixels ((*card)->where.at), getLocalBounds()).expanded (4));
 }

@@ -6,6 +6,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -51,7 +52,10 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
             if (! highlights.selected.contains (node->id)) select ({ node->id });
             if (e.mods.isAltDown())
             {
-                edits.setParam (*shown->find (node->id), *socket->port, std::nullopt);
+                if (socket->driver.empty())
+                    edits.setParam (*shown->find (node->id), *socket->port, std::nullopt);
+                else
+                    notice (drivenText (socket->driver));
                 return nullptr;
             }
             if (auto dragged = dragParam (*this, *node, *socket)) return dragged;

@@ -76,8 +76,12 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
                       const TextWidth& widthOf)
 {
     std::map<std::string_view, std::vector<const graph::Endpoint*>> ends_at;   // by node: where wires end, and what is exposed
+    std::map<std::string_view, std::vector<const graph::Wire*>> wires_to;
     for (const auto& w : patch.wires)
+    {
         ends_at[w.to.node].push_back (&w.to);
+        wires_to[w.to.node].push_back (&w);
+    }
     for (const auto* exposed : { &patch.expose.inputs, &patch.expose.params })
         for (const auto& [name, end] : *exposed)
             ends_at[end.node].push_back (&end);
@@ -92,10 +96,13 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         const auto wired = [&, &its = ends_at[node.name]] (const FacePort& p) {
             return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; });
         };
+        const auto driver = [&its = wires_to[node.name]] (const FacePort& p) {
+            const auto wire = std::ranges::find_if (its, [&] (const graph::Wire* w) { return drives (*w, p); });
+            return wire == its.end() ? std::string() : graph::toText ((*wire)->from);
+        };
+        const auto valueNow = [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; };
         made.curve = curves.of (graph, seen, node, *made.face);
-        made.box = boxOf (
-            node, *made.face, wired, [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; },
-            made.curve != nullptr, widthOf);
+        made.box = boxOf (node, *made.face, wired, valueNow, driver, made.curve != nullptr, widthOf);
         indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
 }

@@ -23,6 +23,7 @@ struct InspectorContext
     std::function<Messages()> messages;                                               ///< returns the messages about the current graph; may be null
     std::function<std::vector<ContactLimit> (const std::string& node)> contacts {};   ///< the contacts whose steepest node this is; may be null
     std::function<void (juce::PopupMenu&, const std::string& node, const std::string& port)> menuOfParam {};
+    LiveValues live {};
 
     const graph::Patch* in() const { return findPatch (document.graph(), patch); }
 

@@ -144,10 +144,13 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
 
     if (! face.params.empty()) column.add (help ? TRANS ("Parameter values") : TRANS ("Parameters"), TextBlock::Kind::heading);
     for (const auto& p : face.params)
-        if (p.sheet != nullptr)
-            column.add (paramRow (at.document, { at.patch, at.path }, node.name, p, at.refused, [fill = at.menuOfParam, n = node.name, id = p.id] (auto& menu) {
-                if (fill) fill (menu, n, id);
-            }));
+    {
+        if (p.sheet == nullptr) continue;
+        auto fillMenu = [fill = at.menuOfParam, n = node.name, id = p.id] (auto& menu) {
+            if (fill) fill (menu, n, id);
+        };
+        column.add (paramRow (at.document, { at.patch, at.path }, node.name, p, at.refused, at.live, std::move (fillMenu)));
+    }
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
     if (face.type == nullptr) return;

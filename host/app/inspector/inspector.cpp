@@ -44,6 +44,11 @@ void Inspector::showLimits (const std::vector<ContactLimit>& now)
     rebuild();
 }
 
+void Inspector::refreshLive()
+{
+    if (column) column->refreshLive();
+}
+
 void Inspector::setHelp (bool on)
 {
     help = on;
@@ -66,7 +71,8 @@ InspectorContext Inspector::inspected()
     const auto choose = [this] (const juce::String& patterns, const std::filesystem::path& begin, auto chosen) {
         if (onChooseFile) onChooseFile (patterns, begin, std::move (chosen));
     };
-    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused, choose }, messages, contactsOf, menuOf };
+    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused, choose }, messages, contactsOf, menuOf,
+             [this] (const std::string& param) { return valuesNow ? valuesNow (param) : std::vector<double> {}; } };
 }
 
 Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const

@@ -30,6 +30,8 @@ public:
     std::function<void (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)>
         onChooseFile;                        ///< asks for a file that a setting names, see EditorContext::choose
     std::function<Messages()> messagesNow;   ///< returns the messages about the current graph
+    LiveValues valuesNow;                    ///< of params of the patch that is inspected
+    void refreshLive();                      ///< shows these values; call it many times a second
 
     Column& shown() noexcept { return *column; }
     KnobStrip& knobs() noexcept { return strip; }

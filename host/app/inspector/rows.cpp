@@ -10,6 +10,7 @@
 #include <host/app/model/readable.hpp>
 #include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,8 +31,8 @@ const graph::Node* find (const Document& document, const SeenPatch& patch, const
 class ParamRow final : public SetRow
 {
 public:
-    ParamRow (Document& d, SeenPatch p, std::string n, const FacePort& f, const Refusal& r)
-        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
+    ParamRow (Document& d, SeenPatch p, std::string n, const FacePort& f, const Refusal& r, LiveValues v)
+        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r), live (std::move (v))
     {
         const auto id = std::string (port.sheet->id);
         setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\n" + filled (TRANS ("In files: %1"), id)));
@@ -40,9 +41,9 @@ public:
         for (int i = 0; i < fields; ++i)
         {
             auto& field = *numbers.emplace_back (std::make_unique<NumberField> (*port.sheet));
-            field.onChange = [this, i] (std::optional<Json> v, bool continues) {
+            field.onChange = [this, i] (const std::optional<Json>& v, bool continues) {
                 const bool is_component = v && port.width == 3;
-                change (is_component ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), continues);
+                change (is_component ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : v, continues);
             };
             field.onRefused = refused;
             static constexpr std::array components { " x", " y", " z" };
@@ -63,8 +64,16 @@ public:
         if (node == nullptr) return;
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
-        setIsSet (now.is_set);
-        setNote (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String(), themeOf (*this).accent);
+        drivers.clear();
+        const auto* in = findPatch (document.graph(), patch.name);
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+        {
+            const auto* wire = driverOf (*in, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1);
+            drivers.push_back (wire == nullptr ? std::string() : graph::toText (wire->from));
+        }
+        setIsSet (now.is_set && (numbers.empty() || std::ranges::any_of (drivers, &std::string::empty)));
+        note (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String());
+        refreshLive();
         if (port.isChoice())
         {
             const auto at = std::ranges::find (port.sheet->choices, current.is_string() ? current.get<std::string>() : std::string());
@@ -75,6 +84,15 @@ public:
             numbers[i]->show (componentOf (i));
             numbers[i]->setBold (isSet());
         }
+    }
+
+    void refreshLive() override
+    {
+        if (std::ranges::all_of (drivers, &std::string::empty) && ! was_driven) return;
+        const auto values = live ? live (node_name + '.' + port.id) : std::vector<double> {};
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            numbers[i]->setDriver (drivers[i], i < values.size() && ! drivers[i].empty() ? std::optional (values[i]) : std::nullopt);
+        was_driven = std::ranges::any_of (numbers, [] (const auto& n) { return n->isDriven(); });
     }
 
     void place (juce::Rectangle<int> area) override
@@ -88,7 +106,14 @@ public:
     }
 
 private:
-    void change (std::optional<Json> value, bool continues)
+    /// The first wire, or else the control.
+    void note (const juce::String& control)
+    {
+        const auto driver = std::ranges::find_if_not (drivers, &std::string::empty);
+        setNote (driver == drivers.end() ? control : filled (TRANS ("from %1"), *driver), themeOf (*this).accent);
+    }
+
+    void change (const std::optional<Json>& value, bool continues)
     {
         const auto* node = find (document, patch, node_name);
         if (node == nullptr) return;
@@ -120,16 +145,19 @@ private:
     std::string node_name;
     FacePort port;
     Refusal refused;
+    LiveValues live;
     Json current;
+    std::vector<std::string> drivers;   // of the numbers: the outputs whose wires set them
+    bool was_driven = false;
     std::vector<std::unique_ptr<NumberField>> numbers;
     juce::ComboBox choice;
 };
 }   // namespace
 
 std::unique_ptr<Block> paramRow (Document& document, const SeenPatch& patch, const std::string& node, const FacePort& port, const Refusal& refused,
-                                 std::function<void (juce::PopupMenu&)> fillMenu)
+                                 LiveValues live, std::function<void (juce::PopupMenu&)> fillMenu)
 {
-    auto row = std::make_unique<ParamRow> (document, patch, node, port, refused);
+    auto row = std::make_unique<ParamRow> (document, patch, node, port, refused, std::move (live));
     row->onWantsMenu = std::move (fillMenu);
     return row;
 }

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace tactus::host
 {
@@ -15,9 +16,12 @@ namespace tactus::host
 /// Tells the user why an edit was refused.
 using Refusal = std::function<void (const juce::String&)>;
 
-/// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. `fillMenu`
-/// fills its menu.
-std::unique_ptr<Block> paramRow (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&,
+/// What a param has in the run, in SI, by component. Empty if nothing runs, or if it is not known.
+using LiveValues = std::function<std::vector<double> (const std::string& param)>;
+
+/// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. If a wire sets it, its
+/// value is that of the run, and the source is named. `fillMenu` fills its menu.
+std::unique_ptr<Block> paramRow (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&, LiveValues,
                                  std::function<void (juce::PopupMenu&)> fillMenu);
 
 /// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param, so

@@ -20,6 +20,7 @@ bool isLogarithmic (const PortSheet& sheet) noexcept
 
 QuantityText dragged (const QuantityText& grabbed, const PortSheet& sheet, double pixels)
 {
+    if (pixels == 0.0) return grabbed;   // with all its digits
     const auto& usual = sheet.limits.usual;
     const double from = grabbed.si(), part = pixels / pixels_over_range;
     double to = from + std::max (std::abs (from), grabbed.scale) * 2.0 * part;

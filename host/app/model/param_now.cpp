@@ -5,6 +5,8 @@
 
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
+
 namespace tactus::host
 {
 
@@ -16,6 +18,23 @@ std::optional<ControlledParam> controlNow (const graph::Graph& g, const SeenPatc
     return address.empty() ? std::nullopt : controlOf (g, address);
 }
 }   // namespace
+
+bool drives (const graph::Wire& wire, const FacePort& param)
+{
+    const auto entry = entryOf (param.id);
+    return ! wire.add && wire.enabled.value_or (true) && wire.to.port == baseOf (param.id) && wire.to.index == (entry ? static_cast<int> (*entry) : -1);
+}
+
+const graph::Wire* driverOf (const graph::Patch& patch, const std::string& node, const FacePort& param, int component)
+{
+    const auto isIt = [&] (const graph::Wire& w) {
+        return w.to.node == node && (component < 0 || w.to.component < 0 || w.to.component == component) && drives (w, param);
+    };
+    const auto found = std::ranges::find_if (patch.wires, isIt);
+    return found == patch.wires.end() ? nullptr : &*found;
+}
+
+juce::String drivenText (const std::string& output) { return filled (TRANS ("A wire from %1 sets this value. Delete the wire to set it here"), output); }
 
 Json valueOf (const ControlledParam& controlled, const PortSheet& sheet)
 {

@@ -20,6 +20,15 @@ struct ParamNow
 
 ParamNow paramNow (const graph::Graph&, const SeenPatch&, const graph::Node&, const FacePort&);
 
+/// The wire that sets a param, or one component of it, whatever value is stored. Null if none does. A wire that adds to the value does not set it.
+const graph::Wire* driverOf (const graph::Patch&, const std::string& node, const FacePort& param, int component = -1);
+
+/// True if a wire sets the param of a node, or a component of it.
+bool drives (const graph::Wire&, const FacePort& param);
+
+/// Explains to the user why the value of a param cannot be set: a wire from this output sets it.
+juce::String drivenText (const std::string& output);
+
 /// What a control sets its parameter to now, in the unit its low end is written in.
 Json valueOf (const ControlledParam&, const PortSheet&);
 

@@ -230,6 +230,7 @@ void MainView::timerCallback()
     hand.refresh();
     attendFilm();
     live.refresh();
+    inspector.refreshLive();
     limits.poll();
     attendLiveNodes();
     showProblems();

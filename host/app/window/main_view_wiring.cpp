@@ -60,6 +60,7 @@ void MainView::connectSides()
         askForSetting (patterns, begin, std::move (chosen));
     };
     inspector.messagesNow = [this] { return run().messages(); };
+    inspector.valuesNow = [this] (const std::string& param) { return live.valuesOf (param); };
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
     presets.onSettings = [this] { saveSettingsSoon(); };

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace tactus::host
 {
@@ -19,12 +20,13 @@ struct LiveState
     static constexpr int most_level = 4;
 
     bool runs = false;
-    std::map<graph::Id, int> states;             ///< the state of each node that reports one
-    std::map<graph::Id, double> costs;           ///< the cost of each node, as a fraction of a tick; empty while costs are hidden
-    std::map<graph::Id, double> hits;            ///< position of a hit along its wire, 0…1
-    std::map<graph::Id, int> levels;             ///< how much each wire carries, 1 to most_level; nothing: not in the map
-    std::optional<PortCard> card;                ///< of the port under the pointer
-    std::map<graph::Id, std::string> problems;   ///< messages about nodes and wires
+    std::map<graph::Id, int> states;                                   ///< the state of each node that reports one
+    std::map<graph::Id, double> costs;                                 ///< the cost of each node, as a fraction of a tick; empty while costs are hidden
+    std::map<graph::Id, double> hits;                                  ///< position of a hit along its wire, 0…1
+    std::map<graph::Id, int> levels;                                   ///< how much each wire carries, 1 to most_level; nothing: not in the map
+    std::map<std::pair<graph::Id, std::string>, std::string> driven;   ///< what wires set params to, by node and param
+    std::optional<PortCard> card;                                      ///< of the port under the pointer
+    std::map<graph::Id, std::string> problems;                         ///< messages about nodes and wires
 
     /// The limits of devices that a node breaks or nearly breaks.
     struct Limit

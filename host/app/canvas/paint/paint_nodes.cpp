@@ -164,8 +164,16 @@ private:
         g.setFont (look.font (Box::label_size));
         g.setColour ((s.port->role == Role::param ? theme.dim : theme.text).withMultipliedAlpha (alpha));
         g.drawText (fromUtf8 (s.label), row, s.port->role == Role::output ? juce::Justification::centredRight : juce::Justification::centredLeft, false);
-        g.setColour (theme.text.withMultipliedAlpha (alpha));
-        if (s.port->role == Role::param) g.drawText (s.value, row, juce::Justification::centredRight, false);
+        if (s.port->role == Role::param) value (node, s, row, alpha);
+    }
+
+    /// What a wire sets is dimmed, because the user cannot: its value while the graph runs, else where it comes from.
+    void value (const SceneNode& node, const Socket& s, juce::Rectangle<float> row, float alpha) const
+    {
+        g.setColour ((s.driver.empty() ? theme.text : theme.dim).withMultipliedAlpha (alpha));
+        const auto now = s.driver.empty() ? highlights.live.driven.end() : highlights.live.driven.find ({ node.id, s.port->id });
+        const auto& text = now == highlights.live.driven.end() ? (s.driver.empty() ? s.value : s.driver) : now->second;
+        g.drawText (fromUtf8 (text), row, juce::Justification::centredRight, false);
     }
 
     void frame (juce::Rectangle<float> bounds, juce::Colour colour) const

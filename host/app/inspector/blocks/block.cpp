@@ -53,6 +53,12 @@ void Column::refresh (const graph::Node* node)
         b->refresh (node);
 }
 
+void Column::refreshLive()
+{
+    for (auto& b : blocks)
+        b->refreshLive();
+}
+
 int Column::heightFor (int width)
 {
     int height = 2 * margins.vertical;

@@ -16,6 +16,7 @@ class Block : public juce::Component
 public:
     virtual int heightFor (int width) = 0;
     virtual void refresh (const graph::Node*) {}   ///< shows the current values; the node may be null
+    virtual void refreshLive() {}                  ///< shows what wires set; call it while a graph runs, and once after that
 
     std::function<void()> onHeight;   ///< called when its height has changed
 };
@@ -60,6 +61,7 @@ public:
 
     int heightFor (int width) override;
     void refresh (const graph::Node*) override;
+    void refreshLive() override;
     void resized() override;
     void layOut (int width);   ///< places the blocks, and sets the size of the column itself
 

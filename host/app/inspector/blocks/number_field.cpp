@@ -4,6 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -20,15 +21,13 @@ namespace tactus::host
 
 namespace
 {
-constexpr double fine = 0.1;
-
 /// What a screen reader says about a field, and how it sets the value.
 class FieldValue final : public juce::AccessibilityTextValueInterface
 {
 public:
     explicit FieldValue (NumberField& f) : field (f) {}
 
-    bool isReadOnly() const override { return false; }
+    bool isReadOnly() const override { return field.isDriven(); }
     juce::String getCurrentValueAsString() const override { return field.spokenValue(); }
     void setValueAsString (const juce::String& text) override { field.type (text); }
 
@@ -55,7 +54,7 @@ double partOf (const Interval& range, double v, bool is_logarithmic)
 
 NumberField::NumberField (const PortSheet& s) : sheet (s)
 {
-    setMouseCursor (juce::MouseCursor::UpDownResizeCursor);
+    setMouseCursor (juce::MouseCursor::UpDownLeftRightResizeCursor);
     setWantsKeyboardFocus (true);
     setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus during a drag
     setTooltip (tooltipOf (sheet));
@@ -64,13 +63,16 @@ NumberField::NumberField (const PortSheet& s) : sheet (s)
 
 juce::String NumberField::spokenValue() const
 {
+    if (isDriven() && ! driven_now) return fromUtf8 (driver);
     const auto unit = fromUtf8 (unitShown (value.unit.empty() ? unitText (sheet.unit).toStdString() : value.unit));
     return juce::String (plainText (value.number)) + (unit.isEmpty() ? "" : " " + unit);
 }
 
 std::unique_ptr<juce::AccessibilityHandler> NumberField::createAccessibilityHandler()
 {
-    auto actions = juce::AccessibilityActions().addAction (juce::AccessibilityActionType::press, [this] { openEditor(); });
+    auto actions = juce::AccessibilityActions().addAction (juce::AccessibilityActionType::press, [this] {
+        if (! refusesHand()) openEditor();
+    });
     return std::make_unique<juce::AccessibilityHandler> (*this, juce::AccessibilityRole::slider, std::move (actions),
                                                          juce::AccessibilityHandler::Interfaces { std::make_unique<FieldValue> (*this) });
 }
@@ -82,8 +84,31 @@ void NumberField::setBold (bool is_set)
     repaint();
 }
 
+void NumberField::setDriver (const std::string& output, std::optional<double> now)
+{
+    if (output == driver && now == driven_now) return;
+    if (output != driver)
+    {
+        driver = output;
+        setMouseCursor (isDriven() ? juce::MouseCursor::NormalCursor : juce::MouseCursor::UpDownLeftRightResizeCursor);
+        if (isEditing()) closeEditor();
+        accept();
+    }
+    driven_now = now;
+    if (now) value = withBestPrefix ({ rounded (*now), {}, 1.0 }, sheet);
+    repaint();
+}
+
+/// A value that a wire sets cannot be set by hand. Says so.
+bool NumberField::refusesHand()
+{
+    if (isDriven() && onRefused) onRefused (drivenText (driver));
+    return isDriven();
+}
+
 void NumberField::show (const Json& written)
 {
+    if (isDriven()) return;
     if (const auto now = readQuantity (written, sheet))
     {
         if (refused_text.isNotEmpty() && now->toText() != value.toText()) accept();   // changed from elsewhere, such as by an undo
@@ -94,6 +119,7 @@ void NumberField::show (const Json& written)
 
 void NumberField::mouseDown (const juce::MouseEvent& e)
 {
+    if (! e.mods.isPopupMenu() && refusesHand()) return;
     if (e.mods.isAltDown())
     {
         accept();
@@ -101,14 +127,14 @@ void NumberField::mouseDown (const juce::MouseEvent& e)
         return;
     }
     grabbed = value;
+    way = {};
     begun = false;
 }
 
 void NumberField::mouseDrag (const juce::MouseEvent& e)
 {
-    if (e.mods.isAltDown() || e.mods.isPopupMenu() || isEditing()) return;
-    const double pixels = -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0);
-    moveTo (dragged (grabbed, sheet, pixels));
+    if (e.mods.isAltDown() || e.mods.isPopupMenu() || isEditing() || isDriven()) return;
+    moveTo (dragged (grabbed, sheet, way.to (e)));
 }
 
 void NumberField::moveTo (const QuantityText& to)
@@ -124,15 +150,16 @@ void NumberField::mouseUp (const juce::MouseEvent&) { begun = false; }
 
 void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 {
-    if (! e.mods.isAltDown()) openEditor();
+    if (! e.mods.isAltDown() && ! isDriven()) openEditor();
 }
 
 bool NumberField::keyPressed (const juce::KeyPress& key)
 {
-    constexpr double step = 4.0;   // an arrow key acts like a drag by this many pixels
+    constexpr double step = 4.0, fine = 0.1;   // an arrow key acts like a drag by this many pixels; fine: with Shift
     const bool is_up = key.isKeyCode (juce::KeyPress::upKey);
     if (is_up || key.isKeyCode (juce::KeyPress::downKey))
     {
+        if (refusesHand()) return true;
         const double pixels = (is_up ? step : -step) * (key.getModifiers().isShiftDown() ? fine : 1.0);
         grabbed = value;
         begun = false;
@@ -143,6 +170,7 @@ bool NumberField::keyPressed (const juce::KeyPress& key)
     const auto c = key.getTextCharacter();
     const bool digit = (c >= '0' && c <= '9') || c == '-' || c == '.';
     if (! key.isKeyCode (juce::KeyPress::returnKey) && ! digit) return false;
+    if (refusesHand()) return true;
     openEditor();
     if (digit) editor->setText (juce::String::charToString (c));
     return true;
@@ -213,6 +241,7 @@ void NumberField::closeEditor()
 
 bool NumberField::type (const juce::String& text)
 {
+    if (refusesHand()) return false;
     const auto trimmed = text.trim().toStdString();
     const auto custom = read ? read (trimmed) : Result<double> (0.0);
     if (! custom)
@@ -257,17 +286,26 @@ void NumberField::paint (juce::Graphics& g)
         return g.drawText (refused_text, area.reduced (8.0f, 0.0f), juce::Justification::centredRight, true);
     }
 
+    const auto text_area = area.reduced (std::min (8.0f, area.getWidth() * 0.08f), 0.0f);
+    if (isDriven() && ! driven_now)   // what it is will be known when the graph runs
+    {
+        g.setFont (look.font (12.0f));
+        g.setColour (theme.dim);
+        return g.drawText (fromUtf8 (driver), text_area, juce::Justification::centredRight, true);
+    }
     const auto& usual = sheet.limits.usual;
     const bool unusual = ! usual.contains (value.si());
+    const auto lit = isDriven() ? theme.dim : theme.accent;
     if (std::isfinite (usual.min) && std::isfinite (usual.max) && usual.max > usual.min)
     {
         const auto bar = area.reduced (3.0f, 2.0f).removeFromBottom (2.0f);
         g.setColour (theme.hairline);
         g.fillRect (bar);
-        g.setColour (unusual ? theme.warning : theme.accent);
+        g.setColour (unusual ? theme.warning : lit);
         g.fillRect (bar.withWidth (bar.getWidth() * static_cast<float> (std::clamp (partOf (usual, value.si(), isLogarithmic (sheet)), 0.0, 1.0))));
     }
-    paintText (g, area.reduced (std::min (8.0f, area.getWidth() * 0.08f), 0.0f), unusual ? theme.warning : theme.text);
+    const auto usual_colour = isDriven() ? theme.dim : theme.text;
+    paintText (g, text_area, unusual ? theme.warning : usual_colour);
 }
 
 void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juce::Colour colour) const

@@ -5,6 +5,7 @@
 
 #include <host/app/model/drag_number.hpp>
 
+#include <host/app/look/drag_way.hpp>
 #include <host/app/look/look.hpp>
 
 #include <functional>
@@ -14,7 +15,7 @@
 namespace tactus::host
 {
 
-/// A number field. Drag up or down to change it (shift: fine), double-click or press Return to type a value, with an optional unit.
+/// A number field. Drag to the right or up to raise it (shift: fine), double-click or press Return to type a value, with an optional unit.
 /// Alt-click restores the default; arrow keys change it in small steps. The bar shows the position within the usual range.
 /// Outside that range the field is amber. What is refused, such as a value outside the hard range, stays in the field in red, with the
 /// reason next to it, until it is corrected or Esc brings back the value.
@@ -28,6 +29,10 @@ public:
 
     void show (const Json& value);   ///< shows a value as stored in the file
     const QuantityText& shown() const noexcept { return value; }
+
+    /// A wire from this output sets the value, which is known while the graph runs, in SI. The field is dimmed and refuses other values. "": none does.
+    void setDriver (const std::string& output, std::optional<double> now = {});
+    bool isDriven() const noexcept { return ! driver.empty(); }
 
     /// Called with the new value, or nothing for the default. `continues` is true during a drag, after its first change.
     std::function<void (std::optional<Json>, bool continues)> onChange;
@@ -64,6 +69,7 @@ public:
 
 private:
     void moveTo (const QuantityText&);
+    bool refusesHand();
     void apply (bool by_return);
     void refuse (const juce::String& text, const juce::String& why);
     void accept();
@@ -73,6 +79,9 @@ private:
     const PortSheet& sheet;
     juce::String caption;
     QuantityText value, grabbed;
+    DragWay way;
+    std::string driver;
+    std::optional<double> driven_now;
     bool begun = false, bold = false;
     std::unique_ptr<juce::TextEditor> editor;
     juce::String refused_text;

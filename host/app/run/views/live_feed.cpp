@@ -2,7 +2,9 @@
 #include "live_feed.hpp"
 
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/text/filled.hpp>
@@ -12,9 +14,26 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace tactus::host
 {
+
+namespace
+{
+/// Without the last bits of a sum, which would show as -0.00.
+double cleaned (double v) { return std::abs (v) < 1e-9 ? 0.0 : v; }
+
+/// The values of a port as text. Those of a vector share a row, so they have fewer digits.
+std::vector<std::string> valueTexts (const PortFeed::Reading& reading)
+{
+    std::vector<std::string> texts;
+    constexpr int digits_alone = 4, digits_of_three = 3;
+    for (const double v : reading.values)
+        texts.push_back (withPrefix (cleaned (v), reading.unit, reading.values.size() == 1 ? digits_alone : digits_of_three));
+    return texts;
+}
+}   // namespace
 
 LiveFeed::LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r.traces())
 {
@@ -39,7 +58,45 @@ std::vector<std::string> LiveFeed::portsNow() const
         if (ports.size() >= most_sources) break;
         if (auto port = canvas.address (graph::toText (w.from)); known.insert (port).second) ports.push_back (std::move (port));
     }
+    for (const auto& param : drivenParams (*patch))
+        if (auto port = canvas.address (param); known.insert (port).second) ports.push_back (std::move (port));
     return ports;
+}
+
+/// The params that wires set, such as "drag.mu". Found once for each version of the document, because a large patch has thousands of wires.
+const std::vector<std::string>& LiveFeed::drivenParams (const graph::Patch& patch) const
+{
+    const auto version = std::make_pair (canvas.edited().version(), canvas.patch());
+    if (driven_of == version) return driven_params;
+    driven_of = version;
+    driven_params.clear();
+    std::map<std::string_view, const graph::Node*> nodes;
+    for (const auto& n : patch.nodes)
+        nodes.emplace (n.name, &n);
+    for (const auto& w : patch.wires)
+    {
+        if (driven_params.size() == most_driven) break;
+        const auto node = nodes.find (w.to.node);
+        if (node == nodes.end() || isInput (node->second->type, w.to.port)) continue;
+        const auto face = faceOf (canvas.edited().graph(), patch, *node->second, canvas.types());
+        const auto* port = face.endOf (w.to);
+        if (port == nullptr || port->role != Role::param || ! drives (w, *port)) continue;
+        if (auto param = w.to.node + '.' + port->id; std::ranges::count (driven_params, param) == 0) driven_params.push_back (std::move (param));
+    }
+    return driven_params;
+}
+
+/// Most wires end at inputs of nodes of the catalogue. That needs no face.
+bool LiveFeed::isInput (const std::string& type, const std::string& port) const
+{
+    const auto* known = canvas.types().find (type);
+    return known != nullptr && std::ranges::find (known->inputs, port, &PortSheet::id) != known->inputs.end();
+}
+
+std::vector<double> LiveFeed::valuesOf (const std::string& param) const
+{
+    const auto now = driven_now.find (param);
+    return now == driven_now.end() ? std::vector<double> {} : now->second.values;
 }
 
 void LiveFeed::refresh()
@@ -50,6 +107,7 @@ void LiveFeed::refresh()
     showStates (live);
     showActivity (live);
     showCard (live);
+    showDriven (live);
     if (shows_costs) showCosts (live);
     showProblems (live);
     if (limits != nullptr) showLimits (live);
@@ -133,21 +191,34 @@ void LiveFeed::showActivity (LiveState& live)
     live.levels = std::move (now);
 }
 
-namespace
+/// The values of params that wires set. They change no faster than one can read them.
+void LiveFeed::showDriven (LiveState& live)
 {
-/// Without the last bits of a sum, which would show as -0.00.
-double cleaned (double v) { return std::abs (v) < 1e-9 ? 0.0 : v; }
-
-/// The values of a port as text. Those of a vector share a row, so they have fewer digits.
-std::vector<std::string> valueTexts (const PortFeed::Reading& reading)
-{
-    std::vector<std::string> texts;
-    constexpr int digits_alone = 4, digits_of_three = 3;
-    for (const double v : reading.values)
-        texts.push_back (withPrefix (cleaned (v), reading.unit, reading.values.size() == 1 ? digits_alone : digits_of_three));
-    return texts;
+    const auto* patch = live_run.isRunning() ? findPatch (canvas.edited().graph(), canvas.patch()) : nullptr;
+    if (patch == nullptr) return driven_now.clear();
+    if (++since_driven >= numbers_every)
+    {
+        since_driven = 0;
+        driven_now.clear();
+        for (const auto& param : drivenParams (*patch))
+            if (auto reading = live_run.portFeed().of (canvas.address (param)))
+            {
+                std::ranges::transform (reading->values, reading->values.begin(), cleaned);
+                driven_now.emplace (param, *std::move (reading));
+            }
+    }
+    for (const auto& [param, reading] : driven_now)
+    {
+        const auto dot = param.rfind ('.');
+        const auto* node = patch->find (param.substr (0, dot));
+        if (node == nullptr) continue;
+        const bool is_vector = reading.values.size() > 1;
+        std::string text;
+        for (const double v : reading.values)
+            text += (text.empty() ? "" : ", ") + shownQuantity (rounded (v), is_vector ? "1" : reading.unit);   // as in the inspector
+        live.driven[{ node->id, param.substr (dot + 1) }] = is_vector ? '(' + text + ')' : text;
+    }
 }
-}   // namespace
 
 void LiveFeed::showCard (LiveState& live)
 {

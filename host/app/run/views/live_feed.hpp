@@ -16,11 +16,15 @@ public:
     static constexpr int rests_for = 5;               ///< refreshes that the pointer rests on a port until its card appears
     static constexpr int numbers_every = 4;           ///< refreshes between two values in a card: digits that change faster cannot be read
     static constexpr std::size_t most_sources = 64;   ///< how many ports it watches for their wires, at most
+    static constexpr std::size_t most_driven = 32;    ///< how many params it watches that wires set, at most
 
     LiveFeed (Canvas&, LiveRun&);
     ~LiveFeed();
 
     void refresh();   ///< call many times a second
+
+    /// What a wire sets a param of the patch to, in SI, by component; such as "drag.mu". Empty unless it runs.
+    std::vector<double> valuesOf (const std::string& param) const;
 
     bool shows_costs = false;
     const LimitWatch* limits = nullptr;   ///< whose list to show; null for none
@@ -44,6 +48,9 @@ private:
     void showStates (LiveState&);
     void showActivity (LiveState&);
     void showCard (LiveState&);
+    void showDriven (LiveState&);
+    const std::vector<std::string>& drivenParams (const graph::Patch&) const;
+    bool isInput (const std::string& type, const std::string& port) const;
     std::vector<std::string> portsNow() const;
     void showCosts (LiveState&);
     void showProblems (LiveState&) const;
@@ -66,6 +73,10 @@ private:
     std::string asked_for;   // a port that had a card, and that no wire of the patch starts from
     int rested = 0;
     std::vector<std::string> shown_values;
+    mutable std::optional<std::pair<std::uint64_t, std::string>> driven_of;   // the version of the document and the patch of `driven_params`
+    mutable std::vector<std::string> driven_params;
+    std::map<std::string, PortFeed::Reading> driven_now;
+    int since_driven = 0;
 };
 
 }   // namespace tactus::host

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/hand.hpp"
+
+#include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/inspector/settings/file_text.hpp>
 #include <host/app/inspector/settings/law_shape.hpp>
+#include <host/app/inspector/settings/setting_editor.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/assets/file_assets.hpp>
@@ -89,4 +93,51 @@ TEST_CASE ("a control gets the usual range of a parameter, in the unit it is wri
     CHECK (high == "1 mm");
     sheet.limits.usual = { 0, inf };
     CHECK (sweepOf (Json (0.2), sheet).second == 0.4);
+}
+
+TEST_CASE ("a number is dragged to the right and up, a tenth as far with Shift, and a press alone keeps all its digits", "[inspector]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    {
+        const auto sheet = sheetOfNumber ("x", unit::newton, "", { .hard = { -10, 10 }, .usual = { 0, 2 } }, 0.0);   // 200 pixels are 2 N
+        NumberField field (sheet);
+        field.setBounds (0, 0, 120, 24);
+        std::vector<bool> continues;
+        field.onChange = [&] (const std::optional<Json>&, bool c) { continues.push_back (c); };
+        host::test::Hand hand (field);
+        const juce::Point<float> at (60.0f, 12.0f);
+        const auto draggedBy = [&] (float x, float y, int keys = 0) {
+            field.show (Json (1.0));
+            continues.clear();
+            hand.drag (at, at + juce::Point<float> (x, y), host::test::Hand::left (keys));
+            CHECK (std::ranges::count (continues, false) == 1);   // one step
+            return field.shown().si() - 1.0;
+        };
+        CHECK (draggedBy (50.0f, 0.0f) == Approx (0.5));
+        CHECK (draggedBy (-50.0f, 0.0f) == Approx (-0.5));
+        CHECK (draggedBy (0.0f, -50.0f) == Approx (0.5));
+        CHECK (draggedBy (0.0f, 50.0f) == Approx (-0.5));
+        CHECK (draggedBy (50.0f, 0.0f, juce::ModifierKeys::shiftModifier) == Approx (0.05));
+        CHECK (draggedBy (0.0f, -50.0f, juce::ModifierKeys::shiftModifier) == Approx (0.05));
+
+        field.show (Json (1.0));
+        hand.press (at);   // Shift in the middle of a drag: no jump
+        hand.dragTo (at + juce::Point<float> (50.0f, 0.0f));
+        hand.dragTo (at + juce::Point<float> (50.0f, 0.0f), host::test::Hand::left (juce::ModifierKeys::shiftModifier));
+        CHECK (field.shown().si() == Approx (1.5));
+        hand.dragTo (at + juce::Point<float> (60.0f, 0.0f), host::test::Hand::left (juce::ModifierKeys::shiftModifier));
+        CHECK (field.shown().si() == Approx (1.51));
+        hand.release (at);
+
+        field.show (Json (1.23456789));
+        continues.clear();
+        hand.press (at);
+        hand.dragTo (at);
+        hand.release (at);
+        CHECK (continues.empty());
+        CHECK (field.shown().si() == 1.23456789);
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
