@@ -71,11 +71,13 @@ void PresetBrowser::reload()
 {
     presets = presetsIn (folder, catalogue);
     own = presetsIn (own_folder, catalogue);
-    // The latest come first, also those from other folders.
+    // The latest come first, also those from other folders. A preset that was opened as a file is in its own list.
     std::vector<Preset> latest;
     std::error_code failed;
     for (const auto& file : settings.recent)
     {
+        const auto isThis = [&] (const Preset& p) { return p.file.filename() == file.filename() && std::filesystem::equivalent (p.file, file, failed); };
+        if (std::ranges::any_of (presets, isThis)) continue;
         const auto at = std::ranges::find (own, file, &Preset::file);
         if (at != own.end())
         {
