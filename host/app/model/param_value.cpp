@@ -41,7 +41,7 @@ Json inside (const graph::Graph& g, const graph::Node& node, const std::string& 
 std::optional<std::size_t> entryOf (const std::string& id)
 {
     const auto bracket = id.find ('[');
-    return bracket == std::string::npos ? std::nullopt : std::optional (static_cast<std::size_t> (std::atoi (id.c_str() + bracket + 1)));
+    return bracket == std::string::npos ? std::nullopt : std::optional (static_cast<std::size_t> (std::strtol (id.c_str() + bracket + 1, nullptr, 10)));
 }
 
 std::string baseOf (const std::string& id) { return id.substr (0, id.find ('[')); }
