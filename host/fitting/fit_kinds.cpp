@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fitting.hpp"
+#include "pressing.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -25,9 +26,9 @@ FitColumn positive (FitColumn column)
 /// Depth and force of a tool that is pressed on.
 std::vector<FitColumn> pressed (std::vector<std::string> depth_names, const char* depth_about, const char* force_about)
 {
-    depth_names.insert (depth_names.begin(), { "indentation", "z" });
+    depth_names.insert (depth_names.begin(), { "indentation", "z", "height", "h", "extension", "compression", "deflection", "distance" });
     return { positive (column ("depth", "m", true, std::move (depth_names), depth_about)),
-             positive (column ("force", "N", true, { "resistance", "fz", "fn", "f" }, force_about)) };
+             positive (column ("force", "N", true, { "resistance", "fz", "fn", "f", "load", "normal_force" }, force_about)) };
 }
 
 std::vector<FitColumn> impact()
@@ -37,7 +38,7 @@ std::vector<FitColumn> impact()
     return columns;
 }
 
-const std::vector<std::string> along { "x", "displacement", "travel" };
+const std::vector<std::string> along { "x", "displacement", "travel", "position" };
 
 std::vector<double> valuesOf (const Table& table, const FitColumn& wanted)
 {
@@ -100,6 +101,23 @@ bool snapsToStop (const std::vector<double>& depth, const std::vector<double>& f
     return fall > much * most && from < most;
 }
 
+/// True if the force falls while the tool goes in deeper. A soft body on which the tool rests lets go, too, but at the same depth.
+bool bursts (const std::vector<double>& depth, const std::vector<double>& force)
+{
+    constexpr double deeper = 0.01, much = 0.2;   // of the largest depth; of the largest force
+    const double step = deeper * *std::ranges::max_element (depth);
+    double most = 0.0, at = 0.0, fall = 0.0;
+    for (std::size_t i = 0; i < std::min (depth.size(), force.size()); ++i)
+        if (force[i] > most)
+        {
+            most = force[i];
+            at = depth[i];
+        }
+        else if (depth[i] > at + step)
+            fall = std::max (fall, most - force[i]);
+    return fall > much * most;
+}
+
 /// Depth and force may be a shock, a key, an indentation or a cut.
 FitKind guessPressed (const Table& table)
 {
@@ -108,21 +126,14 @@ FitKind guessPressed (const Table& table)
     if (t.size() > 1 && t.back() - t.front() < brief) return FitKind::shock;
     const auto& columns = infoOf (FitKind::curve).columns;
     RecordedColumns recorded { { "depth", valuesOf (table, columns[0]) }, { "force", valuesOf (table, columns[1]) } };
-    turnSigns (columns, recorded);
+    orient (columns, recorded, {}, { .is_looked_for = true });
     const auto &depth = recorded["depth"], &force = recorded["force"];
     if (depth.empty()) return FitKind::curve;
     const double deepest = *std::ranges::max_element (depth);
     if (depth.back() < 0.5 * deepest)   // pressed and released
         return saysClosed (table) || snapsToStop (depth, force) ? FitKind::key_switch : FitKind::curve;
     if (! has (table, FitKind::shock, "depth")) return FitKind::curve;   // what is called x need not be a depth
-
-    double most = 0.0, fall = 0.0;
-    for (const double f : force)
-    {
-        most = std::max (most, f);
-        fall = std::max (fall, most - f);
-    }
-    return fall > 0.2 * most ? FitKind::blade : FitKind::curve;
+    return bursts (depth, force) ? FitKind::blade : FitKind::curve;
 }
 }   // namespace
 

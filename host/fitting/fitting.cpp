@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fitting.hpp"
 #include "fit_presets.hpp"
+#include "pressing.hpp"
 #include "surface_preset.hpp"
 
 #include <tactus/fit/curve_fit.hpp>
@@ -220,6 +221,9 @@ Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& f
     }
     return shock (c, file, s, course);
 }
+
+/// The travel of a key is counted from the first row, wherever that is.
+Touch touchFor (FitKind kind, const FitSettings& settings) { return { .is_looked_for = kind != FitKind::key_switch, .given = settings.touch }; }
 }   // namespace
 
 std::string verdictOf (const FitReport& report) { return report.is_good ? "good" : "poor"; }
@@ -228,9 +232,7 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
 {
     auto columns = columnsOf (kind, table, file, settings.columns);
     if (! columns) return columns.error();
-    for (double& d : (*columns)["depth"])
-        d -= settings.touch;
-    const auto turned = turnSigns (infoOf (kind).columns, *columns);
+    const auto pressing = orient (infoOf (kind).columns, *columns, settings.columns, touchFor (kind, settings));
     if (auto once = checkGivenOnce (*columns, kind, settings); ! once) return Message::error (once.error().id, file, once.error().text, once.error().remedy);
     auto made = fitted (kind, *columns, file, settings, course);
     if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
@@ -238,19 +240,19 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
     const auto along = findColumn (table, infoOf (kind).columns.front(), settings.columns);
     if (along && table.columns[*along] == integrated_position)
         made->report.notes.emplace_back ("the position was not recorded: it is the integral of the velocity over the time");
-    made->report.notes.insert (made->report.notes.end(), turned.begin(), turned.end());
+    made->report.notes.insert (made->report.notes.end(), pressing.notes.begin(), pressing.notes.end());
     return made;
 }
 
-FitPicture pictureOf (FitKind kind, const Table& table, const ColumnChoice& choice)
+RecordedPicture pictureOf (FitKind kind, const Table& table, const FitSettings& settings)
 {
     const auto& columns = infoOf (kind).columns;
-    auto recorded = columnsOf (kind, table, {}, choice);
+    auto recorded = columnsOf (kind, table, {}, settings.columns);
     if (! recorded) return {};
-    turnSigns (columns, *recorded);
+    auto turned = orient (columns, *recorded, settings.columns, touchFor (kind, settings)).turned;
     const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };
     FitCurve curve { "recorded", (*recorded)[columns[0].role], (*recorded)[columns[1].role], true };
-    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { std::move (curve) } };
+    return { { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { std::move (curve) } }, std::move (turned) };
 }
 
 }   // namespace tactus::host

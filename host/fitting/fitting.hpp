@@ -8,6 +8,7 @@
 #include <tactus/text/json.hpp>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ struct FitSettings
     double speed = 0.0;                     ///< m/s; modes: of the blow; texture: of the stroke
     double force = 0.0;                     ///< N; texture: normal to the surface
     double width = 0.0;                     ///< m; blade: default 20 mm
-    double touch = 0.0;                     ///< m; blade, curve: depth at which the tool touches
+    std::optional<double> touch {};         ///< m; depth at which the tool touches; by default, see orient()
     std::optional<double> from {}, to {};   ///< s; modes: the fitted part
     std::optional<double> blow {};          ///< s; modes: the time of the blow
     int most = 0;                           ///< modes, coefficients or harmonics
@@ -80,8 +81,15 @@ std::string verdictOf (const FitReport&);
 /// Fits a recording. `file` is named in messages and in the preset. Errors: fit/…; see framework/fit. [any thread]
 Result<FittedGraph> fitRecording (FitKind, const Table&, const std::string& file, const FitSettings&, FitCourse* = nullptr);
 
-/// What was recorded, the second column of a kind over the first. Empty if the columns cannot be read. [any thread]
-FitPicture pictureOf (FitKind, const Table&, const ColumnChoice&);
+/// What was recorded, before it is fitted.
+struct RecordedPicture
+{
+    FitPicture picture {};             ///< the second column of a kind over the first; empty if the columns cannot be read
+    std::set<std::string> turned {};   ///< the roles whose sign is turned
+};
+
+/// What a fit with these settings would see. [any thread]
+RecordedPicture pictureOf (FitKind, const Table&, const FitSettings&);
 
 /// "0.472 [0.468, 0.475]", with a unit and a prefix where they help.
 std::string textOf (const FitValue&);

@@ -65,7 +65,7 @@ std::string unitIn (const std::string& column) { return quotient (writtenUnit (c
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit)
 {
     const auto unit = symbolIn (trimmed (text));
-    if (unit == "gf" && si_unit == "N") return gram_force;
+    if ((unit == "gf" || unit == "g") && si_unit == "N") return gram_force;
     if (unit == "g" && si_unit == "m/s2") return standard_gravity;
     const auto measure = parseMeasure (startsWithNumber (unit) ? unit : "1 " + unit), si = parseMeasure ("1 " + si_unit);
     if (! measure || ! si || measure->dimension != si->dimension || ! (std::abs (measure->value) > 0.0) || ! std::isfinite (measure->value)) return {};
@@ -193,28 +193,6 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
     for (std::size_t r = 0; r < table.rows(); ++r)
         values.push_back (factor * table.at (r, *found));
     return values;
-}
-
-std::vector<std::string> turnSigns (const std::vector<FitColumn>& columns, RecordedColumns& recorded)
-{
-    constexpr double noise = 0.05;   // what may have the other sign, over the largest value
-    const auto force = recorded.find ("force");
-    const auto isLarger = [] (double a, double b) { return std::abs (a) < std::abs (b); };
-    const auto pressed =   // the row of the largest force, in which the tool touches
-        force == recorded.end() || force->second.empty() ? std::ptrdiff_t { -1 } : std::ranges::max_element (force->second, isLarger) - force->second.begin();
-    std::vector<std::string> notes;
-    for (const auto& column : columns)
-    {
-        auto& values = recorded[column.role];
-        if (! column.is_positive || values.empty()) continue;
-        const auto [least, most] = std::ranges::minmax (values);
-        const bool is_turned = least < 0.0 && most <= -noise * least;
-        if (! is_turned || (pressed >= 0 && ! (values[static_cast<std::size_t> (pressed)] < 0.0))) continue;
-        for (double& v : values)
-            v = 0.0 - v;   // -0 would be printed
-        notes.push_back ("the " + column.role + " is negative in the recording; its sign was turned");
-    }
-    return notes;
 }
 
 }   // namespace tactus::host

@@ -21,7 +21,7 @@ struct FitColumn
     bool required = true;
     std::vector<std::string> names;   ///< column names to look for if the user names none; lower case, without a unit
     std::string about;
-    bool is_positive = false;   ///< where the tool is pressed on
+    bool is_positive = false;   ///< where the tool is pressed on; orient() turns its sign
 };
 
 /// The columns, and their units, that the user has chosen for each role.
@@ -29,6 +29,7 @@ struct ColumnChoice
 {
     std::map<std::string, std::string> names {};   ///< an empty name: not recorded, for a role that is not required
     std::map<std::string, double> units {};        ///< what 1 means, in SI
+    std::map<std::string, bool> turned {};         ///< whether the sign is turned; without an entry, the recording decides: see orient()
 };
 
 /// The column that readRecording adds.
@@ -46,7 +47,8 @@ Table tableOf (const Signal&);
 /// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm, and "m/s" for speed_m_s; empty if there is none.
 std::string unitIn (const std::string& column);
 
-/// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N. Empty if the text does not fit.
+/// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N; a force in "g" is in
+/// gram-force. Empty if the text does not fit.
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit);
 
 /// The name of a column without its unit, in lower case: "x" for x_um, "normal" for "Normal [uN]".
@@ -61,9 +63,5 @@ Result<std::vector<double>> columnOf (const Table&, const std::string& file, con
 
 /// The values of each role in SI; empty for what was not recorded.
 using RecordedColumns = std::map<std::string, std::vector<double>>;
-
-/// Some programs record a force as that on the sensor, or a depth as a height. Turns the sign of what should be positive and is negative, but for noise:
-/// in the whole column, and where the force is largest, so that a depth which is negative in the air stays as it is. Returns a sentence for each of them.
-std::vector<std::string> turnSigns (const std::vector<FitColumn>&, RecordedColumns&);
 
 }   // namespace tactus::host

@@ -12,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int label_height = 18, cell_gap = 12, unit_width = 64, unit_gap = 4;
+constexpr int label_height = 18, cell_gap = 12, unit_width = 64, sign_width = 28, unit_gap = 4;
 constexpr int not_recorded = 1, first_column = 2;   // ids in the list
 
 juce::String roleName (const FitColumn& column) { return fromUtf8 (column.role == "t" ? "time" : column.role); }
@@ -50,15 +50,31 @@ void FitColumns::show (const Table& table, FitKind kind)
             const auto i = static_cast<std::size_t> (std::max (0, cell.column.getSelectedId() - first_column));
             const auto of_column = cell.column.getSelectedId() >= first_column ? unitIn (names[i]) : std::string();
             cell.unit.show (fromUtf8 (of_column.empty() ? cell.wanted.unit : of_column));
+            cell.turned.reset();
+            changed();
+        };
+        cell.sign.setTitle (filled (TRANS ("Sign of %1"), role));
+        cell.sign.onClick = [this, &cell] {
+            cell.turned = ! cell.sign.getToggleState();
             changed();
         };
         cell.unit.onEscapeKey = [this] {
             if (onEscape) onEscape();
         };
-        cell.unit.onApply = [this] (const juce::String&) { changed(); };
+        cell.unit.onApply = [this, &cell] (const juce::String& text) {
+            if (const auto typed = text.trimStart(); cell.wanted.is_positive && typed.startsWithChar ('-'))   // "-1 mm": the button shows the sign
+            {
+                cell.turned = true;
+                cell.unit.setText (typed.substring (1).trimStart(), false);
+                cell.unit.show (cell.unit.getText());
+            }
+            changed();
+        };
         addAndMakeVisible (cell.column);
         if (! wanted.unit.empty()) addAndMakeVisible (cell.unit);
+        if (wanted.is_positive) addAndMakeVisible (cell.sign);
     }
+    showTurned ({});
     resized();
     repaint();
 }
@@ -66,7 +82,10 @@ void FitColumns::show (const Table& table, FitKind kind)
 void FitColumns::changed()
 {
     for (auto& cell : cells)
+    {
         cell->unit.setEnabled (cell->column.getSelectedId() >= first_column);
+        cell->sign.setEnabled (cell->unit.isEnabled());
+    }
     if (onChange) onChange();
 }
 
@@ -93,6 +112,21 @@ void FitColumns::setUnit (const std::string& role, const juce::String& unit)
     cell->unit.apply();
 }
 
+void FitColumns::turn (const std::string& role)
+{
+    if (auto* cell = find (role); cell && cell->wanted.is_positive && cell->sign.isEnabled()) cell->sign.onClick();
+}
+
+void FitColumns::showTurned (const std::set<std::string>& roles)
+{
+    for (auto& cell : cells)
+    {
+        const bool is_turned = roles.contains (cell->wanted.role);
+        cell->sign.setToggleState (is_turned, juce::dontSendNotification);
+        cell->sign.setTooltip (is_turned ? TRANS ("The sign of this column is turned: a click keeps it as recorded") : TRANS ("Turns the sign of this column"));
+    }
+}
+
 ColumnChoice FitColumns::choice() const
 {
     ColumnChoice made;
@@ -103,7 +137,9 @@ ColumnChoice FitColumns::choice() const
         if (id < first_column) continue;
         made.names[cell->wanted.role] = names[static_cast<std::size_t> (id - first_column)];
         if (cell->wanted.unit.empty()) continue;
-        if (const auto factor = factorOf (cell->unit.getText().toStdString(), cell->wanted.unit)) made.units[cell->wanted.role] = *factor;
+        const auto factor = factorOf (cell->unit.getText().toStdString(), cell->wanted.unit);
+        if (factor) made.units[cell->wanted.role] = *factor;
+        if (cell->turned) made.turned[cell->wanted.role] = *cell->turned;
     }
     return made;
 }
@@ -147,6 +183,11 @@ void FitColumns::resized()
         auto place = juce::Rectangle<int> (i * (width + cell_gap), label_height, width, height - label_height);
         const bool has_unit = ! cell.wanted.unit.empty();
         cell.unit.setBounds (has_unit ? place.removeFromRight (std::min (unit_width, width / 3)) : juce::Rectangle<int> (place.getRight(), place.getY(), 0, 0));
+        if (cell.wanted.is_positive)
+        {
+            place.removeFromRight (unit_gap);
+            cell.sign.setBounds (place.removeFromRight (sign_width));
+        }
         if (has_unit) place.removeFromRight (unit_gap);
         cell.column.setBounds (place);
     }

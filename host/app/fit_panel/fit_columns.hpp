@@ -2,16 +2,20 @@
 #pragma once
 
 #include <host/app/inspector/blocks/fields.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/fitting/fitting.hpp>
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace tactus::host
 {
 
-/// Which column of a recording is which, and its unit: for each quantity that a kind needs, a list of the columns and a field. [main thread]
+/// Which column of a recording is which, its unit and its sign: for each quantity that a kind needs, a list of the columns, a field and, where the tool is
+/// pressed on, a button. [main thread]
 class FitColumns final : public juce::Component
 {
 public:
@@ -26,6 +30,10 @@ public:
 
     void chooseColumn (const std::string& role, const juce::String& column);   ///< as in the list; an empty name: not recorded
     void setUnit (const std::string& role, const juce::String& unit);          ///< as typed, such as "mm" or "0.5 N"
+    void turn (const std::string& role);                                       ///< as a click on its sign
+
+    /// The roles whose sign is turned now, whether the user or the recording says so.
+    void showTurned (const std::set<std::string>& roles);
 
     std::function<void()> onChange, onEscape;
 
@@ -38,6 +46,8 @@ private:
         FitColumn wanted;
         juce::ComboBox column;
         TextField unit;
+        ToolButton sign { juce::String::fromUTF8 ("\xc2\xb1"), ToolButton::Kind::toggle };
+        std::optional<bool> turned {};   // by the user; empty: the recording decides
     };
 
     Cell* find (const std::string& role);

@@ -41,7 +41,7 @@ std::optional<Amount> amountOf (FitKind kind)
     case FitKind::shock:
         return Amount { NEEDS_TRANS ("Mass"), "kg", "", [] (FitSettings& s, double v) { s.mass = v; }, true, NEEDS_TRANS ("from the times") };
     case FitKind::curve:
-        return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "0 mm", [] (FitSettings& s, double v) { s.touch = v; }, false };
+        return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "", [] (FitSettings& s, double v) { s.touch = v; }, false, NEEDS_TRANS ("from the force") };
     case FitKind::modes:
         return Amount { NEEDS_TRANS ("Time of the blow"), "s", "", [] (FitSettings& s, double v) { s.blow = v; }, false, NEEDS_TRANS ("from the ring") };
     case FitKind::key_switch:
@@ -56,6 +56,20 @@ bool isRecorded (FitKind kind, const Table& table, const ColumnChoice& choice)
     if (kind != FitKind::friction) return false;
     const auto& columns = infoOf (kind).columns;
     return findColumn (table, *std::ranges::find (columns, "load", &FitColumn::role), choice).has_value();
+}
+
+/// Sets what is typed, unless that is nothing. Returns why it does not fit, or nothing.
+juce::String setTyped (const Amount& wanted, const juce::String& text, FitSettings& settings)
+{
+    if (text.isEmpty()) return {};
+    const auto typed = parseMeasure (text.toStdString()), unit = parseMeasure (std::string ("1 ") + wanted.unit);
+    const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
+    if (! fits || (wanted.is_above_0 && ! (typed->value > 0.0)) || ! std::isfinite (typed->value))
+        return filled (wanted.is_above_0 ? TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3.")
+                                         : TRANS ("%1: %2 does not fit. Type a number with its unit, such as 1.5 %3."),
+                       juce::translate (wanted.label), text.quoted(), wanted.unit);
+    wanted.set (settings, typed->value);
+    return {};
 }
 }   // namespace
 
@@ -160,19 +174,12 @@ void FitPanel::fit()
     amount.getProperties().set ("fitted", amount.getText());
     if (! table || ! chosen) return;
     if (const auto wrong = which.problem(); wrong.isNotEmpty()) return fail (wrong.toStdString());
-    plot.show (pictureOf (*chosen, *table, settings.columns));
     const bool asks = wanted && ! isRecorded (*chosen, *table, settings.columns);
-    if (asks && amount.getText().trim().isNotEmpty())
-    {
-        const auto typed = parseMeasure (amount.getText().trim().toStdString()), unit = parseMeasure (std::string ("1 ") + wanted->unit);
-        const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
-        if (! fits || (wanted->is_above_0 && ! (typed->value > 0.0)) || ! std::isfinite (typed->value))
-            return fail (filled (wanted->is_above_0 ? TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3.")
-                                                    : TRANS ("%1: %2 does not fit. Type a number with its unit, such as 1.5 %3."),
-                                 juce::translate (wanted->label), amount.getText().quoted(), wanted->unit)
-                             .toStdString());
-        wanted->set (settings, typed->value);
-    }
+    const auto unfit = asks ? setTyped (*wanted, amount.getText().trim(), settings) : juce::String();
+    auto seen = pictureOf (*chosen, *table, settings);
+    plot.show (std::move (seen.picture));
+    which.showTurned (seen.turned);
+    if (unfit.isNotEmpty()) return fail (unfit.toStdString());
     job.start (*chosen, table, file.string(), settings);
     showResult();
 }

@@ -45,6 +45,12 @@ void readChoices (FitCommandOptions& options, const FitKindInfo& info)
         if (column->unit.empty()) throw UsageError ("--unit", role + " may have any unit; leave out this option");
         options.settings.columns.units[role] = readAmount ("--unit", text, column->unit.c_str(), ("1 " + column->unit).c_str());
     }
+    for (const auto& given : options.signs)
+    {
+        const auto [role, text] = roleAndText ("--sign", given, info);
+        if (text != "+" && text != "-") throw UsageError ("--sign", quote (given) + " does not fit; write " + role + "=+ or " + role + "=-");
+        options.settings.columns.turned[role] = text == "-";
+    }
 }
 
 void drawFit (const FitPicture& picture, const std::string& title, const std::string& file)
@@ -149,6 +155,11 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
         .addOption ("--unit", options->units,
                     "What 1 in a column means, such as --unit \"force=1 mN\"; default: as in the name of the column (x_um, \"Force [mN]\"), or SI")
         .oneValueEach();
+    if (std::ranges::any_of (info.columns, &FitColumn::is_positive))
+        made.command
+            .addOption ("--sign", options->signs,
+                        "Turn the sign of a column, such as --sign \"depth=-\", or keep it: --sign \"depth=+\"; default: as the recording suggests")
+            .oneValueEach();
     made.command.footer (footer);
     made.command.callback ([options, kind] { runFit (kind, *options); });
     return made;

@@ -16,7 +16,7 @@ namespace tactus::host
 struct FitCommandOptions
 {
     std::string recording, preset, plot;
-    std::vector<std::string> columns, units;   ///< ROLE=NAME
+    std::vector<std::string> columns, units, signs;   ///< ROLE=…
     bool json = false;
     FitSettings settings {};
 };

@@ -8,7 +8,6 @@
 #include <array>
 #include <fstream>
 #include <string>
-#include <tuple>
 #include <vector>
 
 using namespace tactus;
@@ -81,6 +80,8 @@ TEST_CASE ("the unit in the name of a column may be its last word, or written in
     CHECK (*host::factorOf ("micron", "m") == Approx (1e-6));
     CHECK (*host::factorOf ("Millinewton", "N") == Approx (1e-3));
     CHECK (*host::factorOf ("sec", "s") == 1.0);
+    CHECK (*host::factorOf ("g", "N") == Approx (9.80665e-3));
+    CHECK (*host::factorOf ("g", "kg") == Approx (1e-3));
     CHECK_FALSE (host::factorOf ("Micrometer", "N"));
     CHECK (host::bareName ("Raw Micrometer") == "raw");
 }
@@ -119,33 +120,4 @@ TEST_CASE ("the unit of a column may follow an underscore, and the usual short n
     CHECK (kindOf ("time_s,z_mm,Fz_mN\n0,0,0\n1,-1,-2\n") == FitKind::curve);
     CHECK (kindOf ("x_mm,z_mm,Fx_N,Fz_N\n0,0,0,1\n1,0,1,1\n") == FitKind::friction);
     CHECK (kindOf ("x_mm,z_um\n0,0\n1,3\n") == FitKind::grating);
-}
-
-TEST_CASE ("a sign is turned only where a whole column has the other one", "[fit]")
-{
-    using Values = std::vector<double>;
-    const auto& columns = host::infoOf (host::FitKind::curve).columns;
-    const auto turned = [&] (Values depth, Values force) {
-        host::RecordedColumns recorded { { "depth", std::move (depth) }, { "force", std::move (force) } };
-        const auto notes = host::turnSigns (columns, recorded);
-        return std::tuple (notes.size(), recorded["depth"], recorded["force"]);
-    };
-    const Values in { 0.0, 1.0, 2.0 }, out { 0.0, -1.0, -2.0 };
-    CHECK (turned (in, in) == std::tuple (0u, in, in));
-    CHECK (turned (out, in) == std::tuple (1u, in, in));
-    CHECK (turned (in, out) == std::tuple (1u, in, in));
-    CHECK (turned (out, out) == std::tuple (2u, in, in));
-    const Values noisy { 0.01, -1.0, -2.0 }, approach { -5.0, -2.0, 0.1 }, both { -1.0, 0.5, 2.0 };
-    CHECK (std::get<0> (turned (noisy, in)) == 1);
-    CHECK (turned (approach, in) == std::tuple (0u, approach, in));   // in the air first, as deform.plane has it
-    CHECK (turned (approach, out) == std::tuple (1u, approach, in));
-    CHECK (turned (both, both) == std::tuple (0u, both, both));
-    CHECK (turned ({}, out) == std::tuple (1u, Values {}, in));
-    CHECK (std::get<0> (turned ({ 0.0, 0.0 }, { 0.0, 0.0 })) == 0);
-    const auto& strokes = host::infoOf (host::FitKind::friction).columns;   // there, the force has both signs, or that of the only stroke
-    host::RecordedColumns stroke { { "position", out }, { "force", out }, { "load", { -3.0, -3.0, -3.0 } } };
-    CHECK (host::turnSigns (strokes, stroke).size() == 1);
-    CHECK (stroke["force"] == out);
-    CHECK (stroke["position"] == out);
-    CHECK (stroke["load"] == Values { 3.0, 3.0, 3.0 });
 }

@@ -161,6 +161,11 @@ TEST_CASE ("fit: a depth or a force of the other sign gives the same fit, which 
     CHECK (parameters (press ("depth,force", 1.0, -1.0, 0.0), {}, 1) == plain);
     CHECK (parameters (press ("z,fz", -1.0, -1.0, 0.0), {}, 2) == plain);
     CHECK (parameters (press ("z_m,Fz_N", -1.0, -1.0, 0.5), { "--touch", "500 mm" }, 2).size() > 10);   // a height, and where it touches
+    CHECK (parameters (press ("height,force", -1.0, 1.0, 0.0), { "--sign", "depth=-" }, 0) == plain);   // the user has said it
+    const auto file = scratch.write ("kept.csv", press ("height_m,force_N", -1.0, 1.0, 0.5));
+    CHECK (runTactus ({ "fit", "curve", file, "-o", scratch.path ("p.json") }).out.find ("counted from 500 mm of the recording") != std::string::npos);
+    CHECK (runTactus ({ "fit", "curve", file, "-o", scratch.path ("p.json"), "--sign", "depth=+" }).status == 1);
+    CHECK (runTactus ({ "fit", "curve", file, "-o", scratch.path ("p.json"), "--sign", "depth=down" }).err.find ("depth=+ or depth=-") != std::string::npos);
     const auto loaded = [] (double load) {
         double d = 0.0, last = 0.0;
         return table ("x_mm,fx_N,fz_N", 600, [=] (std::ostream& out, int i) mutable {
