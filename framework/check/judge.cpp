@@ -145,14 +145,37 @@ private:
 
         const double limit = numbers.damping->value, room = limit - b, held = s->stiffness * period_s;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
-        std::string remedy = "a virtual damping below that of the device, or ";
+        std::vector<std::string> ways;
         if (room > 0.0)
-            remedy = "a stiffness of at most " + text (stiffestWall (room, period_s, late), "N/m") + ", a rate of at least "
-                     + text ((value - b) / (room * period_s), "Hz") + ", or ";
-        remedy += "a device with a damping of at least " + text (value, "N*s/m");
+        {
+            const double stiffest = stiffestWall (room, period_s, late), rate = (value - b) / (room * period_s);
+            if (isDragged (*s)) ways.push_back ("a d_max " + atLeast (s->stiffness / stiffest, "times") + " as long");
+            ways.push_back ("a stiffness of " + atMost (stiffest, "N/m"));
+            if (reaches (numbers, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
+        }
+        else
+            ways.push_back (value - b < limit ? "a virtual damping of " + atMost (limit - (value - b), "N*s/m")
+                                              : "a virtual damping below that of the device and a softer contact");
+        ways.push_back ("a device with a damping of " + atLeast (value, "N*s/m"));
+        auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, value, limit, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c);
+    }
+
+    /// True if the node with the steepest force at a place is a friction.
+    bool isDragged (const Slope& s) const
+    {
+        const auto most = std::ranges::max_element (s.by_node);
+        return most != s.by_node.end() && *most > 0.0 && drags (demand, static_cast<std::size_t> (most - s.by_node.begin()));
+    }
+
+    /// The same for the place where this response was measured.
+    bool isDragged (const std::vector<double>* response) const
+    {
+        return std::ranges::any_of (role.slopes, [&] (const Slope& s) {
+            return isDragged (s) && std::ranges::any_of (s.responses, [&] (const auto& r) { return &r == response; });
+        });
     }
 
     /// A contact that is not passive may still come to rest: judges the loops of all places that are not passive, exactly.
@@ -171,7 +194,7 @@ private:
             c, responses, [&] (const auto* r) { return largestRadius (*r, numbers, period_s); },
             [&] (const auto* r, double factor) { return comesToRest (scaled (*r, factor), numbers, period_s); });
         if (c.verdict == Verdict::broken) return;
-        if (const auto best = strongestChange (*responses.front(), numbers, period_s); best && best->room > c.may_grow)
+        if (const auto best = strongestChange (*responses.front(), numbers, period_s, isDragged (responses.front())); best && best->room > c.may_grow)
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
     }
 
@@ -188,27 +211,39 @@ private:
         auto& c = add ("damping", "b < 2M/T + 4B/3", "N*s/m", "b " + text (most, "N*s/m") + ", T " + text (1e3 * period_s, "ms"));
         if (! numbers.damping) return unknown (c, most, "damping");
         if (! numbers.mass) return unknown (c, most, "mass");
-        const double limit = largestDamper(), rate = (most - 4.0 / 3.0 * numbers.damping->value) / (2.0 * motorMass());
+        const double limit = largestDamper();
         if (motorMass() < numbers.mass->value) c.text += ", M " + text (motorMass(), "kg") + " at the motor";
-        decide (c, most, limit, Strict::yes, 1.0, "a virtual damping below " + text (limit, "N*s/m") + ", or a rate above " + text (rate, "Hz"));
+        std::vector<std::string> ways { "a virtual damping " + below (limit, "N*s/m") };
+        if (const auto rate = rateForDamper (most); rate && reaches (numbers, *rate)) ways.push_back ("a rate " + above (*rate, "Hz"));
+        decide (c, most, limit, Strict::yes, 1.0, anyOf (ways));
+    }
+
+    /// The rate above which a virtual damper does not oscillate, within a thousandth. Empty if there is none.
+    std::optional<double> rateForDamper (double damper) const
+    {
+        const auto rests = [&] (double rate) { return damper < check::largestDamper (numbers, 1.0 / rate); };
+        double low = 1.0 / period_s, high = low;
+        for (int doubled = 0; doubled < 20 && ! rests (high); ++doubled)
+            low = std::exchange (high, 2.0 * high);
+        if (! rests (high)) return std::nullopt;
+        while (high > 1.001 * low)
+            (rests (0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+        return high;
     }
 
     void quantum()
     {
-        double most = 0.0;
-        for (const auto& s : role.slopes)
-            most = std::max (most, s.stiffness);
+        const double most = steepest();
         auto& c = add ("quantum", "sigma delta/2 <= f_f", "N", "sigma " + text (most, "N/m"));
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double delta = numbers.quantum->value, value = 0.5 * most * delta;
         c.text += ", delta " + text (1e6 * delta, "um");
         if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
         const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
-        auto remedy = "a device with a dry friction of at least " + text (value, "N");
-        if (limit > 0.0)
-            remedy = "a stiffness of at most " + text (2.0 * limit / delta, "N/m") + ", a quantum of at most " + text (2e6 * limit / most, "um")
-                     + ", or " + remedy;
-        decide (c, value, limit, Strict::no, 1.0, remedy);
+        std::vector<std::string> ways;
+        if (limit > 0.0) ways = { "a stiffness of " + atMost (2.0 * limit / delta, "N/m"), "a quantum of " + atMost (2e6 * limit / most, "um") };
+        ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
+        decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }
 
     /// A force that steps by F changes by F from one step of the sensor to the next, so its slope is at least F/delta.
@@ -227,8 +262,8 @@ private:
         if (! numbers.damping) return unknown (c, value, "damping");
         const double limit = numbers.damping->value;
         decide (c, value, limit, Strict::no, 1.0,
-                limit > 0.0 ? "a force that rises over at least " + text (1e3 * most->force / stiffestWall (limit, period_s, delay()), "mm")
-                            : "a force that does not step");
+                limit > 0.0 ? "a force that rises over " + atLeast (1e3 * most->force / stiffestWall (limit, period_s, delay()), "mm")
+                            : std::string ("a force that does not step"));
     }
 
     void peakForce()
@@ -236,7 +271,7 @@ private:
         auto& c = add ("peak_force", "|f| <= f_max", "N", "the largest force along the motion");
         if (! numbers.peak_force) return unknown (c, role.peak_force, "peak force");
         decide (c, role.peak_force, numbers.peak_force->value, Strict::no, 1.0,
-                "weaker forces, or a device that gives at least " + text (role.peak_force, "N"));
+                "weaker forces, or a device that gives " + atLeast (role.peak_force, "N"));
     }
 
     /// A structure that follows a sine of the amplitude f_max up to F_0 follows changes of force of up to 2 pi F_0 f_max.
@@ -246,8 +281,20 @@ private:
         if (! numbers.first_mode) return unknown (c, role.fastest_force, "first mode");
         if (! numbers.peak_force && numbers.first_mode->value < inf) return unknown (c, role.fastest_force, "peak force");
         const double limit = numbers.first_mode->value < inf ? 2.0 * std::numbers::pi * numbers.first_mode->value * numbers.peak_force->value : inf;
+        const auto stiffer = "a device whose first mode is " + atLeast (numbers.first_mode->value * role.fastest_force / std::max (limit, 1e-300), "Hz");
+        const bool is_contact = steepest() * role.speed >= 0.5 * role.fastest_force;   // a filter in its loop would make it swing
         decide (c, role.fastest_force, limit, Strict::no, 1.0,
-                "a filter.butterworth2 at " + text (numbers.first_mode->value, "Hz") + " before the motor, a softer onset, or a stiffer device");
+                is_contact ? "a softer contact, slower strokes, or " + stiffer
+                           : "a filter.butterworth2 at " + text (numbers.first_mode->value, "Hz") + " before the motor, a softer onset, or " + stiffer);
+    }
+
+    /// The largest stiffness along the motion, in N/m.
+    double steepest() const
+    {
+        double most = 0.0;
+        for (const auto& s : role.slopes)
+            most = std::max (most, s.stiffness);
+        return most;
     }
 
     void stretch (const Stretch& s)
@@ -259,9 +306,8 @@ private:
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double delta = numbers.quantum->value;
         decide (c, delta, limit, Strict::yes, Factors::better,
-                (has_teeth ? "teeth" : "a stretch") + std::string (" of at least ") + text (1e7 * delta, "um")
-                    + (has_teeth ? " (d_max times static_ratio - 1)" : "")
-                    + ", or a quantum of at most " + text (1e5 * limit, "um"));
+                (has_teeth ? "teeth " : "a stretch ") + above (1e7 * delta, "um") + (has_teeth ? " (d_max times static_ratio - 1)" : "")
+                    + ", or a quantum " + below (1e5 * limit, "um"));
     }
 
     /// The node computes the speed from the last positions, and the forces that change it within two ticks. A position that is wrong by
@@ -303,9 +349,10 @@ private:
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speedOf (t);
         auto& c = add (t.node, "scanning", "alpha k v T < 1", "1", wave (t) + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
         const double aim = wanted (alpha, k * v * period_s, 1.0);
-        decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha),
-                "strokes slower than " + text (1.0 / (aim * k * period_s), "m/s") + ", a rate above " + text (aim * k * v, "Hz")
-                    + ", or a texture.antialias");
+        std::vector<std::string> ways { "strokes " + slower (1.0 / (aim * k * period_s)) };
+        if (reaches (numbers, aim * k * v)) ways.push_back ("a rate " + above (aim * k * v, "Hz"));
+        ways.emplace_back ("a texture.antialias");
+        decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha), anyOf (ways));
     }
 
     void lowSpeed (const Texture& t)
@@ -328,10 +375,9 @@ private:
         decide (c, alpha * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (alpha), finerSensor (wanted (alpha, k * numbers.quantum->value, 1.0), k));
     }
 
-    static std::string finerSensor (double factor, double k)
-    {
-        return "a quantum below " + text (1e6 / (factor * k), "um") + ", or a coarser texture";
-    }
+    static std::string finerSensor (double factor, double k) { return "a quantum " + below (1e6 / (factor * k), "um") + ", or a coarser texture"; }
+
+    static std::string slower (double speed) { return "slower than " + text (threeDigits (speed, false), "m/s"); }
 
     void forceResolution (const Texture& t)
     {
@@ -341,8 +387,11 @@ private:
         const double b = numbers.force_quantum->value;
         c.text += ", b " + text (b, "N");
         decide (c, gamma * b, t.amplitude, Strict::yes, betterThan (gamma),
-                "an amplitude above " + text (gamma * b, "N") + ", or a force quantum below " + text (t.amplitude / gamma, "N"));
+                "a texture " + moreThan (gamma * b / t.amplitude) + " as strong, or a force quantum " + below (t.amplitude / gamma, "N"));
     }
+
+    /// A is what reaches the hand, which may be less than the amplitude that is set at the node. So a remedy is a factor.
+    static std::string moreThan (double factor) { return "more than " + text (threeDigits (factor, true), "times"); }
 
     /// The chapter bounds A k, "proportional to the slope". The slope itself is 2 pi A k, and the hold bounds it like any stiffness.
     void gain (const Texture& t)
@@ -351,9 +400,13 @@ private:
                        "A k " + text (t.amplitude * t.spatial_frequency, "N/m") + ", A " + text (t.amplitude, "N") + ", " + wave (t));
         if (! numbers.damping) return unknown (c, t.slope, "damping");
         const double limit = stiffestTexture();
-        decide (c, t.slope, limit, Strict::no, 1.0,
-                "an amplitude of at most " + text (t.amplitude * limit / t.slope, "N") + ", a rate of at least " + text (t.slope / limit / period_s, "Hz")
-                    + ", or a coarser texture");
+        const double rate = t.slope / limit / period_s, needed = t.slope / stiffestWall (1.0, period_s, delay());
+        std::vector<std::string> ways;
+        if (limit > 0.0) ways.push_back ("a texture " + atMost (limit / t.slope, "times") + " as strong");
+        if (limit > 0.0 && reaches (numbers, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
+        ways.push_back ("a device with a damping of " + atLeast (needed, "N*s/m"));
+        ways.emplace_back ("a coarser texture");
+        decide (c, t.slope, limit, Strict::no, 1.0, anyOf (ways));
     }
 
     void structure (const Texture& t)
@@ -363,8 +416,8 @@ private:
         if (! numbers.first_mode) return unknown (c, v * k, "first mode");
         const double limit = numbers.first_mode->value;
         decide (c, v * k, limit, Strict::yes, 1.0,
-                "strokes slower than " + text (limit / k, "m/s") + ", a texture.antialias with f_max " + text (limit, "Hz")
-                    + ", or a device whose first mode is above " + text (v * k, "Hz"));
+                "strokes " + slower (limit / k) + ", a texture.antialias with f_max " + text (threeDigits (limit, false), "Hz")
+                    + ", or a device whose first mode is " + above (v * k, "Hz"));
     }
 };
 }   // namespace

@@ -119,7 +119,7 @@ void judgeDeadbeat (const Demand& demand, const Deadbeat& node, const DeviceNumb
     if (! numbers.damping) return unknown (c, 0.0, "damping");
 
     c.text += "; M may be " + text (100.0 * wall.mayBeLess()) + " % smaller or " + text (100.0 * wall.mayBeMore()) + " % larger than assumed";
-    const auto softer = "a stiffness of at most " + text (wall.forgiving(), "N/m") + ", at which M may be off by " + text (100.0 * usual_error) + " %";
+    const auto softer = "a stiffness of " + atMost (wall.forgiving(), "N/m") + ", at which M may be off by " + text (100.0 * usual_error) + " %";
     if (! wall.isMassRight())
     {
         breaks (c, std::abs (wall.assumed - wall.mass), wall.mass * (wall.assumed > wall.mass ? wall.mayBeLess() : wall.mayBeMore()), "kg",
@@ -132,14 +132,14 @@ void judgeDeadbeat (const Demand& demand, const Deadbeat& node, const DeviceNumb
     c.text += ", delta " + text (1e6 * quantum, "um");
     constexpr double rounding = 1e-9;
     if (quantum > 0.0 && wall.stiffness > wall.stiffest() * (1.0 + rounding))
-        return breaks (c, wall.stiffness, wall.stiffest(), "N/m", "a stiffness of at most " + text (wall.stiffest(), "N/m"));
+        return breaks (c, wall.stiffness, wall.stiffest(), "N/m", "a stiffness of " + atMost (wall.stiffest(), "N/m"));
     if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
     const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
-    auto remedy = "a device with a dry friction of at least " + text (value, "N");
+    std::vector<std::string> ways;
     if (limit > 0.0)
-        remedy = "a quantum of at most " + text (1e6 * quantum * limit / value, "um") + ", a rate of at most "
-                 + text (std::sqrt (limit / value) / wall.period_s, "Hz") + ", or " + remedy;
-    decide (c, value, limit, Strict::no, 1.0, remedy);
+        ways = { "a quantum of " + atMost (1e6 * quantum * limit / value, "um"), "a rate of " + atMost (std::sqrt (limit / value) / wall.period_s, "Hz") };
+    ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
+    decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     if (c.verdict == Verdict::holds && std::min (wall.mayBeLess(), wall.mayBeMore()) < usual_error)
     {
         c.verdict = Verdict::close;

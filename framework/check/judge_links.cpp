@@ -44,6 +44,11 @@ private:
 
     Index size() const noexcept { return static_cast<Index> (3 * members.size()); }
     const std::string& nameOf (std::size_t member) const { return demand.roles[members[member]].role; }
+    bool canAllTick (double rate_hz) const
+    {
+        return std::ranges::all_of (numbers, [&] (const DeviceNumbers& n) { return reaches (n, rate_hz) && ! isSlow (demand, n); });
+    }
+
     bool know (DeviceNumbers::Number DeviceNumbers::*n) const
     {
         return std::ranges::all_of (numbers, [&] (const DeviceNumbers& d) { return (d.*n).has_value(); });
@@ -96,7 +101,7 @@ private:
         static constexpr double least = 1e-9;   // N s/m; used in place of a damping of 0
         const VectorXd over = perAxis ([] (const DeviceNumbers& n) { return 1.0 / std::sqrt (std::max (+least, n.damping->value)); });
         const VectorXd hold = perAxis ([&] (const DeviceNumbers& n) { return (0.5 + delayOf (n)) * periodOf (demand, n); });
-        double most = 0.0;
+        double most = 0.0, most_excess = 0.0;
         const Linked* at = nullptr;
         std::size_t member = 0;
         std::vector<double> loads;
@@ -108,7 +113,8 @@ private:
             Index worst = 0;
             const double held = parts.eigenvalues().cwiseAbs().maxCoeff (&worst);
             const auto scaled = [&] (const MatrixXd& m) { return norm (over.asDiagonal() * of (m) * over.asDiagonal()); };
-            const double load = held + scaled (place.late) + scaled (place.excess);
+            const double excess = scaled (place.excess), load = held + scaled (place.late) + excess;
+            most_excess = std::max (most_excess, excess);
             loads.push_back (load);
             if (at != nullptr && load <= most) continue;
             most = load;
@@ -117,8 +123,12 @@ private:
         }
         c.role = nameOf (member);
         c.text += " at " + text (at->t_s, "s");
-        auto remedy = "all stiffnesses and dampings " + text (1.0 / most) + " times as large, a rate " + text (most) + " times as high, or devices with "
-                      + text (most) + " times the damping";
+        std::vector<std::string> ways { "all stiffnesses and dampings " + text (threeDigits (1.0 / most, false), "times") + " as large" };
+        // A damper does not become weaker at a higher rate.
+        if (const double room = 1.0 - most_excess, times = (most - most_excess) / room; room > 0.0 && canAllTick (times * demand.rate_hz))
+            ways.push_back ("a rate " + text (threeDigits (times, true), "times") + " as high");
+        ways.push_back ("devices with " + text (threeDigits (most, true), "times") + " the damping");
+        auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, at->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, most, 1.0, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c, loads);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <type_traits>
@@ -26,6 +28,39 @@ inline std::string text (double v)
 
 inline std::string text (double v, std::string_view unit) { return text (v) + " " + std::string (unit); }
 
+inline constexpr double slope_error = 1e-5;   // relative error of a measured slope
+
+/// The nearest number of three digits that is not below v, or not above it, so that who follows the text has done enough. `slack`: relative.
+inline double threeDigits (double v, bool is_up, double slack = 0.0)
+{
+    char buffer[32];
+    std::snprintf (buffer, sizeof buffer, "%.2e", v);
+    const double nearest = std::strtod (buffer, nullptr);
+    const auto* exponent = std::strchr (buffer, 'e');
+    if (exponent == nullptr || (is_up ? nearest >= v * (1.0 - slack) : nearest <= v * (1.0 + slack))) return nearest;   // also for inf
+    double step = 0.01;
+    const int power = std::atoi (exponent + 1);
+    for (int i = 0; i < std::abs (power); ++i)
+        step *= power > 0 ? 10.0 : 0.1;
+    return is_up ? nearest + step : nearest - step;
+}
+
+inline std::string atLeast (double v, std::string_view unit) { return "at least " + text (threeDigits (v, true, 0.5 * slope_error), unit); }
+inline std::string atMost (double v, std::string_view unit) { return "at most " + text (threeDigits (v, false, 0.5 * slope_error), unit); }
+inline std::string above (double v, std::string_view unit) { return "above " + text (threeDigits (v, true), unit); }
+inline std::string below (double v, std::string_view unit) { return "below " + text (threeDigits (v, false), unit); }
+
+/// "a, b, or c". Each of them would help alone.
+inline std::string anyOf (const std::vector<std::string>& ways)
+{
+    std::string all;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+        all += (i == 0 ? "" : i + 1 < ways.size() ? ", "
+                                                  : ", or ")
+               + ways[i];
+    return all;
+}
+
 enum class Strict
 {
     no,
@@ -37,8 +72,7 @@ inline void decide (Condition& c, double value, double limit, Strict strict, dou
 {
     c.value = value;
     c.limit = limit;
-    constexpr double rounding = 1e-5;   // relative error of a measured slope
-    const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= (1.0 + rounding) * limit; };
+    const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= (1.0 + slope_error) * limit; };
     c.verdict = ! isWithin (value) ? Verdict::broken : isWithin (better * value) ? Verdict::holds
                                                                                  : Verdict::close;
     if (c.verdict == Verdict::broken || c.verdict == Verdict::close) c.remedy = remedy;
@@ -117,6 +151,9 @@ inline double periodOf (const Demand& demand, const DeviceNumbers& n) noexcept
     return std::max (own, 1.0 / demand.rate_hz);
 }
 
+/// True if the graph may tick that fast, and the device follows.
+inline bool reaches (const DeviceNumbers& n, double rate_hz) noexcept { return ! n.rate || ! (n.rate->value > 0.0) || n.rate->value >= rate_hz; }
+
 /// True if a device is slower than the graph: a force may then be held for several ticks, and the sampled loop is not known.
 inline bool isSlow (const Demand& demand, const DeviceNumbers& n) noexcept { return periodOf (demand, n) > (1.0 + 1e-9) / demand.rate_hz; }
 
@@ -129,6 +166,12 @@ inline std::string steepestNode (const Demand& demand, const std::vector<double>
     if (most == by_node.end() || ! (*most > 0.0)) return "";
     const auto& node = demand.nodes[static_cast<std::size_t> (most - by_node.begin())];
     return "'" + node.path + "' (" + node.type + ", " + text (*most, "N/m") + ")";
+}
+
+/// True if a node drags a tool along, as friction does. Its force is no spring for longer than its stretch.
+inline bool drags (const Demand& demand, std::size_t node)
+{
+    return std::ranges::any_of (demand.stretches, [node] (const Stretch& s) { return s.node == node; });
 }
 
 /// Sets the condition `deadbeat`.

@@ -45,7 +45,7 @@ std::string withUnit (double v)
 }
 }   // namespace
 
-std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s)
+std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s, bool drags)
 {
     if (measured.empty() || ! device.mass || ! device.damping) return std::nullopt;
     const auto response = shortened (measured);
@@ -73,8 +73,9 @@ std::optional<Change> strongestChange (std::span<const double> measured, const D
     }
     else
         attempt ("a virtual damping of " + withUnit (device.damping->value), contact.response (k, device.damping->value), device, period_s);
-    attempt ("twice the rate", contact.response (k, 2.0 * b), device, 0.5 * period_s);   // the same damper responds twice as strongly, for half as long
-    attempt ("a hold.predictive", predicted (response), device, period_s);
+    if (const double twice = 2.0 / period_s; ! device.rate || ! (device.rate->value > 0.0) || device.rate->value >= twice)
+        attempt ("twice the rate", contact.response (k, 2.0 * b), device, 0.5 * period_s);   // the same damper responds twice as strongly, for half as long
+    if (! drags) attempt ("a hold.predictive", predicted (response), device, period_s);
     if (device.delay && device.delay->value > 0.0)
     {
         changed.delay->value = 0.0;
