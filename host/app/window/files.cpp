@@ -194,7 +194,8 @@ void Files::saveAs (std::function<void()> then)
     std::error_code failed;
     if (now.empty()) fs::create_directories (folder, failed);
     const auto usual = now.empty() ? fs::path ("untitled.json") : now.filename();
-    const auto begin = folder / (called.empty() ? usual : fs::path (called + ".json"));
+    const bool has_its_name = ! now.empty() && stemFor (now.stem().string()) == called;   // "my board.json" of My board
+    const auto begin = folder / (called.empty() || has_its_name ? usual : fs::path (called + ".json"));
     callbacks.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen) {
         auto file = chosen;
         if (file.extension() != ".json") file += ".json";

@@ -176,6 +176,7 @@ private:
     void attendLiveNodes();
     void showProblems();
     bool hasBoundRole() const;   ///< true if the session binds a role of the graph
+    void attendNewFolder();
     bool isAnythingOpen() const;
     bool escStops();
     void escape (const juce::KeyPress&);
@@ -273,6 +274,7 @@ private:
     std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
+    juce::Component::SafePointer<juce::Component> begun;     // the dialog for a new folder, once its name has the keyboard
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     bool holds_clutch = false, clutch_ends = false;          // the key of the clutch is down; some key has come up since it was pressed
     Messages missing;                                        // what the graph needs before it can be felt

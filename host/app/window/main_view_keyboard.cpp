@@ -24,6 +24,7 @@ juce::Component& MainView::keyboardHome()
 /// The keyboard is never lost: after a menu, a dialog, a field or a start, JUCE leaves it with nothing, or with a part of the window that has no keys.
 void MainView::keepKeyboard()
 {
+    attendNewFolder();
     const auto* peer = getPeer();
     if (peer == nullptr || ! peer->isFocused()) return;
     if (auto* modal = juce::Component::getCurrentlyModalComponent())
@@ -39,6 +40,19 @@ void MainView::keepKeyboard()
     const auto* now = juce::Component::getCurrentlyFocusedComponent();
     const bool is_kept = is_over ? home.hasKeyboardFocus (true) : now != nullptr && isParentOf (now) && now->isShowing();
     if (! is_kept && now != &home) takeFocus (home);
+}
+
+/// JUCE asks for the name of a new folder in a window of its own, and gives the keyboard to its button.
+void MainView::attendNewFolder()
+{
+    auto* asks = dynamic_cast<juce::AlertWindow*> (juce::Component::getCurrentlyModalComponent());
+    if (asks == nullptr || asks == begun.getComponent()) return;
+    auto* name = nameField (*asks);
+    if (name == nullptr) return;
+    if (name->hasKeyboardFocus (false))
+        begun = asks;
+    else
+        takeFocus (*name);
 }
 
 void MainView::nextPanel (int step)

@@ -55,6 +55,14 @@ TEST_CASE ("Ctrl+S, a name and Return save, and the graph, the header and the ti
         CHECK (title == "My board (my board.json)");
         CHECK (isSeen (w, "my board.json"));
 
+        SECTION ("the name of its file is proposed while it is that of the graph")
+        {
+            w.key ("ctrl + shift + s");
+            REQUIRE (isDialogOpen());
+            CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "my board.json");
+            w.key ("escape");
+            CHECK (waitFor ([] { return ! isDialogOpen(); }));
+        }
         SECTION ("a new name of the graph is proposed as the name of a new file, and Esc closes the dialog")
         {
             w.view->document().perform (graph::SetHeader { .name = "Old oak" });
@@ -115,6 +123,28 @@ TEST_CASE ("a file is replaced only after a question of the window, which offers
         w.key ("return");
         CHECK (waitFor ([&] { return mine.textOf ("old.json") != "old"; }));
         CHECK (w.view->document().file() == mine / "old.json");
+    }
+    unsetenv ("TACTUS_GRAPHS");
+}
+
+TEST_CASE ("a new folder of the dialog for files has the name that is typed at once", "[app][files]")
+{
+    const TemporaryFolder mine;
+    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    {
+        WindowRig w ("dry_wood.json");
+        w.key ("ctrl + shift + s");
+        REQUIRE (isDialogOpen());
+        auto* dialog = juce::Component::getCurrentlyModalComponent();
+        w.click ("New Folder");
+        REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() != dialog; }));
+        CHECK (waitFor ([] { return dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr; }));
+        w.stage->type ("oak");
+        w.key ("return");
+        CHECK (waitFor ([&] { return std::filesystem::is_directory (mine / "oak"); }));
+        REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() == dialog; }));
+        w.key ("escape");
+        CHECK (waitFor ([] { return ! isDialogOpen(); }));
     }
     unsetenv ("TACTUS_GRAPHS");
 }
