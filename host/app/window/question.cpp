@@ -9,6 +9,12 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// Commands stand in backticks, as in the docs. A question has one font.
+juce::String inQuotes (const juce::String& text) { return text.replaceCharacter ('`', '\''); }
+}   // namespace
+
 Question::Question()
 {
     setVisible (false);
@@ -23,10 +29,10 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
         return;
     }
     heading = title;
-    body = text;
+    body = inQuotes (text);
     choices = std::move (all);
     setTitle (title);
-    setDescription (text);
+    setDescription (body);
     buttons.clear();
     for (std::size_t i = 0; i < choices.size(); ++i)
     {
@@ -44,9 +50,10 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
 
 void Question::say (const juce::String& text)
 {
-    if (text == body) return;
-    body = text;
-    setDescription (text);
+    const auto now = inQuotes (text);
+    if (now == body) return;
+    body = now;
+    setDescription (body);
     resized();
     repaint();
 }

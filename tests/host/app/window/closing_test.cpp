@@ -200,6 +200,7 @@ TEST_CASE ("closing asks about a take of which nothing was made, and saves it so
     c.close();
     REQUIRE (c.question().isOpen());
     CHECK (c.question().title().startsWith ("Save the take"));
+    CHECK (c.question().getDescription().contains ("'tactus capture'"));
     SECTION ("Cancel")
     {
         c.w.key ("escape");
