@@ -11,6 +11,16 @@
 namespace tactus::host
 {
 
+namespace
+{
+std::filesystem::file_time_type timeOf (const std::filesystem::path& file)
+{
+    std::error_code failed;
+    const auto time = std::filesystem::last_write_time (file, failed);
+    return failed ? std::filesystem::file_time_type {} : time;
+}
+}   // namespace
+
 PictureStore::PictureStore (const Catalogue& c) : Thread ("force pictures"), catalogue (c) {}
 
 PictureStore::~PictureStore()
@@ -27,16 +37,22 @@ void PictureStore::use (const Catalogue& c)
 
 std::shared_ptr<const ForcePicture> PictureStore::get (const std::filesystem::path& file)
 {
+    std::shared_ptr<const ForcePicture> earlier;
     {
+        const auto written = timeOf (file);
         const std::scoped_lock guard (lock);
-        if (const auto found = pictures.find (file); found != pictures.end()) return found->second;
-        if (! wanted.empty() && wanted.front() == file) return nullptr;
+        if (const auto found = pictures.find (file); found != pictures.end())
+        {
+            if (found->second.written == written) return found->second.picture;
+            earlier = found->second.picture;
+        }
+        if (! wanted.empty() && wanted.front() == file) return earlier;
         std::erase (wanted, file);
         wanted.push_front (file);
     }
     if (! isThreadRunning()) startThread (Priority::low);
     notify();
-    return nullptr;
+    return earlier;
 }
 
 void PictureStore::run()
@@ -55,13 +71,14 @@ void PictureStore::run()
             wait (-1);
             continue;
         }
+        const auto written = timeOf (file);
         auto picture = std::make_shared<ForcePicture>();
         if (auto drawn = caught (file.string(), [&] { return pictureOf (file, types, cancelled); }))
             *picture = std::move (*drawn);
         else
             picture->problem = drawn.error().text;
         const std::scoped_lock guard (lock);
-        pictures[file] = std::move (picture);
+        pictures[file] = { std::move (picture), written };
         std::erase (wanted, file);
         ++finished;
     }

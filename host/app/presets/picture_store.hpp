@@ -20,7 +20,8 @@ public:
     explicit PictureStore (const Catalogue&);
     ~PictureStore() override;
 
-    /// Returns null until the picture is done, and queues it ahead of earlier requests.
+    /// Returns null until the picture is done, and queues it ahead of earlier requests. If the file has been written since, returns the earlier picture
+    /// until the new one is done.
     std::shared_ptr<const ForcePicture> get (const std::filesystem::path&);
 
     /// The node types for pictures that are computed from now on.
@@ -32,9 +33,15 @@ public:
 private:
     void run() override;
 
+    struct Drawn
+    {
+        std::shared_ptr<const ForcePicture> picture {};
+        std::filesystem::file_time_type written {};   // the file, before it was read
+    };
+
     std::mutex lock;       // guards `catalogue`, `pictures` and `wanted`
     Catalogue catalogue;   // a copy: live C++ changes the original while the thread draws
-    std::map<std::filesystem::path, std::shared_ptr<const ForcePicture>> pictures;
+    std::map<std::filesystem::path, Drawn> pictures;
     std::deque<std::filesystem::path> wanted;
     std::atomic<bool> cancelled { false };
     std::atomic<int> finished { 0 };

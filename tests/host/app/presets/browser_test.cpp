@@ -3,7 +3,9 @@
 #include "support/temporary_folder.hpp"
 
 #include <host/app/presets/browser.hpp>
+#include <tactus/file/graph_file.hpp>
 
+#include <chrono>
 #include <cstdlib>
 
 using namespace tactus;
@@ -46,4 +48,34 @@ TEST_CASE ("the description of a preset has two lines below the list, or is a to
         }
     }
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
+
+TEST_CASE ("the picture of a preset is drawn again after its file has been written", "[app][presets]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "board.json";
+    std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
+    PictureStore pictures (catalogue());
+    const auto drawn = [&] (int times) {
+        auto picture = pictures.get (file);
+        for (int i = 0; i < 6000 && pictures.done() < times; ++i)
+            juce::Thread::sleep (10);
+        REQUIRE (pictures.done() == times);
+        picture = pictures.get (file);
+        REQUIRE (picture);
+        return picture;
+    };
+    const auto first = drawn (1);
+    CHECK (first->problem.empty());
+    CHECK (drawn (1) == first);   // the file is the same
+
+    auto graph = loadGraph (file).graph;
+    for (auto& node : graph.root.nodes)
+        if (node.name == "board") node.params["stiffness"] = 500.0;
+    REQUIRE (saveGraph (graph, file));
+    std::filesystem::last_write_time (file, std::filesystem::last_write_time (file) + std::chrono::seconds (2));   // whatever the clock of the disk
+    CHECK (pictures.get (file) == first);                                                                          // until the new one is done
+    const auto second = drawn (2);
+    CHECK (second != first);
+    CHECK (second->peak < 0.9 * first->peak);
 }
