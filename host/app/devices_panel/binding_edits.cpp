@@ -31,6 +31,7 @@ void DevicesPanel::bind (const std::string& role, const std::string& label)
         if (safe != nullptr) *other = safe->putDevice (role, *other);
     };
     document.addWindowStep (filled (TRANS ("device of %1"), role).toStdString(), exchange, exchange);
+    if (onBind) onBind (role);
 }
 
 /// Gives a role an earlier device; null: that of the graph. Returns the binding before. Its guard stays, unless one of the two is of another kind.

@@ -25,6 +25,7 @@ public:
 
     std::function<void (const juce::String&)> onHint;
     std::function<Result<> (const std::string& role)> onTry;   ///< plays a gentle pulse on the device of a role
+    std::function<void (const std::string& role)> onBind;      ///< the user has chosen another device for a role
     void tryDevice (const std::string& role);
 
     void listSoundCards();   ///< looks for the sound cards of this computer

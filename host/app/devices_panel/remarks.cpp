@@ -36,6 +36,13 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
             addLine (filled (TRANS ("Only simulated: Tactus has no driver for %1, but knows its numbers."), profile->name));
             if (const auto guesses = guessesOf (hid::numbersOf (*profile)); ! guesses.empty()) addLine (filled (TRANS ("Guessed: %1."), guesses));
         }
+    if (run.isMovedOtherwise (role))
+    {
+        addLine (run.hand() == LiveRun::Hand::pointer() ? TRANS ("Not in use: the mouse or pen moves this tool.")
+                                                        : TRANS ("Not in use: a gesture or a recording moves this tool."));
+        addLine (TRANS ("To use this device, choose one here, or Its own device in the panel Hand."));
+        return r;
+    }
     if (fit->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), fromUtf8 (nameOf (fit->description))));
     if (fit->from == RoleFit::From::none) addLine (TRANS ("No device is set. A simulated tool at rest is used."));
     return r;

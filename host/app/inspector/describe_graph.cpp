@@ -7,6 +7,7 @@
 #include <tactus/graph/endpoint_text.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -22,7 +23,8 @@ public:
 
     void refresh (const graph::Node*) override
     {
-        shown = get();
+        const auto before = std::exchange (shown, get()).text;
+        if (shown.text != before && getWidth() > 0 && heightFor (getWidth()) != getHeight() && onHeight) onHeight();
         repaint();
     }
 

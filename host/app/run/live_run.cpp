@@ -81,6 +81,12 @@ void LiveRun::moveBy (Hand who)
     restart();
 }
 
+void LiveRun::useDevice()
+{
+    moved_by = {};
+    if (wanted) restart();
+}
+
 void LiveRun::moveTool (std::string role)
 {
     chosen_role = std::move (role);

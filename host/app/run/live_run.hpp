@@ -73,6 +73,7 @@ public:
     void start (Hand);
     void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
     void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
+    void useDevice();         ///< the tool's own device moves it; starts nothing that does not run
 
     /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.
     void moveTool (std::string role);
@@ -102,6 +103,9 @@ public:
     bool isRunning() const noexcept { return session && session->isRunning(); }
     bool isWanted() const noexcept { return wanted; }   ///< started and not stopped since; it may still fail to compile
     const Hand& hand() const noexcept { return moved_by; }
+
+    /// True if the mouse, or a path that the user has chosen, moves the tool of the role.
+    bool isMovedOtherwise (const std::string& role) const;
 
     /// The gesture or recording that the hand's role follows; null if there is none that can be paused.
     const std::shared_ptr<TransportPath>& transport() const noexcept { return transported; }
@@ -238,7 +242,6 @@ private:
     void beginSound();
     void beginLog();
     void endLog();
-    bool isMovedOtherwise (const std::string& role) const;
     bool isBound (const std::string& role) const;
     WorkspaceDevice* workspaceDevice (const std::string& role) const;
     bool moveWorkspaces (const DeviceSession& now);

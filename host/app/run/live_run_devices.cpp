@@ -76,7 +76,6 @@ bool LiveRun::isSoundCard (const std::string& role) const
     return description != nullptr && audio::isAudio (*description);
 }
 
-/// True if the mouse, or a path that the user has chosen, moves the tool.
 bool LiveRun::isMovedOtherwise (const std::string& role) const { return role == hand_role && moved_by.kind != Hand::Kind::described; }
 
 /// True if a role is bound to a driver of a plugin and got no device. Such a device cannot be waited for, unlike a HID device with a profile: its parts

@@ -34,6 +34,12 @@ void Playback::moveBy (LiveRun::Hand hand)
     live_run.moveBy (std::move (hand));
 }
 
+void Playback::useDevice()
+{
+    before_run();
+    live_run.useDevice();
+}
+
 void Playback::moveTool (std::string role)
 {
     before_run();

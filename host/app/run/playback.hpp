@@ -18,9 +18,10 @@ public:
     LiveRun& run() noexcept { return live_run; }   ///< the run of the document, even during a preview
     LiveRun& current() noexcept { return preview_run ? *preview_run : live_run; }
 
-    void start (LiveRun::Hand);   ///< this and the next four: see LiveRun
+    void start (LiveRun::Hand);   ///< this and the next five: see LiveRun
     void startOther (LiveRun::Hand);
     void moveBy (LiveRun::Hand);
+    void useDevice();
     void moveTool (std::string role);
     void startAgain();
     void restart() { start (live_run.hand()); }

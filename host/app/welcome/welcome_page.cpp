@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -160,11 +161,19 @@ void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<st
     repaint();
 }
 
-void WelcomePage::refresh()
+void WelcomePage::refresh (bool has_device)
 {
-    if (pictures_done == pictures.done()) return;
-    pictures_done = pictures.done();
+    const int done = pictures.done();
+    if (std::exchange (pictures_done, done) == done && is_by_device == has_device) return;
+    is_by_device = has_device;
     repaint();
+}
+
+juce::String WelcomePage::invitation() const
+{
+    if (all.empty()) return TRANS ("No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph.");
+    if (! is_by_device) return TRANS ("Click a preset to run it with the mouse as your hand: press on its surface and drag.");
+    return TRANS ("Click a preset to run it. Its tool is moved by the device that you chose for it, or by the mouse: press on its surface and drag.");
 }
 
 void WelcomePage::resized()
@@ -234,9 +243,7 @@ void WelcomePage::paint (juce::Graphics& g)
     g.drawText (TRANS ("Feel something"), lines.removeFromTop (28), juce::Justification::centredLeft, false);
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
-    g.drawText (all.empty() ? TRANS ("No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph.")
-                            : TRANS ("Click a preset to run it with the mouse as your hand: press on its surface and drag."),
-                lines.removeFromTop (20), juce::Justification::centredLeft, true);
+    g.drawText (invitation(), lines.removeFromTop (20), juce::Justification::centredLeft, true);
     if (recent_title.isEmpty()) return;
     g.drawText (TRANS ("Recent"), recent_title, juce::Justification::centredLeft, false);
 }

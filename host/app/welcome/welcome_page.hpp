@@ -20,7 +20,7 @@ public:
 
     /// Shows a few of the presets as cards, and the recent files.
     void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent, bool offers_tour = false);
-    void refresh();   ///< call many times a second
+    void refresh (bool has_device);   ///< call many times a second; true if a device of the user moves tools
 
     /// A preset is chosen: by the mouse, which is then the hand, or by a key.
     std::function<void (const std::filesystem::path&, bool by_pointer)> onFeel;
@@ -34,11 +34,14 @@ public:
     bool keyPressed (const juce::KeyPress&) override;
 
 private:
+    juce::String invitation() const;
+
     class Card;
     class RecentFile;
 
     PictureStore& pictures;
     int pictures_done = 0;
+    bool is_by_device = false;
     std::vector<Preset> chosen;
     std::vector<std::unique_ptr<Card>> all;
     std::vector<std::unique_ptr<RecentFile>> files;

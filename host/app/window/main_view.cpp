@@ -236,7 +236,7 @@ void MainView::timerCallback()
     showProblems();
     files.poll();
     presets.refresh();
-    if (welcome.isVisible()) welcome.refresh();
+    if (welcome.isVisible()) welcome.refresh (std::ranges::any_of (device_setup.session().session.roles(), [this] (const auto& r) { return bindsTool (r); }));
     fitting.poll();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
         if (const auto saved = saveSettings (settings, home); ! saved)

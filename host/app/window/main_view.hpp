@@ -175,7 +175,8 @@ private:
     void openOscPort (const OscListen&);
     void attendLiveNodes();
     void showProblems();
-    bool hasBoundRole() const;   ///< true if the session binds a role of the graph
+    bool hasBoundRole() const;   ///< true if the session binds a role of the graph to a device that moves a tool
+    bool bindsTool (const std::string& role) const;
     void attendNewFolder();
     bool isAnythingOpen() const;
     bool escStops();

@@ -8,6 +8,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/sessions/audio_settings.hpp>
 
 #include <algorithm>
 
@@ -26,8 +27,14 @@ bool hasTool (const graph::Graph& g)
 
 bool MainView::hasBoundRole() const
 {
-    const auto& session = device_setup.session().session;
-    return std::ranges::any_of (rolesNamed (edited.graph()), [&] (const std::string& role) { return session.binding (role) != nullptr; });
+    return std::ranges::any_of (rolesNamed (edited.graph()), [this] (const std::string& role) { return bindsTool (role); });
+}
+
+/// A sound card moves no tool.
+bool MainView::bindsTool (const std::string& role) const
+{
+    const auto* bound = device_setup.session().session.binding (role);
+    return bound != nullptr && ! audio::isAudio (*bound);
 }
 
 /// The mouse or the gesture that the user has chosen goes on to the next graph. A device does only if the session binds it to a role of that name.
@@ -123,6 +130,8 @@ void MainView::feel (const std::filesystem::path& preset, bool by_pointer)
     turnTo (hand);
     if (files.isSafe())
         status.notify (TRANS ("Safe mode: press START or F5, then press and drag on the surface of the hand."));
+    else if (hasBoundRole() && hand.chosen().kind == LiveRun::Hand::Kind::described)
+        status.notify (TRANS ("The device chosen in the Devices panel moves the tool. Press and drag on the surface of the hand, and the mouse does."));
     else
         status.notify (by_pointer ? TRANS ("Press and drag on the surface of the hand: the mouse is your hand.")
                                   : TRANS ("The hand moves by itself. Press and drag on its surface, and the mouse is your hand."));

@@ -146,6 +146,7 @@ public:
         for (std::size_t i = 0; i < choices.size(); ++i)
             box.addItem (choices[i], static_cast<int> (i) + 1);
         box.onChange = [this, set = std::move (set)] {
+            shown.reset();
             if (const int i = box.getSelectedId(); i > 0) set (choices[static_cast<std::size_t> (i - 1)]);
         };
         addAndMakeVisible (box);
@@ -155,6 +156,8 @@ public:
     void refresh (const graph::Node*) override
     {
         const auto now = get();
+        if (shown == now) return;   // what the user has just chosen arrives later
+        shown = now;
         const auto at = std::ranges::find (choices, now);
         if (at == choices.end())
             box.setText (now, juce::dontSendNotification);
@@ -167,6 +170,7 @@ public:
 private:
     std::vector<std::string> choices;
     std::function<std::string()> get;
+    std::optional<std::string> shown;   // by refresh(); empty after the user has chosen
     juce::ComboBox box;
 };
 

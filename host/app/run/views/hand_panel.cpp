@@ -79,14 +79,14 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     setOpaque (true);
     setTitle (TRANS ("Hand"));
     source.setTitle (TRANS ("What moves the tool"));
-    source.addItem (TRANS ("Device of the graph"), as_described);
+    source.addItem (TRANS ("Its own device"), as_described);
     source.addItem (TRANS ("Mouse or pen"), by_pointer);
     source.addSeparator();
     int id = first_gesture;
     for (const auto& gesture : gestures())
         source.addItem (filled (TRANS ("Gesture: %1"), gesture.id), id++);
     source.setSelectedId (as_described, juce::dontSendNotification);
-    source.setTooltip (TRANS ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
+    source.setTooltip (TRANS ("What moves the tool. Its own device is the one chosen in the Devices panel, or else the one described in the graph. "
                               "Drop a recording (CSV with t,x,y,z) here to play it."));
     source.onChange = [this] { choose(); };
     tools.setTitle (TRANS ("Which tool the hand moves"));
@@ -192,11 +192,18 @@ void HandPanel::enlarge (bool large)
 void HandPanel::choose()
 {
     const int id = source.getSelectedId();
+    shown_source = 0;
     if (id == 0 || id == by_recording) return;   // as it is
     chosen_hand = {};
     if (id == by_pointer) chosen_hand = LiveRun::Hand::pointer();
     if (id >= first_gesture) chosen_hand = { LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (id - first_gesture)].id) };
     playback.moveBy (chosen_hand);
+}
+
+void HandPanel::useDevice()
+{
+    chosen_hand = {};
+    playback.useDevice();
 }
 
 void HandPanel::refresh()
@@ -231,7 +238,7 @@ void HandPanel::showSource (const LiveRun::Hand& hand)
         const auto name = filled (TRANS ("Recording: %1"), fromUtf8 (std::filesystem::path (hand.path).filename().string()));
         source.indexOfItemId (by_recording) < 0 ? source.addItem (name, by_recording) : source.changeItemText (by_recording, name);
     }
-    if (source.getSelectedId() != id) source.setSelectedId (id, juce::dontSendNotification);
+    if (std::exchange (shown_source, id) != id) source.setSelectedId (id, juce::dontSendNotification);   // what the user has just chosen arrives later
 }
 
 /// The list of tools is there only if there is a choice.

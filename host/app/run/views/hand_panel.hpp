@@ -21,6 +21,8 @@ public:
     /// What the user has chosen in the list to move the tool, whatever moves it now. It is meant for other graphs, too, unless it is their own device.
     const LiveRun::Hand& chosen() const noexcept { return chosen_hand; }
 
+    void useDevice();   ///< from now on, the tool is moved by its own device
+
     HandView& view() noexcept { return surface; }
     SceneView& scene() noexcept { return space; }
     FilmButton& film() noexcept { return film_button; }
@@ -73,6 +75,7 @@ private:
     LiveRun::Hand chosen_hand;
     std::vector<std::string> tool_roles;   // those in the list of tools
     std::string shown_tool;                // the one that is selected in it
+    int shown_source = 0;                  // that the list showed as what moves the tool; 0 after the user has chosen
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
     std::shared_ptr<TransportPath> transport;   // as of the last refresh(); its run may have ended since then

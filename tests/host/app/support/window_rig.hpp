@@ -28,9 +28,11 @@ struct WindowRig
     std::unique_ptr<MainView> view;
     int clicks = 0;
 
-    /// Opens a preset, or the graph at an absolute path. Without: the welcome page. In safe mode, nothing runs until START.
-    explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720, bool safe = true)
+    /// Opens a preset, or the graph at an absolute path. Without: the welcome page. In safe mode, nothing runs until START. `session`: the devices of the
+    /// user, as in the file.
+    explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720, bool safe = true, const std::string& session = {})
     {
+        if (! session.empty()) home.write ("session.json", session);
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
         stage = std::make_unique<Stage> (width, height);

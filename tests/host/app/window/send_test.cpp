@@ -157,7 +157,7 @@ TEST_CASE ("the mouse or the gesture that the user has chosen moves the next pre
     CHECK (run.hand() == LiveRun::Hand { LiveRun::Hand::Kind::path, std::string (gestures()[0].id) });
 
     choose ("cursor up", "Mouse or pen");
-    choose ("cursor up", "Device of the graph");
+    choose ("cursor up", "Its own device");
     open ("Soft pad");
     CHECK (run.hand() == LiveRun::Hand {});
     CHECK (followsMouse (w));   // a press takes the tool for this graph only
