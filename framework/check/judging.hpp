@@ -39,8 +39,8 @@ inline double threeDigits (double v, bool is_up, double slack = 0.0)
     const auto* exponent = std::strchr (buffer, 'e');
     if (exponent == nullptr || (is_up ? nearest >= v * (1.0 - slack) : nearest <= v * (1.0 + slack))) return nearest;   // also for inf
     double step = 0.01;
-    const int power = std::atoi (exponent + 1);
-    for (int i = 0; i < std::abs (power); ++i)
+    const auto power = std::strtol (exponent + 1, nullptr, 10);
+    for (long i = 0; i < std::abs (power); ++i)
         step *= power > 0 ? 10.0 : 0.1;
     return is_up ? nearest + step : nearest - step;
 }

@@ -112,7 +112,7 @@ void runFit (FitKind kind, FitCommandOptions options)
 }   // namespace
 
 void FitCommand::addAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                            std::function<void (FitSettings&, double)> take) const
+                            const std::function<void (FitSettings&, double)>& take) const
 {
     command.addOption (
         option,
@@ -121,7 +121,7 @@ void FitCommand::addAmount (const std::string& option, const char* si_unit, cons
 }
 
 void FitCommand::addSignedAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                                  std::function<void (FitSettings&, double)> take) const
+                                  const std::function<void (FitSettings&, double)>& take) const
 {
     command.addOption (
         option,

@@ -29,11 +29,11 @@ struct FitCommand
 
     /// An option with a unit, such as --load "2 N". `take` receives the value in SI.
     void addAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                    std::function<void (FitSettings&, double)> take) const;
+                    const std::function<void (FitSettings&, double)>& take) const;
 
     /// The same for a place or a time, which may be 0 or negative.
     void addSignedAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                          std::function<void (FitSettings&, double)> take) const;
+                          const std::function<void (FitSettings&, double)>& take) const;
 };
 
 /// Adds a command with the recording, --out, --plot, --json, --column and --unit, which fits and reports.
