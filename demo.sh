@@ -15,7 +15,7 @@ esac
 
 install_packages
 if [ -z "$offline" ] && [ -n "${DISPLAY:-}" ]; then
-    build release tactus-host
+    build release tactus-host tactus
     say "Opening the host. To render files instead: ./demo.sh --offline"
     exec build/release/bin/tactus-host
 fi

@@ -470,6 +470,7 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading, bool i
 [[gnu::noinline]] void Guard::note (Stop why, const Effort& wanted, const Reading& reading) noexcept
 {
     event = describeNow (why, wanted, reading);
+    event.at_start = ! has_begun;
     ++change_count;
 }
 
@@ -509,6 +510,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     else if (cause == Stop::stale && event.why == Stop::stale && reading.fault != ReadingFault::none && reading.fault != event.fault && ! isFrozen())
         note (cause, wanted, reading);   // the same stop with another reason, such as a silent board that is now too hot
     reason = cause;
+    has_begun |= reason == Stop::none;
     if (reason != Stop::none) saved = 0.0;   // time that was left during a stop does not make the force rise faster after it
 
     withheld = std::max (0.0, withheld - step_s / fade_s);

@@ -161,6 +161,7 @@ public:
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0; if one coordinate is frozen, its number, and if all are, -1
         std::uint32_t valid = 1;           ///< 1 if the reading was valid
         ReadingFault fault {};             ///< what is wrong with the reading, if known; if it is `frozen`, `wanted` is the force or torque on the tool
+        bool at_start = false;             ///< no effort had been let through since prepare(): nothing was taken from the hand
     };
 
     /// The layout says which axes the efforts push. [main thread]
@@ -194,6 +195,9 @@ public:
     /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad but the reason
     /// changes to another known one, the values on the tick of that change. `why` is none if there has been no stop since prepare().
     const Event& latest() const noexcept { return event; }
+
+    /// True once an effort has been let through since prepare(). [any thread that owns the guard]
+    bool hasBegun() const noexcept { return has_begun; }
 
     /// How many stops there have been since prepare().
     std::uint64_t events() const noexcept { return count; }
@@ -253,7 +257,8 @@ private:
     double seen = 0.0;   // the value that caused the latched stop
     Event::Part seen_part = Event::Part::none;
     int seen_channel = 0;
-    bool is_news = false;   // the latched stop has not been reported yet
+    bool is_news = false;     // the latched stop has not been reported yet
+    bool has_begun = false;   // an effort has been let through since prepare()
     Event event;
     std::uint64_t count = 0, change_count = 0;   // of stops; of changes of `event`
     bool asked_to_halt = false;

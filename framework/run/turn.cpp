@@ -30,10 +30,12 @@ Result<double> read (const Json& value, const PortSheet& sheet, const std::strin
     if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text,
                                          "give a plain number in SI units, or text with a unit such as \"2 N/mm\"");
     const auto& n = *number;
+    const std::string unit (sheet.unit.unit.symbol);
+    const bool has_unit = ! unit.empty() && unit != "1";
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && (*n.dimension != sheet.unit.unit.dimension || plan::miscounts (n, sheet.unit)))
         return Message::error ("param/unit", {},
-                               quote (name) + " is in " + std::string (sheet.unit.unit.symbol) + ", but the unit of " + plan::shown (value) + " is different",
-                               "give it in " + std::string (sheet.unit.unit.symbol));
+                               quote (name) + (has_unit ? " is in " + unit : " has no unit") + ", but " + plan::shown (value) + " is in another unit",
+                               has_unit ? "give it in " + unit : "give a number without a unit");
     if (! sheet.limits.hard.contains (n.value))
         return Message::error ("param/out_of_range", {}, quote (name) + " cannot be " + plan::shown (value),
                                "it must be " + plan::rangeText (sheet.limits.hard));

@@ -262,12 +262,17 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
     return all;
 }
 
+/// Each run begins with a stop if its device has not answered yet. That is no news, unless the force never began.
 void CommandRun::reportRun() const
 {
     constexpr Guard::Stop no_limits[] { Guard::Stop::none, Guard::Stop::halted, Guard::Stop::released };
     for (const auto& [role, d] : run().devices())
-        if (const auto& event = run().engine().guardOf (role).latest(); std::ranges::count (no_limits, event.why) == 0)
-            std::cerr << printableName (role) << ": warning: the guard withheld the force: " << describe (event) << '\n';
+    {
+        const auto& guard = run().engine().guardOf (role);
+        const auto& event = guard.latest();
+        if (std::ranges::count (no_limits, event.why) > 0 || (event.at_start && guard.hasBegun())) continue;
+        std::cerr << printableName (role) << ": warning: the guard withheld the force: " << describe (event) << '\n';
+    }
     const auto late = run().lateTicks();
     if (late == 0) return;
     std::cerr << "warning: an async query (a search on a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");

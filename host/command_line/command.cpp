@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace tactus::host
 {
@@ -48,8 +49,14 @@ std::string usageMessage (const CLI::App* app, const CLI::Error& error)
 {
     std::string what = error.what();
     const std::string help = CLI::FailureMessage::simple (app, error).substr (what.size());   // how to ask for help
-    if (const auto unknown = app->remaining(); app->get_subcommands().empty() && ! unknown.empty() && error.get_name() == "RequiredError")
-        what = "There is no command " + quote (unknown.front());
+    if (error.get_name() == "RequiredError")
+    {
+        auto* within = app;
+        while (! within->get_subcommands().empty())
+            within = within->get_subcommands().front();
+        if (const auto unknown = within->remaining(); ! unknown.empty() && ! within->get_subcommands ({}).empty())
+            what = "There is no command " + quote (within == app ? unknown.front() : within->get_name() + " " + unknown.front());
+    }
     what += suggestionFor (*app);
     std::string shown;
     for (const char c : printable (what))
@@ -88,7 +95,8 @@ Check finiteWithin (double min, double max)
     return { [=] (const std::string& text) {
                 const auto value = wholeNumber (text);
                 const bool fits = value && *value >= min && *value <= max;
-                return fits ? std::string() : "'" + text + "' is not a number " + range;
+                const bool has_unit = text.find_first_of ("0123456789") == 0 && std::isalpha (static_cast<unsigned char> (text.back()));
+                return fits ? std::string() : "'" + text + "' is not a number " + range + (has_unit ? "; write it without a unit" : "");
             },
              range };
 }

@@ -204,7 +204,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         if (wanted.meansPid()) what = "no device with force feedback is connected";
         const auto there = connected.empty() ? "no HID device is connected" : "connected: " + namesOf (connected);
         return refuse ("hid/not_connected", what + (wanted.serial.empty() ? "" : " with serial number " + wanted.serial),
-                       "plug it in; " + there + " (see `tactus devices`)");
+                       "plug it in; " + there + " (see `tactus devices`). A board on a serial line is named with its port: serial:PROFILE@/dev/ttyACM0");
     }
 
     // One device may appear several times, with interfaces that fit more or less well. Equal serial numbers mean one device.

@@ -326,8 +326,9 @@ Message notOpened (const ConnectedDevice& device, std::string why)
 
 Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
-    auto alone = FileLock::takeExisting (device.path);
     std::error_code unseen;
+    if (std::filesystem::is_directory (device.path, unseen)) return notOpened (device, "it is a folder, not a serial line");
+    auto alone = FileLock::takeExisting (device.path);
     if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
         return notOpened (device, "another role or another instance of Tactus is using it");
     auto line = WireFile::openSerial (device.path, profile.wires.serial->baud);

@@ -220,10 +220,11 @@ private:
         const int v = variable (a.to);
         if (! dimensions.state (v, *number->dimension))
         {
+            const auto unit = symbolOf (*dimensions.dimension (v));
             flat.error ("param/unit", a.origin,
-                        "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (json) + " is in "
+                        "'" + flat.nameOf (a.to) + (unit == "1" ? "' has no unit" : "' is in " + unit) + ", but " + shown (json) + " is in "
                             + symbolOf (*number->dimension),
-                        "write the value in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
+                        unit == "1" ? "write the number without a unit" : "write the value in " + unit + ", or as a plain SI number");
             return false;
         }
         if (miscounts (*number, sheet.unit))

@@ -141,7 +141,7 @@ void examineDevices (const graph::Graph& g, const fs::path& folder, Messages& me
 bool isWithin (const fs::path& path, const fs::path& folder)
 {
     std::error_code failed;
-    const auto whole = fs::weakly_canonical (path, failed);
+    const auto whole = fs::weakly_canonical (fs::absolute (path, failed), failed);   // of a name that does not exist, it would stay relative
     if (failed) return false;
     const auto home = fs::weakly_canonical (folder.empty() ? fs::path (".") : folder, failed);
     return ! failed && std::ranges::mismatch (home, whole).in1 == home.end();

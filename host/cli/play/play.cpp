@@ -338,7 +338,7 @@ void addPlay (const Command& app)
                     "  tactus play graphs/dry_wood.json --watch\n"
                     "  tactus play my_graph.json --live rough_wood/rough_wood.hpp\n"
                     "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
-                    "  tactus play graphs/steel_bar.json --route bar.value=1@\"2 N\" --audio JACK\n"
+                    "  tactus play graphs/steel_bar.json --route ring.value=1@\"2 N\" --audio JACK\n"
                     "  tactus play graphs/dry_wood.json --log wood.jsonl");
     command.callback ([options, osc] {
         options->osc_asked_for = osc.isGiven();

@@ -177,7 +177,7 @@ void addRender (const Command& app)
                     "  tactus render rub.json --feed positions.csv --record drag.force --set drag.mu=0.3 --set drag.d_max=\"20 um\"\n"
                     "  tactus render rub.json --feed loop.csv --record drag.position.x,drag.force.x --plot loop.png --over drag.position.x\n"
                     "  tactus render graphs/dry_wood.json --record drag.force --plot wood.pdf --size 85x60 --from 1 --until 2\n"
-                    "  tactus render graphs/steel_bar.json --record bar.value --listen bar.wav\n"
+                    "  tactus render graphs/steel_bar.json --record ring.value --listen bar.wav\n"
                     "  tactus render --replay wood.jsonl --record drag.force,drag.state --out wood.csv");
     command.callback ([options] { run (*options); });
 }

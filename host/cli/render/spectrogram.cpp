@@ -62,7 +62,7 @@ void addSpectrogram (const Command& app)
                     "Examples:\n"
                     "  tactus spectrogram dry_wood -o wood.png\n"
                     "  tactus spectrogram dry_wood --device stylus=gesture:sweep --port drag.force --up-to 500 -o wood.pdf\n"
-                    "  tactus spectrogram steel_bar --port bar.value --up-to 2000 --window 0.05 -o bar.csv");
+                    "  tactus spectrogram steel_bar --port ring.value --up-to 2000 --window 0.05 -o bar.csv");
     command.callback ([options] { drawSpectrogram (*options); });
 }
 

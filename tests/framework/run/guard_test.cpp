@@ -179,6 +179,23 @@ TEST_CASE ("guard: without limits, a finite effort passes through bit for bit, r
     });
 }
 
+TEST_CASE ("guard: a stop before the first effort is marked, and the next one is not", "[framework][guard]")
+{
+    auto guard = guardWith ({ .watchdog = 10e-3 });
+    guard (pushing (1.0), silent);
+    CHECK (guard.latest().why == Guard::Stop::stale);
+    CHECK (guard.latest().at_start);
+    CHECK_FALSE (guard.hasBegun());
+    guard (pushing (1.0), fresh);
+    CHECK (guard.hasBegun());
+    CHECK (guard.latest().at_start);
+    guard (pushing (1.0), { .valid = false, .age = 1.0 });
+    CHECK (guard.events() == 2);
+    CHECK_FALSE (guard.latest().at_start);
+    guard.prepare ({ .watchdog = 10e-3 }, dt);
+    CHECK_FALSE (guard.hasBegun());
+}
+
 TEST_CASE ("guard: a value that is not a number never reaches a device", "[framework][guard]")
 {
     test::property ("any run, any limits", [] {

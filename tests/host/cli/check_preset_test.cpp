@@ -66,6 +66,16 @@ TEST_CASE ("`tactus check-preset` passes a good preset, and says how its forces 
     CHECK (ran.out.find ("dualpanto, the gentlest device that comes with Tactus, allows 2 N and 0.5 N: ") != std::string::npos);
 }
 
+TEST_CASE ("`tactus check-preset` passes a preset in the current folder, whose built-in gesture is no file beside it", "[check_preset][cli]")
+{
+    const Scratch scratch;
+    const auto folder = fs::path (scratch.write ("good.json", good_preset)).parent_path().string();
+    REQUIRE (runTactus ({ "check-preset", "--format", scratch.path ("good.json") }).status == 0);
+    const auto ran = runProgram ("/bin/sh", { "-c", "cd \"$0\" && exec \"$1\" check-preset good.json", folder, TACTUS_PROGRAM });
+    INFO (ran.out + ran.err);
+    CHECK (ran.status == 0);
+}
+
 TEST_CASE ("`tactus check-preset` says what a preset lacks, what is wrong in it, and where", "[check_preset][cli]")
 {
     struct Bad

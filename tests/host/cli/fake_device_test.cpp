@@ -142,6 +142,28 @@ TEST_CASE ("play on a wire accounts for its reports, and ends with the device at
     fake.program.stop();
 }
 
+TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault ends without a warning", "[cli][wires]")
+{
+    const test::Scratch scratch;
+    const auto link = scratch.path ("board");
+    Running fake { { "fake-device", "tactus_board", "--link", link } };
+    REQUIRE (eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
+    const auto ran = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--device", "stylus=serial:tactus_board@" + link, "--duration", "2",
+                                  "--session", "off", "--osc", "off", "--out", scratch.path ("out.csv"), "--record", "drag.force" });
+    INFO (ran.out + ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find ("no valid reading") == std::string::npos);   // what every run on a device begins with
+
+    // A device that never answers: its stop at the start is the news.
+    const auto silent = scratch.path ("silent");
+    Running mute { { "fake-device", "tactus_board", "--link", silent, "--fault", "stall" } };
+    REQUIRE (eventually ([&] { return mute.out().find ("ROLE=") != std::string::npos; }));
+    const auto waited = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--device", "stylus=serial:tactus_board@" + silent, "--duration", "0.5",
+                                     "--session", "off", "--osc", "off" });
+    INFO (waited.out + waited.err);
+    CHECK (waited.err.find ("stylus: warning: the guard withheld the force: ") != std::string::npos);
+}
+
 TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires]")
 {
     const auto refused = [] (const std::vector<std::string>& more, const std::string& id) {

@@ -31,6 +31,18 @@ TEST_CASE ("what looks like a file is never taken for a preset", "[cli]")
     }
 }
 
+TEST_CASE ("what is written in the wrong unit, or in the wrong place, is answered with what to write", "[cli]")
+{
+    const auto says = [] (const std::vector<std::string>& words) { return runTactus (words).err; };
+    CHECK (says ({ "render", "dry_wood", "--set", "drag.mu=0.4N" }).find ("has no unit, but \"0.4N\" is in N") != std::string::npos);
+    CHECK (says ({ "render", "dry_wood", "--duration", "4s" }).find ("write it without a unit") != std::string::npos);
+    CHECK (says ({ "fit", "friktion", "x.csv" }).starts_with ("There is no command 'fit friktion' (did you mean 'friction'?)"));
+    CHECK (says ({ "validate", TACTUS_SOURCE_DIR "/graphs" }).find ("name a file in it, such as") != std::string::npos);
+    CHECK (says ({ "play", "dry_wood", "--device", "stylus=serial:tactus_board@" TACTUS_SOURCE_DIR, "--duration", "0.01", "--session", "off" })
+               .find ("it is a folder, not a serial line")
+           != std::string::npos);
+}
+
 TEST_CASE ("a mistyped preset or file gets a suggestion", "[cli]")
 {
     for (const auto* command : { "validate", "render", "session" })
