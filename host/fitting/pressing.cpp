@@ -158,7 +158,10 @@ Pressing orient (const std::vector<FitColumn>& columns, RecordedColumns& recorde
             d -= *touch.given;
     for (const auto& column : columns)
         if (column.is_positive && column.role != "depth")
-            all.decide (column.role, [&] (const Values& v) { return isNegative (v, wants ("depth") && column.role == "force" ? pull : noise) ? is_negative : ""; });
+        {
+            const double other_sign = wants ("depth") && column.role == "force" ? pull : noise;
+            all.decide (column.role, [&] (const Values& v) { return isNegative (v, other_sign) ? is_negative : ""; });
+        }
     if (! wants ("depth") || depth.empty()) return std::move (all.did);
 
     all.decide ("depth", [&] (const Values& v) {

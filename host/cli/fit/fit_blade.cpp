@@ -14,7 +14,7 @@ void addFitBlade (const Command& fit)
                     "  tactus fit blade potato.csv --width \"20 mm\" -o potato.json --plot potato.png");
     blade.addAmount ("--width", "m", "20 mm", "Length of the edge inside the sample; default 20 mm, a guess",
                      [] (FitSettings& s, double metres) { s.width = metres; });
-    blade.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at which the blade touches the sample; default: 0, unless the force begins elsewhere",
+    blade.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at the touch of the sample; default: 0, unless the force begins elsewhere",
                            [] (FitSettings& s, double metres) { s.touch = metres; });
 }
 

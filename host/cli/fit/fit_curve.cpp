@@ -23,7 +23,7 @@ void addFitCurve (const Command& fit)
                          "What 1 in this column means; the same as --unit " + role + "=…",
                          [role] (FitSettings& s, double factor) { s.columns.units[role] = factor; });
     }
-    curve.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at which the tool touches the object; default: 0, unless the force begins elsewhere",
+    curve.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at the touch of the object; default: 0, unless the force begins elsewhere",
                            [] (FitSettings& s, double metres) { s.touch = metres; });
     curve.command.addOption ("--points", settings.points, "Number of points of the curve; default 20").check (within (2, 1000));
     curve.command.addOption ("--mu", settings.mu, "Drag over push while the tool slides; default 0.3, a guess").check (finiteWithin (0.0, 10.0));

@@ -144,8 +144,10 @@ Case drawnCase()
     check::Slope slope { .stiffness = drawn (10.0, 1e5), .by_node = { 1.0 } };
     if (*rc::gen::arbitrary<bool>()) slope.damping = drawn (1e-2, 50.0);
     if (*rc::gen::arbitrary<bool>()) slope.lag = slope.stiffness / c.demand.rate_hz * drawn (0.1, 3.0);
-    c.demand.roles = { { .role = "tip", .slopes = { slope }, .peak_force = drawn (0.1, 20.0), .fastest_force = drawn (10.0, 1e6), .speed = drawn (0.01, 2.0) } };
-    c.demand.textures = { { .role = "tip", .spatial_frequency = drawn (10.0, 1e4), .amplitude = drawn (1e-3, 5.0), .slope = drawn (1.0, 1e6), .speed = drawn (1e-3, 2.0) } };
+    const double peak = drawn (0.1, 20.0), fastest = drawn (10.0, 1e6), speed = drawn (0.01, 2.0);
+    c.demand.roles = { { .role = "tip", .slopes = { slope }, .peak_force = peak, .fastest_force = fastest, .speed = speed } };
+    const double frequency = drawn (10.0, 1e4), amplitude = drawn (1e-3, 5.0), steepness = drawn (1.0, 1e6), stroke = drawn (1e-3, 2.0);
+    c.demand.textures = { { .role = "tip", .spatial_frequency = frequency, .amplitude = amplitude, .slope = steepness, .speed = stroke } };
     if (*rc::gen::arbitrary<bool>())
         c.demand.stretches = { { .role = "tip", .d_max = drawn (1e-7, 1e-3), .teeth = *rc::gen::arbitrary<bool>() ? 0.0 : drawn (1e-8, 1e-3) } };
     if (*rc::gen::arbitrary<bool>()) c.demand.jumps = { { .role = "tip", .node = 0, .force = drawn (1e-3, 5.0) } };
@@ -247,7 +249,8 @@ TEST_CASE ("the remedy for a weak texture is a factor of what is set at its node
 {
     const auto weak = [] (double amplitude) {
         Stroke s { 2.0 };
-        s.sketch.node ("ribs", "texture.grating", { { "amplitude", amplitude }, { "spatial_frequency", 100.0 } }).node ("less", "vector.scale").node ("third", "signal.constant", { { "value", 0.3 } });
+        s.sketch.node ("ribs", "texture.grating", { { "amplitude", amplitude }, { "spatial_frequency", 100.0 } });
+        s.sketch.node ("less", "vector.scale").node ("third", "signal.constant", { { "value", 0.3 } });
         s.sketch.wire ("hand.position -> ribs.position").wire ("ribs.force -> less.in").wire ("third.out -> less.gain").wire ("less.out -> motor.force");
         return s.judged ("force_resolution");
     };

@@ -117,7 +117,8 @@ TEST_CASE ("a press is recognised and fitted on whatever scale its place and its
         for (const bool back : { false, true })
         {
             press.comes_back = back;
-            INFO (press.header << " from " << press.from << ", way " << press.way << ", force " << press.force_sign << ", air " << press.air << ", back " << back);
+            INFO (press.header << " from " << press.from << ", way " << press.way << ", force " << press.force_sign);
+            INFO ("air " << press.air << ", back " << back);
             CHECK (host::guessKind (press.table()) == host::FitKind::curve);
             const auto made = press.fitted();
             CHECK (made.report.is_good);
@@ -126,8 +127,8 @@ TEST_CASE ("a press is recognised and fitted on whatever scale its place and its
             const auto seen = host::pictureOf (host::FitKind::curve, press.table(), {});
             CHECK (seen.turned.contains ("depth") == (press.way < 0.0));
             CHECK (seen.turned.contains ("force") == (press.force_sign < 0.0));
-            const bool is_said = press.way > 0.0 || std::ranges::any_of (made.report.notes, [] (const std::string& n) { return n.find ("sign was turned") != n.npos; });
-            CHECK (is_said);
+            const auto isSaid = [] (const std::string& note) { return note.find ("sign was turned") != note.npos; };
+            CHECK ((press.way > 0.0 || std::ranges::any_of (made.report.notes, isSaid)));
         }
 }
 
