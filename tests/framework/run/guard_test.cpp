@@ -189,7 +189,7 @@ TEST_CASE ("guard: a stop before the first effort is marked, and the next one is
     guard (pushing (1.0), fresh);
     CHECK (guard.hasBegun());
     CHECK (guard.latest().at_start);
-    guard (pushing (1.0), { .valid = false, .age = 1.0 });
+    guard (pushing (1.0), { .age = 1.0, .valid = false });
     CHECK (guard.events() == 2);
     CHECK_FALSE (guard.latest().at_start);
     guard.prepare ({ .watchdog = 10e-3 }, dt);
