@@ -211,7 +211,7 @@ TEST_CASE ("a wire that is dropped from an input offers what the input is made f
         auto* palette = dynamic_cast<Palette*> (d.w.titled ("Palette"));
         REQUIRE (palette != nullptr);
         const auto texts = tactus::host::test::readTexts (*palette);
-        CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == "Connect " + juce::String (port) + " from"; }));
+        CHECK (std::ranges::any_of (texts, [from = "Connect " + juce::String (port) + " from"] (const auto& t) { return t.text == from; }));
         CHECK (palette->entries()[0].name == "Fits best");
         CHECK (std::ranges::count (palette->entries(), std::string (type), &PaletteEntry::type) == 1);   // not listed again
         d.w.key ("return");
