@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/screen.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/wait_for.hpp"
 
@@ -11,6 +12,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::onScreen;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
@@ -127,7 +129,7 @@ TEST_CASE ("a file is replaced only after a question of the window, which offers
     unsetenv ("TACTUS_GRAPHS");
 }
 
-TEST_CASE ("a new folder of the dialog for files has the name that is typed at once", "[app][files]")
+TEST_CASE ("on a screen: a new folder", "[.screen]")
 {
     const TemporaryFolder mine;
     setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
@@ -147,6 +149,11 @@ TEST_CASE ("a new folder of the dialog for files has the name that is typed at o
         CHECK (waitFor ([] { return ! isDialogOpen(); }));
     }
     unsetenv ("TACTUS_GRAPHS");
+}
+
+TEST_CASE ("a new folder of the dialog for files has the name that is typed at once", "[app][files]")
+{
+    onScreen ("on a screen: a new folder");
 }
 
 TEST_CASE ("a film is saved under the typed name", "[app][files][film]")
