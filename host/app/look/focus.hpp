@@ -18,11 +18,11 @@ inline void letGoOfFocus (const juce::Component& c)
     if (c.hasKeyboardFocus (true)) juce::Component::unfocusAllComponents();
 }
 
-/// Applies what is being typed into a field, as Return does. JUCE tells a field only later that it has lost the focus, when the graph may have been
-/// saved, replaced or started without it.
-inline void endTyping()
+/// Applies what is being typed into this component if it is a field, as Return does. JUCE tells a field only later that it has lost the focus, when the
+/// graph may have been saved, replaced or started without it.
+inline void endTyping (juce::Component* in = juce::Component::getCurrentlyFocusedComponent())
 {
-    const auto* field = dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent());
+    const auto* field = dynamic_cast<juce::TextEditor*> (in);
     if (field == nullptr) return;
     if (const auto apply = field->onFocusLost) apply();   // a copy, because what is applied may delete the field
 }

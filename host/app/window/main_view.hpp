@@ -129,7 +129,7 @@ private:
     void wake();   ///< polls and paints often again
     void rest();   ///< call many times while nothing runs and there was no input for a while
     void mouseMove (const juce::MouseEvent&) override { wake(); }
-    void mouseDown (const juce::MouseEvent&) override { wake(); }
+    void mouseDown (const juce::MouseEvent&) override;
     void mouseDrag (const juce::MouseEvent&) override { wake(); }
     void mouseUp (const juce::MouseEvent&) override { wake(); }
     void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& d) override

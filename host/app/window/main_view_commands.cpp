@@ -97,6 +97,14 @@ void MainView::globalFocusChanged (juce::Component* now)
     keepKeyboard();
 }
 
+/// What is typed counts before a button acts, because that may undo, store a snapshot or make a file. `focused` is the field still: a press takes the
+/// focus at once, but tells of it later.
+void MainView::mouseDown (const juce::MouseEvent& e)
+{
+    wake();
+    if (focused != nullptr && e.eventComponent != focused && ! focused->isParentOf (e.eventComponent)) endTyping (focused);
+}
+
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
     if (key.getKeyCode() != juce::KeyPress::escapeKey) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is typed into a field counts as soon as a key does something with the graph, without Return.
+// What is typed into a field counts as soon as a key or a button does something with the graph, without Return.
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
@@ -144,4 +144,28 @@ TEST_CASE ("F5 starts the graph with what is being typed into a field", "[app][k
         WindowRig::settle (10);
     CHECK (w.view->run().isRunning());
     w.view->run().letGo();
+}
+
+TEST_CASE ("a button acts on what is being typed into a field", "[app][keyboard][undo]")
+{
+    Desk d;
+    auto& w = *d.w;
+    d.select ("board");
+    WindowRig::settle();
+    const auto stiffness = [&] { return w.graph().root.find ("board")->params.at ("stiffness"); };
+    const auto before = stiffness();
+
+    d.typeNumber ("Stiffness", "777 N/m");
+    w.clickTitled ("Undo");   // undoes what was typed
+    CHECK (stiffness() == before);
+
+    d.typeNumber ("Stiffness", "888 N/m");
+    w.key ("return");
+    d.typeNumber ("Stiffness", "999 N/m");
+    w.clickTitled ("Snapshot 1");
+    CHECK (stiffness() == "999 N/m");
+    d.typeNumber ("Stiffness", "555 N/m");
+    w.key ("return");
+    w.clickTitled ("Snapshot 1");
+    CHECK (stiffness() == "999 N/m");   // it is in the snapshot
 }
