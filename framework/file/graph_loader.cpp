@@ -37,7 +37,8 @@ Message unreadable (const fs::path& path, const std::string& reason)
 {
     std::error_code failed;
     if (fs::is_directory (path, failed))
-        return Message::error ("file/unreadable", {}, quotePath (path) + " cannot be read: " + reason, "name a file in it, such as " + quotePath (path / "NAME.json"));
+        return Message::error ("file/unreadable", {}, quotePath (path) + " cannot be read: " + reason,
+                               "name a file in it, such as " + quotePath (path / "NAME.json"));
     const auto meant = fs::exists (path, failed) ? "" : similarFile (path);
     return Message::error ("file/unreadable", {}, quotePath (path) + " cannot be read: " + reason,
                            meant.empty() ? "check the path; a path in a file is relative to the folder of that file" : "did you mean " + quote (meant) + "?");

@@ -62,7 +62,8 @@ std::unique_ptr<Device> handOf (const std::string& text)
     if (text == "stroke") return std::move (makeDevice (Json::parse (soft_stroke), {}).device);
     const std::vector<std::pair<std::string, Json>> no_graph;
     auto parsed = tactus::parseDeviceOption ("hand=" + text, no_graph, {});
-    if (! parsed) fail (Message::error (parsed.error().id, "--hand " + text, parsed.error().text, "write stroke, gesture:NAME, trace:FILE.csv, sim or FILE.json"));
+    if (! parsed) fail (Message::error (parsed.error().id, "--hand " + text, parsed.error().text,
+                                        "write stroke, gesture:NAME, trace:FILE.csv, sim or FILE.json"));
     auto made = makeDevice (parsed->description, parsed->folder);
     for (const auto& m : made.messages)
         if (m.severity == Message::Severity::error) fail (Message::error (m.id, "--hand " + text + m.where, m.text, m.remedy));
@@ -238,8 +239,8 @@ void addFakeDevice (const Command& app)
     command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
     command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
-    command.addOption ("--hand", options->hand, "The hand: stroke, which strokes and gives way to the force; gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; "
-                                                "default: stroke");
+    command.addOption ("--hand", options->hand,
+                       "The hand: stroke, which gives way to the force; gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; default: stroke");
     command.addOption ("--fault", options->faults,
                        "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, missed_byte, late, lie, "
                        "reset, away, and of a service push and rename; may be given more than once")

@@ -24,15 +24,15 @@ public:
 
     /// Where to move the window now; empty: nowhere. `frame`: empty or zero as long as it is not known; `scale`: pixels of the frame per unit of the other
     /// rectangles; `now`: ms. [main thread]
-    std::optional<juce::Rectangle<int>> next (juce::Rectangle<int> window, juce::Rectangle<int> screen, std::optional<juce::BorderSize<int>> frame, double scale,
-                                              std::uint32_t now)
+    std::optional<juce::Rectangle<int>> next (juce::Rectangle<int> window, juce::Rectangle<int> screen, std::optional<juce::BorderSize<int>> frame,
+                                              double scale, std::uint32_t now)
     {
         if (is_done) return {};
         const bool has_frame = frame && *frame != juce::BorderSize<int> {};
         const auto units = [scale] (int pixels) { return static_cast<int> (std::ceil (pixels / scale)); };
-        const auto place = has_frame ? juce::BorderSize<int> (units (frame->getTop()), units (frame->getLeft()), units (frame->getBottom()), units (frame->getRight()))
-                                           .subtractedFrom (screen)
-                                     : screen;
+        const auto edge = has_frame ? *frame : juce::BorderSize<int> {};
+        const juce::BorderSize<int> inside { units (edge.getTop()), units (edge.getLeft()), units (edge.getBottom()), units (edge.getRight()) };
+        const auto place = inside.subtractedFrom (screen);
         if (window == place)
         {
             if (! there_since) there_since = now;
