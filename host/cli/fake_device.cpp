@@ -59,7 +59,7 @@ constexpr auto soft_stroke = R"({ "driver": "sim", "mass": "50 g", "damping": "1
 /// The hand is any device that a graph may have, as in --device ROLE=, or the usual one.
 std::unique_ptr<Device> handOf (const std::string& text)
 {
-    if (text == "stroke") return std::move (makeDevice (Json::parse (soft_stroke), {}).device);
+    if (text == "stroke") return makeDevice (Json::parse (soft_stroke), {}).device;
     const std::vector<std::pair<std::string, Json>> no_graph;
     auto parsed = tactus::parseDeviceOption ("hand=" + text, no_graph, {});
     if (! parsed) fail (Message::error (parsed.error().id, "--hand " + text, parsed.error().text,
@@ -240,7 +240,8 @@ void addFakeDevice (const Command& app)
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
     command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
     command.addOption ("--hand", options->hand,
-                       "The hand: stroke, which gives way to the force; gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; default: stroke");
+                       "The hand: stroke, which gives way to the force; gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; "
+                       "default: stroke");
     command.addOption ("--fault", options->faults,
                        "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, missed_byte, late, lie, "
                        "reset, away, and of a service push and rename; may be given more than once")
