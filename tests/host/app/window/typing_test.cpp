@@ -152,7 +152,7 @@ TEST_CASE ("a button acts on what is being typed into a field", "[app][keyboard]
     auto& w = *d.w;
     d.select ("board");
     WindowRig::settle();
-    const auto stiffness = [&] { return w.graph().root.find ("board")->params.at ("stiffness"); };
+    const auto stiffness = [&] { return w.graph().root.find ("board")->params.value ("stiffness", Json()); };
     const auto before = stiffness();
 
     d.typeNumber ("Stiffness", "777 N/m");
