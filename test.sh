@@ -70,7 +70,12 @@ run_tests ()
 {
     local preset=$1
     shift
-    ctest --test-dir "build/$preset" --output-on-failure --parallel $(($(nproc) + 1)) "$@"   # one more, because some tests wait
+    # One test more than processors, because some tests wait.
+    ctest --test-dir "build/$preset" --output-on-failure --parallel $(($(nproc) + 1)) "$@" | tee "build/$preset/tests.txt" && return
+    local status=$?
+    /usr/bin/python3 -B .ci/failed.py "build/$preset"
+    sed -n '/ tests passed, /,$p' "build/$preset/tests.txt"
+    return $status
 }
 
 # more_properties N: runs the files of tests that have properties with N new seeds

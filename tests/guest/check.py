@@ -391,5 +391,5 @@ rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="16c0", ATTRS{idProduct}=="0486", TA
 check(rule in text("denied.txt") and rule in text("denied_play.txt") and "hid/not_permitted" in text("denied_play.txt"),
       "a user without permission is shown the udev rule")
 
-print(f"{len(failures)} failures" if failures else "everything passed")
+print("\n".join([f"{len(failures)} failures:", *failures]) if failures else "everything passed")
 sys.exit(1 if failures else 0)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Runs in the guest, in a folder that test_devices.sh makes, with devices from guest_device and the programs built on this computer. Results go
 # to /run/results, where check.py reads them. All times are those of the guest's clock. It does not depend on how busy this computer is, but it
-# runs fast while files of this computer are read. So each program runs once before a device exists, and waits are long: they cost little.
+# runs ahead while the guest waits for a file of this computer: a page of a program that is read then would look like a program that hangs. So all
+# programs and libraries are read before a device exists, and waits are long: they cost little.
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d -p /var/tmp)   # in memory; it disappears with the guest
 chmod a+rx "$work"
@@ -45,6 +46,12 @@ end_under_force ()
 }
 
 recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
+
+say "programs and libraries are read into memory"
+programs=(build/release/bin/* build/release/lib/tactus/plugins/* plugins/* /usr/bin/python3)
+for tool in bash cat chmod cp grep head ls mkdir mv pgrep pkill rm sed seq setpriv sleep sort tail wc; do programs+=("$(type -P $tool)"); done
+[ -d build/release/python ] && readarray -t -O ${#programs[@]} programs < <(find build/release/python/ /usr/lib/python3/dist-packages/numpy -name '*.so')
+cat "${programs[@]}" $(ldd "${programs[@]}" 2>/dev/null | grep -o '/[^ :]*' | sort -u) >/dev/null 2>&1
 
 say "nothing connected"
 $device board --describe 1 >/dev/null
