@@ -4,6 +4,7 @@
 import csv
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -24,6 +25,7 @@ import png_to_pgm   # noqa: E402
 
 GRAPHS = ROOT / "graphs"
 PROGRAM = os.environ.get("TACTUS_PROGRAM", "")
+signal.signal(signal.SIGINT, signal.default_int_handler)   # a shell starts what runs in the background without it
 
 
 def quiet(function, *args, **kwargs):
