@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE; clang only reads the rest of the
-#                       host), runs the demo, adds a node as a newcomer would, builds the examples against the installed library, drives
-#                       virtual HID devices in a QEMU guest, and looks for mistakes in a few of the changed files with clang-tidy
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (without the window, which clang only reads, and without the laws of
+#                       nodes, which --sanitizers runs), runs the demo, adds a node as a newcomer would, builds the examples against the
+#                       installed library, drives virtual HID devices in a QEMU guest, and looks for mistakes in a few of the changed files
+#                       with clang-tidy
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
 #                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
@@ -114,21 +115,22 @@ fi
 sanitize ()
 {
     # Memory errors depend on the kind of input, rarely on the number of inputs.
-    local percent=20
-    [ -z "$mode" ] && percent=10
+    local percent=20 parts=()
+    [ -z "$mode" ] && percent=10 parts=(--label-exclude laws)
     build asan
+    [ -z "$mode" ] || build asan tactus_law_tests
     say "Tests under ASan and UBSan"
-    RC_PARAMS="$RC_PARAMS max_success=$percent" TACTUS_ROUNDS=$percent run_tests asan
+    RC_PARAMS="$RC_PARAMS max_success=$percent" TACTUS_ROUNDS=$percent run_tests asan "${parts[@]}"
 }
 
 sanitize_more ()
 {
     build tsan
     say "Tests under TSan"
-    TACTUS_LIVE_SECONDS=60 run_tests tsan
+    TACTUS_LIVE_SECONDS=60 run_tests tsan --label-exclude laws   # they have one thread
     build asan-window tactus_app_tests
     say "The window under ASan and UBSan"
-    run_tests asan-window -R '^app:'
+    TACTUS_UI_ACTIONS=10000 run_tests asan-window -R '^app:'
 }
 
 if [ "$mode" = --sanitizers ]; then
@@ -212,6 +214,7 @@ fi
 
 if [ "$mode" = --figures ]; then
     build release
+    build release instructions whole_tick
     say "Figures"
     build/release/bin/tactus_tests "[figures]"
     /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib

@@ -17,7 +17,7 @@ using namespace tactus::host::test;
 
 namespace
 {
-constexpr int usual_actions = 10000, actions_of_a_seed = 500;
+constexpr int usual_actions = 3000, actions_of_a_seed = 500;
 constexpr std::size_t reported_actions = 30;
 
 int numberFrom (const char* variable, int otherwise)
