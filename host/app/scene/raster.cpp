@@ -45,20 +45,6 @@ void Raster::write (juce::Image& image) const
         }
 }
 
-std::pair<int, int> Raster::span (const std::array<float, 3>& xs, const std::array<float, 3>& ys, float middle) const noexcept
-{
-    float from = static_cast<float> (columns), to = 0.0f;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-        const auto j = (i + 1) % 3, upper = ys[i] < ys[j] ? i : j, lower = i + j - upper;   // the same computation for both triangles at an edge
-        if (! (ys[upper] <= middle && middle < ys[lower])) continue;
-        const float x = xs[upper] + (xs[lower] - xs[upper]) * ((middle - ys[upper]) / (ys[lower] - ys[upper]));
-        from = std::min (from, x);
-        to = std::max (to, x);
-    }
-    return { firstAfter (from, columns), firstAfter (to, columns) };
-}
-
 double Raster::coverage() const noexcept
 {
     if (nearest.empty()) return 0.0;

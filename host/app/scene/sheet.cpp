@@ -12,6 +12,16 @@ namespace
 {
 constexpr double full_colour_m = 2e-3;   // depth at which the colour of depth is complete
 
+/// The sine to 1e-3, which changes a ridge by less than a step of its colour: a parabola and its square. That of the C library takes a tenth of a
+/// running scene.
+float sine (float angle) noexcept
+{
+    constexpr float turn = 1.0f / (2.0f * std::numbers::pi_v<float>);
+    const float turns = angle * turn, part = turns - static_cast<float> (static_cast<int> (turns + std::copysign (0.5f, turns)));   // -0.5 to 0.5
+    const float arch = 16.0f * part * (0.5f - std::abs (part));
+    return arch + 0.225f * arch * (std::abs (arch) - 1.0f);
+}
+
 /// Heights of a grid as slopes at any place: linear between its points, mirrored beyond its ends.
 class Slopes
 {
@@ -92,7 +102,7 @@ public:
         float su = at[slope_u], sv = at[slope_v], height = 0.5f;
         for (const auto& w : waves)
         {
-            const float steep = -0.42f * w.share * std::sin (w.ku * at[u] + w.kv * at[v] + w.phase);   // the force is this slope, downwards
+            const float steep = -0.42f * w.share * sine (w.ku * at[u] + w.kv * at[v] + w.phase);   // the force is this slope, downwards
             su += steep * w.du;
             sv += steep * w.dv;
         }
