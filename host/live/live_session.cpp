@@ -52,12 +52,7 @@ Messages LiveSession::load (const graph::Graph& graph)
     clock_role = choice.role;
     if (! clock_role.empty()) options.compile.rate_hz = choice.rate_hz;
 
-    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) {
-        auto opened = devices.open (role, g, plan, m);
-        auto* driver = opened.driver != nullptr ? opened.driver : opened.device.get();
-        if (auto* board = dynamic_cast<hid::HidDevice*> (driver)) board->heed (&is_emergency);
-        return opened;
-    };
+    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) { return devices.open (role, g, plan, m); };
     running = std::make_unique<Run> (catalogue, options.compile, opener, options.queries);
     std::optional<Messages> compiled;
     if (options.keeps_records)   // before there are listeners: the plan taps the inputs of all sinks only if no ports are named
@@ -83,6 +78,7 @@ Messages LiveSession::openDevices()
     alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     running->keepLimits (options.kept_limits);
     running->openDevices (playing, messages);
+    showStops();
     obeyed = stops.noticed();
     if (options.is_stopped) engine().emergencyStop();
 
@@ -98,6 +94,13 @@ Messages LiveSession::openDevices()
         if (const auto role = std::ranges::find (needs, plugin.role, &RoleNeeds::role); role != needs.end())
             std::ranges::move (missingTools (*role, partsOf (plugin.device->about())), std::back_inserter (messages));
     return messages;
+}
+
+/// Shows each HID device the guard of its role, whose stops may be its own, too.
+void LiveSession::showStops()
+{
+    for (const auto& real : realDevices())
+        if (real.present != nullptr) real.present->heed (engine().guardOf (real.role));
 }
 
 Messages LiveSession::beginSound (bool anyway)
@@ -146,7 +149,6 @@ void LiveSession::before (Plan&, std::uint64_t) noexcept
     const auto now = stops.presses();
     const auto earlier = std::exchange (obeyed, now);
     if (now.emergencies != earlier.emergencies) engine().emergencyStop();
-    is_emergency.store (engine().isEmergency(), std::memory_order_relaxed);
     if (now.stops != earlier.stops && running->isLive()) running->live().stop();
 }
 
@@ -228,6 +230,7 @@ LiveSession::EditResult LiveSession::edit (const graph::Graph& next, EditPolicy 
     if (isRefused()) return { false, std::move (messages) };
 
     edit.commit();
+    showStops();
     EditResult edited { true, std::move (messages) };
     std::ranges::move (missingParts (engine().newest()), std::back_inserter (edited.messages));
     std::ranges::move (devices.notTakenOver (playing, next), std::back_inserter (edited.messages));

@@ -10,7 +10,6 @@
 #include <host/sessions/run_clock.hpp>
 #include <tactus/run/run.hpp>
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -174,6 +173,7 @@ public:
 private:
     void before (Plan&, std::uint64_t tick) noexcept override;
 
+    void showStops();
     TickClock& clock();
     std::optional<Message> noticeAlarm();
     std::optional<Message> attendFusion();
@@ -188,7 +188,6 @@ private:
     StopSwitch own_stops;   // if the caller has none
     StopSwitch& stops;
     StopSwitch::PressCounts obeyed;                      // by the tick thread
-    std::atomic<bool> is_emergency = false;              // for devices with an emergency stop of their own
     std::uint32_t alarms_told = 0, alarms_stopped = 0;   // alarms of the failsafe; the second is for the tick thread
     HealthWatch watch;
     std::chrono::steady_clock::time_point looked_at {};   // at the devices
