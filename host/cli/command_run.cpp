@@ -126,6 +126,7 @@ LiveSession::Options CommandRun::sessionOptions (Pace pace, StopSwitch* stops)
     to.keeps_records = ! options.outputs.empty();
     to.listeners.push_back (&port_probes);
     to.stops = stops;
+    to.may_move = pace == Pace::live;
     to.queries = pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick;
     return to;
 }

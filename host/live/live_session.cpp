@@ -26,6 +26,14 @@ bool isSimulatedDevice (const Run::RoleDevice& d)
     return dynamic_cast<SimulatedDevice*> (driver) != nullptr || dynamic_cast<GestureDevice*> (driver) != nullptr
            || dynamic_cast<TraceDevice*> (driver) != nullptr;
 }
+
+/// True if the graph reads where the tool of the role is.
+bool readsPlace (const Plan& plan, const std::string& role)
+{
+    const auto needs = needsOf (plan);
+    const auto of_role = std::ranges::find (needs, role, &RoleNeeds::role);
+    return of_role != needs.end() && (of_role->parts.position || of_role->parts.rotation);
+}
 }   // namespace
 
 LiveSession::LiveSession (const Catalogue& c, Hardware h, Options o)
@@ -52,7 +60,11 @@ Messages LiveSession::load (const graph::Graph& graph)
     clock_role = choice.role;
     if (! clock_role.empty()) options.compile.rate_hz = choice.rate_hz;
 
-    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) { return devices.open (role, g, plan, m); };
+    const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) {
+        auto opened = devices.open (role, g, plan, m);
+        if (options.may_move && opened.device && ! isSimulatedDevice (opened) && readsPlace (plan, role)) makeMovable (opened);
+        return opened;
+    };
     running = std::make_unique<Run> (catalogue, options.compile, opener, options.queries);
     std::optional<Messages> compiled;
     if (options.keeps_records)   // before there are listeners: the plan taps the inputs of all sinks only if no ports are named
@@ -174,6 +186,19 @@ Result<> LiveSession::rearm (std::chrono::steady_clock::time_point asked)
     engine().rearm();
     if (stops.latest() != seen || Failsafe::alarms() != alarms) engine().emergencyStop();
     return {};
+}
+
+bool LiveSession::holdWorkspaces (bool so)
+{
+    if (! running) return false;
+    bool any = false;
+    for (const auto& [role, d] : running->devices())
+        if (auto* device = dynamic_cast<WorkspaceDevice*> (d.device.get()))
+        {
+            device->hold (so);
+            any = true;
+        }
+    return any;
 }
 
 bool LiveSession::isLatched() const

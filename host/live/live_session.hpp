@@ -49,6 +49,7 @@ public:
         StopSwitch* stops = nullptr;                         ///< obeyed from the first tick on; may be null; must outlive this object
         std::map<std::string, GuardLimits> kept_limits {};   ///< see Run::keepLimits
         bool is_stopped = false;                             ///< the run starts with its forces at zero, until rearm()
+        bool may_move = false;                               ///< the workspaces of devices can be moved by holdWorkspaces()
         Run::Queries queries = Run::Queries::on_thread;
     };
 
@@ -105,6 +106,10 @@ public:
 
     /// Lets the forces rise again, if StopSwitch::mayRearm allows it. Only a person should decide this. [any thread]
     Result<> rearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now());
+
+    /// Lets the workspaces of all real devices whose position is read move with the hand, without force, or ends this (WorkspaceDevice::hold).
+    /// False if there is none. [main thread]
+    bool holdWorkspaces (bool);
 
     /// True if a stop is latched: an emergency stop, or a limit that only a rearm ends. Also after the last tick.
     bool isLatched() const;
