@@ -198,6 +198,9 @@ std::size_t CommandRun::ticksOrFail() const
 void CommandRun::startAudio()
 {
     auto messages = playing->beginSound (! options.capture.empty());
+    if (! options.card.empty() && options.capture.empty() && ! rig.isNeeded())
+        messages.push_back (Message::warning ("audio/unused", {}, "nothing in this run plays on a sound card, so none is opened",
+                                              "say what it plays, with --route PORT=CHANNEL or --device ROLE=audio"));
     for (auto& m : messages)
         if (m.where.empty()) m.where = options.card.empty() ? "the sound card" : "--audio " + options.card;
     if (reportOn (messages) > 0) throw Stop {};
