@@ -126,6 +126,7 @@ LiveSession::Options CommandRun::sessionOptions (Pace pace, StopSwitch* stops)
     to.keeps_records = ! options.outputs.empty();
     to.listeners.push_back (&port_probes);
     to.stops = stops;
+    to.may_move = pace == Pace::live;
     to.queries = pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick;
     return to;
 }
@@ -197,6 +198,9 @@ std::size_t CommandRun::ticksOrFail() const
 void CommandRun::startAudio()
 {
     auto messages = playing->beginSound (! options.capture.empty());
+    if (! options.card.empty() && options.capture.empty() && ! rig.isNeeded())
+        messages.push_back (Message::warning ("audio/unused", {}, "nothing in this run plays on a sound card, so none is opened",
+                                              "say what it plays, with --route PORT=CHANNEL or --device ROLE=audio"));
     for (auto& m : messages)
         if (m.where.empty()) m.where = options.card.empty() ? "the sound card" : "--audio " + options.card;
     if (reportOn (messages) > 0) throw Stop {};

@@ -252,6 +252,14 @@ void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
     }
 }
 
+/// The stop of the guard that only a rearm ends.
+BoardStop::Cause HidDevice::latched() const noexcept
+{
+    const auto* guard = heeded.load (std::memory_order_acquire);
+    if (guard == nullptr || ! guard->isLatched()) return BoardStop::Cause::none;
+    return guard->stop() == Guard::Stop::emergency ? BoardStop::Cause::emergency : BoardStop::Cause::limit;
+}
+
 /// A report without samples, for the efforts of this tick.
 std::span<const std::uint8_t> HidDevice::bytesOf (std::size_t report, BoardStop::Says says) noexcept
 {
@@ -281,8 +289,7 @@ void HidDevice::write (const Effort& guarded) noexcept
     written = now;
     unrendered_force = guarded.force - values.renderedForce();
     unrendered_torque = guarded.torque - values.renderedTorque();
-    const bool emergency = is_emergency != nullptr && is_emergency->load (std::memory_order_relaxed);
-    const auto says = board_stop (emergency, rests, values.isStopped(), dt);
+    const auto says = board_stop (latched(), rests, values.isStopped(), dt);
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (values.channelNames (i).empty()) link->offer (i, bytesOf (i, says), episode, latest, has_to_rest || values.rests (i, driven));
     for (auto& [report, feed] : streams)

@@ -10,6 +10,7 @@
 #include <host/hid/vibration_tracker.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
+#include <tactus/run/guard.hpp>
 #include <tactus/run/guard/falling_limit.hpp>
 
 #include <array>
@@ -58,7 +59,7 @@ DeviceLayout layoutOf (const HidModel&);
 /// A signal for a stream is collected into blocks of samples at the stream's rate, each sent when it is full. A signal for
 /// a motor that takes an amplitude is converted to an amplitude.
 ///
-/// A device with an emergency stop of its own is told of that of the run (BoardStop).
+/// A device with an emergency stop of its own is told of each stop of its guard that only a rearm ends (BoardStop).
 ///
 /// After the device was disconnected, or the ticks paused for so long that the port sent the neutral reports, only neutral reports
 /// are sent until the guard has been at zero once. Then efforts rise along the guard's ramp.
@@ -79,8 +80,8 @@ public:
 
     DeviceLayout layout() const override { return layoutOf (values); }
 
-    /// Says where to look whether the emergency stop of the run is latched; null: nowhere. It must outlive the device. [main thread, before the ticks]
-    void heed (const std::atomic<bool>* emergency) noexcept { is_emergency = emergency; }
+    /// Names the guard of the role, whose latched stops are those of the device, too. It must last until the last tick. [main thread]
+    void heed (const Guard& guard) noexcept { heeded.store (&guard, std::memory_order_release); }
 
     HidPort& port() noexcept { return *link; }
     const HidPort& port() const noexcept { return *link; }
@@ -102,6 +103,7 @@ private:
     double limitOfVibration() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
     std::span<const std::uint8_t> bytesOf (std::size_t report, BoardStop::Says) noexcept;
+    BoardStop::Cause latched() const noexcept;
 
     /// When a report came last.
     struct ReportArrival
@@ -160,7 +162,7 @@ private:
     std::atomic<double> asked_max_signal = GuardLimits::none;   // of each amplitude   [main thread writes, tick thread reads]
     FallingLimit max_signal;
     EffortValues driven {};
-    const std::atomic<bool>* is_emergency = nullptr;
+    std::atomic<const Guard*> heeded = nullptr;   // ticks on the tick thread, before write()
     BoardStop board_stop;
 
     Snapshot<ReadingCounts> published;

@@ -5,7 +5,9 @@
 #include <host/platform/device_file.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace tactus::host::hid
@@ -54,6 +56,18 @@ std::vector<SerialPort> serialPorts (const fs::path& system, const fs::path& fil
         all.push_back (std::move (port));
     }
     std::ranges::sort (all, {}, &SerialPort::path);
+    return all;
+}
+
+std::vector<std::shared_ptr<const Profile>> profilesFor (const SerialPort& port, std::span<const std::shared_ptr<const Profile>> profiles)
+{
+    std::vector<std::shared_ptr<const Profile>> all;
+    std::ranges::copy_if (profiles, std::back_inserter (all), [] (const auto& p) { return p->wires.serial.has_value(); });
+    const auto is = [] (const std::vector<std::uint16_t>& ids, const std::string& hex) {
+        return ! hex.empty() && std::ranges::count (ids, std::strtoul (hex.c_str(), nullptr, 16)) > 0;
+    };
+    const auto isOfIt = [&] (const auto& p) { return std::ranges::any_of (p->match, [&] (const auto& m) { return is (m.vid, port.vid) && is (m.pid, port.pid); }); };
+    std::ranges::stable_partition (all, isOfIt);
     return all;
 }
 

@@ -26,6 +26,14 @@ bool isSimulatedDevice (const Run::RoleDevice& d)
     return dynamic_cast<SimulatedDevice*> (driver) != nullptr || dynamic_cast<GestureDevice*> (driver) != nullptr
            || dynamic_cast<TraceDevice*> (driver) != nullptr;
 }
+
+/// True if the graph reads where the tool of the role is.
+bool readsPlace (const Plan& plan, const std::string& role)
+{
+    const auto needs = needsOf (plan);
+    const auto of_role = std::ranges::find (needs, role, &RoleNeeds::role);
+    return of_role != needs.end() && (of_role->parts.position || of_role->parts.rotation);
+}
 }   // namespace
 
 LiveSession::LiveSession (const Catalogue& c, Hardware h, Options o)
@@ -54,8 +62,7 @@ Messages LiveSession::load (const graph::Graph& graph)
 
     const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) {
         auto opened = devices.open (role, g, plan, m);
-        auto* driver = opened.driver != nullptr ? opened.driver : opened.device.get();
-        if (auto* board = dynamic_cast<hid::HidDevice*> (driver)) board->heed (&is_emergency);
+        if (options.may_move && opened.device && ! isSimulatedDevice (opened) && readsPlace (plan, role)) makeMovable (opened);
         return opened;
     };
     running = std::make_unique<Run> (catalogue, options.compile, opener, options.queries);
@@ -83,6 +90,7 @@ Messages LiveSession::openDevices()
     alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     running->keepLimits (options.kept_limits);
     running->openDevices (playing, messages);
+    showStops();
     obeyed = stops.noticed();
     if (options.is_stopped) engine().emergencyStop();
 
@@ -98,6 +106,13 @@ Messages LiveSession::openDevices()
         if (const auto role = std::ranges::find (needs, plugin.role, &RoleNeeds::role); role != needs.end())
             std::ranges::move (missingTools (*role, partsOf (plugin.device->about())), std::back_inserter (messages));
     return messages;
+}
+
+/// Shows each HID device the guard of its role, whose stops may be its own, too.
+void LiveSession::showStops()
+{
+    for (const auto& real : realDevices())
+        if (real.present != nullptr) real.present->heed (engine().guardOf (real.role));
 }
 
 Messages LiveSession::beginSound (bool anyway)
@@ -146,7 +161,6 @@ void LiveSession::before (Plan&, std::uint64_t) noexcept
     const auto now = stops.presses();
     const auto earlier = std::exchange (obeyed, now);
     if (now.emergencies != earlier.emergencies) engine().emergencyStop();
-    is_emergency.store (engine().isEmergency(), std::memory_order_relaxed);
     if (now.stops != earlier.stops && running->isLive()) running->live().stop();
 }
 
@@ -172,6 +186,19 @@ Result<> LiveSession::rearm (std::chrono::steady_clock::time_point asked)
     engine().rearm();
     if (stops.latest() != seen || Failsafe::alarms() != alarms) engine().emergencyStop();
     return {};
+}
+
+bool LiveSession::holdWorkspaces (bool so)
+{
+    if (! running) return false;
+    bool any = false;
+    for (const auto& [role, d] : running->devices())
+        if (auto* device = dynamic_cast<WorkspaceDevice*> (d.device.get()))
+        {
+            device->hold (so);
+            any = true;
+        }
+    return any;
 }
 
 bool LiveSession::isLatched() const
@@ -228,6 +255,7 @@ LiveSession::EditResult LiveSession::edit (const graph::Graph& next, EditPolicy 
     if (isRefused()) return { false, std::move (messages) };
 
     edit.commit();
+    showStops();
     EditResult edited { true, std::move (messages) };
     std::ranges::move (missingParts (engine().newest()), std::back_inserter (edited.messages));
     std::ranges::move (devices.notTakenOver (playing, next), std::back_inserter (edited.messages));

@@ -10,7 +10,6 @@
 #include <host/sessions/run_clock.hpp>
 #include <tactus/run/run.hpp>
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -50,6 +49,7 @@ public:
         StopSwitch* stops = nullptr;                         ///< obeyed from the first tick on; may be null; must outlive this object
         std::map<std::string, GuardLimits> kept_limits {};   ///< see Run::keepLimits
         bool is_stopped = false;                             ///< the run starts with its forces at zero, until rearm()
+        bool may_move = false;                               ///< the workspaces of devices can be moved by holdWorkspaces()
         Run::Queries queries = Run::Queries::on_thread;
     };
 
@@ -106,6 +106,10 @@ public:
 
     /// Lets the forces rise again, if StopSwitch::mayRearm allows it. Only a person should decide this. [any thread]
     Result<> rearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now());
+
+    /// Lets the workspaces of all real devices whose position is read move with the hand, without force, or ends this (WorkspaceDevice::hold).
+    /// False if there is none. [main thread]
+    bool holdWorkspaces (bool);
 
     /// True if a stop is latched: an emergency stop, or a limit that only a rearm ends. Also after the last tick.
     bool isLatched() const;
@@ -174,6 +178,7 @@ public:
 private:
     void before (Plan&, std::uint64_t tick) noexcept override;
 
+    void showStops();
     TickClock& clock();
     std::optional<Message> noticeAlarm();
     std::optional<Message> attendFusion();
@@ -188,7 +193,6 @@ private:
     StopSwitch own_stops;   // if the caller has none
     StopSwitch& stops;
     StopSwitch::PressCounts obeyed;                      // by the tick thread
-    std::atomic<bool> is_emergency = false;              // for devices with an emergency stop of their own
     std::uint32_t alarms_told = 0, alarms_stopped = 0;   // alarms of the failsafe; the second is for the tick thread
     HealthWatch watch;
     std::chrono::steady_clock::time_point looked_at {};   // at the devices

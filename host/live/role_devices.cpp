@@ -112,6 +112,13 @@ Messages RoleDevices::notTakenOver (const graph::Graph& before, const graph::Gra
     return messages;
 }
 
+void makeMovable (Run::RoleDevice& opened)
+{
+    if (dynamic_cast<WorkspaceDevice*> (opened.device.get()) != nullptr) return;
+    if (opened.driver == nullptr) opened.driver = opened.device.get();
+    opened.device = std::make_unique<WorkspaceDevice> (std::move (opened.device), Workspace {}, opened.limits);
+}
+
 std::vector<RealDevice> realDevices (const Run& run)
 {
     std::vector<RealDevice> all;

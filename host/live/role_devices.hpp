@@ -63,6 +63,9 @@ private:
     std::set<std::string> by_graph;   // roles whose device comes from the graph
 };
 
+/// Puts a workspace around a device that has none, so that it can be moved. [main thread]
+void makeMovable (Run::RoleDevice&);
+
 /// The real devices of a run, present or awaited. [main thread]
 std::vector<RealDevice> realDevices (const Run&);
 

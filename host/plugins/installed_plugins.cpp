@@ -99,6 +99,9 @@ Messages usePlugins (const std::vector<std::string>& more)
         if (! fs::is_directory (folder, unseen))
             loaded.messages.push_back (Message::error ("plugin/no_folder", folder, "--plugins names a folder that does not exist",
                                                        "give the folder that contains the plugins"));
+        else if (pluginsIn (folder).empty())
+            loaded.messages.push_back (Message::warning ("plugin/none", folder, "--plugins names a folder without plugins",
+                                                         "give the folder that contains the plugins themselves, which end in " + std::string (plugin_suffix)));
     if (! loaded.types.empty()) extendCatalogue (std::move (loaded.types));
     return std::move (loaded.messages);
 }

@@ -373,10 +373,20 @@ if os.path.exists(os.path.join(folder, "dualsense.board.csv")):
           f"dualsense: hid-playstation rumbles it in {len(motors)} reports, up to {max(motors, default=None)}, and it rests at the end")
 else:
     print("skipped: a DualSense, because the kernel has no driver for it")
+if os.path.exists(os.path.join(folder, "switch_pro.board.csv")):
+    neutral, unset = bytes([0, 1, 0x40, 0x40] * 2), bytes(8)
+    sides = [r[2:10] for r in outputs("switch_pro") if r[0] in (0x01, 0x10) and len(r) >= 10]
+    rumbled = [s for s in sides if s not in (neutral, unset)]
+    # Bytes 1 and 5 begin with the amplitudes: that of the strong motor, on the left, is three times that of the weak one, on a scale of logarithms.
+    amplitudes = [(s[1] >> 1, s[5] >> 1) for s in rumbled]
+    check(len(rumbled) > 5 and all(strong >= weak for strong, weak in amplitudes) and max(amplitudes)[1] > 0 and sides[-1] == neutral,
+          f"switch_pro: hid-nintendo rumbles it in {len(rumbled)} of {len(sides)} reports, such as {rumbled[:1] and rumbled[0].hex()}, and it rests at the end")
+else:
+    print("skipped: a Switch controller, because the kernel has no driver for it")
 
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names the profiles that fit")
-devices = [d for d in json.loads(text("devices.json")) if "profiles" in d and not d.get("numbers_only")]   # no serial ports, event devices and profiles
+devices = [d for d in json.loads(text("devices.json")) if "profiles" in d and "driver" not in d and not d.get("numbers_only")]   # no serial ports, event devices and profiles
 check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices),
       "the list as JSON names them too")
 if any(d["product"] == "Test joystick" for d in devices):

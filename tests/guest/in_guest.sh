@@ -320,21 +320,26 @@ if [ -e /dev/uinput ] && [ -e $driver ]; then
     done
 fi
 
-# A pad, which the kernel's own driver rumbles.
+# Pads, which the kernel's own drivers rumble.
 echo '{"format": "tactus-graph", "version": 2, "name": "Rumble", "rate_hz": 1000,
        "nodes": {"strong": {"type": "signal.lfo", "params": {"frequency": "80 Hz", "amplitude": 0.75}},
                  "weak": {"type": "signal.lfo", "params": {"frequency": "80 Hz", "amplitude": 0.25}},
                  "left": {"type": "device.signal_out", "role": "pad"}, "right": {"type": "device.signal_out", "role": "pad", "settings": {"channel": 2}}},
        "wires": ["strong.out -> left.in", "weak.out -> right.in"]}' >$work/rumble.json
-if [ -e $driver ] && [ -d /sys/bus/hid/drivers/playstation ]; then
-    say "a pad that rumbles: DualSense"
-    $device dualsense --seconds 3000 --log $work/board.csv & sim=$!
+# rumble NAME DRIVER PART: the pad that a driver of the kernel finds, with this part of a name
+rumble ()
+{
+    [ -e $driver ] && [ -d /sys/bus/hid/drivers/"$2" ] || return
+    say "a pad that rumbles: $1"
+    $device "$1" --seconds 3000 --log $work/board.csv & sim=$!
     for _ in $(seq 60); do $tactus devices --json >$work/pads.txt; grep -q rumble $work/pads.txt && break; sleep 0.5; done
-    cp $work/pads.txt /run/results/dualsense.json
-    $tactus play $work/rumble.json --osc off --device "pad=evdev:Test DualSense" --duration 2 2>$work/play.err || fail "the pad"
+    cp $work/pads.txt "/run/results/$1.json"
+    $tactus play $work/rumble.json --osc off --device "pad=evdev:$3" --duration 2 2>$work/play.err || fail "the pad $1"
     unplug
-    keep dualsense
-fi
+    keep "$1"
+}
+rumble dualsense playstation "Test DualSense"
+rumble switch_pro nintendo "Pro Controller"
 
 say "several devices, listed and probed"
 plug

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices for the guest: guest_device board|space_mouse|joystick|wheel|dualsense [--option VALUE]…
+// Devices for the guest: guest_device board|space_mouse|joystick|wheel|dualsense|switch_pro [--option VALUE]…
 #include "uhid.hpp"
 
 int main (int argc, char** argv)
@@ -12,6 +12,7 @@ int main (int argc, char** argv)
     if (what == "joystick") return joystick (args);
     if (what == "wheel") return wheel (args);
     if (what == "dualsense") return dualSense (args);
-    std::fprintf (stderr, "usage: guest_device board|space_mouse|joystick|wheel|dualsense [--option VALUE]...\n");
+    if (what == "switch_pro") return switchPro (args);
+    std::fprintf (stderr, "usage: guest_device board|space_mouse|joystick|wheel|dualsense|switch_pro [--option VALUE]...\n");
     return 2;
 }

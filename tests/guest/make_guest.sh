@@ -30,7 +30,7 @@ rm -rf "$root"
 mkdir -p "$root"/{bin,modules,proc,sys,dev,host,memory,mnt}
 [ -e "$folder/kernel/lib/modules/$version/modules.dep" ] || depmod -b "$folder/kernel" "$version"
 cp "$(command -v busybox)" "$root/bin/busybox"
-for module in virtio_pci 9pnet_virtio 9p overlay uhid hid-generic usbhid dummy_hcd usb_f_hid uinput evdev hid-playstation; do
+for module in virtio_pci 9pnet_virtio 9p overlay uhid hid-generic usbhid dummy_hcd usb_f_hid uinput evdev hid-playstation hid-nintendo; do
     modprobe -S "$version" -d "$folder/kernel" -D "$module" 2>/dev/null | sed -n 's/^insmod \(.*\.ko[^ ]*\).*/\1/p'
 done | awk '! seen[$0]++' | while read -r file; do
     cp "$file" "$root/modules/"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A pad that a driver of the kernel drives: what it gets when it rumbles.
+// Pads that drivers of the kernel drive: what they get when they rumble.
 #include "uhid.hpp"
 
+#include <algorithm>
 #include <csignal>
+#include <initializer_list>
 
 namespace tactus::guest
 {
@@ -11,11 +13,21 @@ namespace
 {
 volatile std::sig_atomic_t ended = 0;
 
-// A vendor's page with one input and one output report of some ids and lengths. The kernel's drivers know the layouts by heart.
-std::vector<std::uint8_t> descriptorOf (std::uint8_t input, std::uint8_t input_length, std::uint8_t output, std::uint8_t output_length)
+struct ReportShape
 {
-    return { 0x06, 0x00, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x75, 0x08, 0x15, 0x00, 0x26, 0xff, 0x00, 0x85, input, 0x95,
-             input_length, 0x09, 0x02, 0x81, 0x02, 0x85, output, 0x95, output_length, 0x09, 0x03, 0x91, 0x02, 0xc0 };
+    std::uint8_t id, length;   // without the id
+};
+
+// A vendor's page with some reports. The kernel's drivers know the layouts by heart, but the kernel passes on only reports that the descriptor has.
+std::vector<std::uint8_t> descriptorOf (std::initializer_list<ReportShape> inputs, std::initializer_list<ReportShape> outputs)
+{
+    std::vector<std::uint8_t> all { 0x06, 0x00, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x75, 0x08, 0x15, 0x00, 0x26, 0xff, 0x00 };
+    for (const auto& [id, length] : inputs)
+        all.insert (all.end(), { 0x85, id, 0x95, length, 0x09, 0x02, 0x81, 0x02 });
+    for (const auto& [id, length] : outputs)
+        all.insert (all.end(), { 0x85, id, 0x95, length, 0x09, 0x03, 0x91, 0x02 });
+    all.push_back (0xc0);
+    return all;
 }
 
 struct Log
@@ -69,7 +81,7 @@ int dualSense (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
     Log log;
-    Uhid device ("Test DualSense", "01:02:03:04:05:06", 0x054c, 0x0ce6, descriptorOf (1, 63, 2, 47));
+    Uhid device ("Test DualSense", "01:02:03:04:05:06", 0x054c, 0x0ce6, descriptorOf ({ { 1, 63 } }, { { 2, 47 } }));
     device.on_ask = featureOfDualSense;
     const auto heard = [&] (std::span<const std::uint8_t> report) { log.add (report); };
     const double end = now() + option (args, "seconds", 10.0);
@@ -81,6 +93,72 @@ int dualSense (const std::vector<std::string>& args)
         ++report[1];     // the left stick moves
         report[8] = 8;   // nothing is pressed
         device.input (report);
+    }
+    device.serve (now() + 0.05, heard);
+    writeLog (args, log.lines);
+    return 0;
+}
+
+/// A Switch Pro controller at USB, which answers commands and subcommands: --seconds S --log FILE
+int switchPro (const std::vector<std::string>& args)
+{
+    std::signal (SIGTERM, [] (int) { ended = 1; });
+    Log log;
+    Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptorOf ({ { 0x21, 48 }, { 0x30, 48 }, { 0x81, 63 } }, { { 0x01, 48 }, { 0x10, 48 }, { 0x80, 63 } }));
+    std::array<std::uint8_t, 64> report {};
+    const auto state = [&] (std::uint8_t id) {
+        report = {};
+        report[0] = id;
+        report[2] = 0x8e;   // battery and connection
+        // Both sticks in the middle: two numbers of 12 bits each.
+        for (const std::size_t at : { 6u, 9u })
+        {
+            report[at] = 0x00;
+            report[at + 1] = 0x08;
+            report[at + 2] = 0x80;
+        }
+    };
+    const auto send = [&] (std::size_t size) { device.input (std::span (report).first (size)); };
+    const auto heard = [&] (std::span<const std::uint8_t> r) {
+        log.add (r);
+        if (r.size() >= 2 && r[0] == 0x80)   // a command of USB, such as the handshake
+        {
+            report = {};
+            report[0] = 0x81;
+            report[1] = r[1];
+            send (64);
+        }
+        if (r.size() < 11 || r[0] != 0x01) return;   // no subcommand
+        state (0x21);
+        report[13] = 0x80;    // done
+        report[14] = r[10];   // the subcommand
+        if (r[10] == 0x02)    // asks what it is
+        {
+            report[17] = 3;   // a Pro controller
+            for (std::uint8_t i = 0; i < 6; ++i)
+                report[19 + i] = static_cast<std::uint8_t> (0x11 + i);
+        }
+        if (r[10] == 0x10 && r.size() >= 16)   // reads its flash: where, how much, what is there
+        {
+            report[13] = 0x90;
+            std::copy_n (r.begin() + 11, 5, report.begin() + 15);
+            std::fill (report.begin() + 20, report.begin() + 49, std::uint8_t { 0xff });   // empty, so the kernel uses its defaults
+            // The scales of its accelerometer and of its gyroscope, after their offsets of 0.
+            if (r[11] == 0x20 && r[12] == 0x60)
+                for (std::size_t i = 0; i < 24; ++i)
+                    report[20 + i] = i / 6 % 2 != 0 && i % 2 != 0 ? 0x40 : 0;
+        }
+        send (49);
+    };
+    const double end = now() + option (args, "seconds", 10.0);
+    std::uint8_t moves = 0;
+    for (double due = now(); now() < end && ended == 0; due += 15e-3)
+    {
+        device.serve (due, heard);
+        state (0x30);
+        report[1] = ++moves;
+        report[7] = static_cast<std::uint8_t> (0x08 ^ (moves & 0x01));
+        send (49);
     }
     device.serve (now() + 0.05, heard);
     writeLog (args, log.lines);

@@ -216,5 +216,6 @@ int spaceMouse (const std::vector<std::string>& args);
 int joystick (const std::vector<std::string>& args);
 int wheel (const std::vector<std::string>& args);
 int dualSense (const std::vector<std::string>& args);
+int switchPro (const std::vector<std::string>& args);
 
 }   // namespace tactus::guest

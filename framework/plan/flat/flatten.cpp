@@ -432,8 +432,21 @@ private:
     {
         const auto& controls = result.top->owner->controls;
         for (const auto& o : overrides)
-            if (std::ranges::count (controls, o.name, &graph::Control::id) == 0)
+            if (std::ranges::count (controls, o.name, &graph::Control::id) == 0 && ! isMisspeltControl (o.name))
                 assign (*result.top, o.name, o.value, flat.asIs ({}, "--set " + o.name));
+    }
+
+    /// A name without a dot can only be that of a control.
+    bool isMisspeltControl (const std::string& name)
+    {
+        const auto& controls = result.top->owner->controls;
+        if (controls.empty() || name.find ('.') != std::string::npos) return false;
+        std::vector<std::string> ids;
+        for (const auto& control : controls)
+            ids.push_back (control.id);
+        flat.error ("control/unknown", flat.asIs ({}, "--set " + name), "there is no control " + quote (name) + didYouMean (name, ids),
+                    "controls here: " + listed (ids) + "; or name a parameter, such as drag.mu");
+        return true;
     }
 };
 }   // namespace

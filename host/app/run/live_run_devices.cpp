@@ -153,9 +153,7 @@ bool LiveRun::moveWorkspaces (const DeviceSession& now)
 void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages)
 {
     if (role == hand_role) adoptHand (opened, in, messages);
-    if (! opened.device || ! isBound (role) || dynamic_cast<WorkspaceDevice*> (opened.device.get()) != nullptr) return;
-    if (opened.driver == nullptr) opened.driver = opened.device.get();
-    opened.device = std::make_unique<WorkspaceDevice> (std::move (opened.device), Workspace {}, opened.limits);   // so that it can be moved
+    if (opened.device && isBound (role)) makeMovable (opened);
 }
 
 void LiveRun::adoptHand (Run::RoleDevice& opened, const Workspace& in, Messages& messages)

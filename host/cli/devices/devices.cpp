@@ -177,19 +177,28 @@ Json jsonOf (const audio::ListedCard& c)
 }
 
 //==============================================================================
-std::string textOf (const SerialPort& p)
+std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
 {
     auto text = "serial port " + printableName (p.path);
     if (! p.vid.empty()) text += "   " + p.vid + ":" + p.pid + "   " + (p.product.empty() ? "unnamed" : printableName (p.product));
-    return text + "\n    "
-           + (p.may_open ? "--device ROLE=serial:PROFILE@" + printableName (p.path)
-                         : "may not be opened by this user: join the group of the port, such as dialout")
-           + "\n";
+    text += "\n    ";
+    if (! p.may_open) return text + "may not be opened by this user: join the group of the port, such as dialout\n";
+    const auto fitting = profilesFor (p, profiles.profiles);
+    std::string ids;
+    for (const auto& profile : fitting)
+        ids += (ids.empty() ? "" : ", ") + printableName (profile->id) + " (" + printableName (profile->name) + ")";
+    if (fitting.empty()) return text + "no profile names a serial line: docs/devices.md says how to write one\n";
+    const auto device = "serial:" + printableName (fitting.front()->id) + "@" + printableName (p.path);
+    return text + "nothing on the line says which device it is. With a serial line: " + ids + "\n    to count its reports, without driving it: "
+           + "tactus devices --capture FILE --duration 2 --device " + device + "\n    to play: --device ROLE=" + device + "\n";
 }
 
-Json jsonOf (const SerialPort& p)
+Json jsonOf (const SerialPort& p, const LoadedProfiles& profiles)
 {
-    return { { "driver", "serial" }, { "port", p.path }, { "vid", p.vid }, { "pid", p.pid }, { "product", p.product }, { "may_open", p.may_open } };
+    Json could_be = Json::array();
+    for (const auto& profile : profilesFor (p, profiles.profiles))
+        could_be.push_back ({ { "id", profile->id }, { "name", profile->name } });
+    return { { "driver", "serial" }, { "port", p.path }, { "vid", p.vid }, { "pid", p.pid }, { "product", p.product }, { "may_open", p.may_open }, { "profiles", std::move (could_be) } };
 }
 
 //==============================================================================
@@ -389,7 +398,7 @@ void run (const DevicesOptions& options)
 
     const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
     for (const auto& port : ports)
-        json.push_back (jsonOf (port));
+        json.push_back (jsonOf (port, profiles));
     const auto event_devices = listEventDevices();
     for (const auto& l : event_devices)
         json.push_back (l.json);
@@ -407,7 +416,7 @@ void run (const DevicesOptions& options)
     if (! options.json)
     {
         for (const auto& port : ports)
-            std::cout << textOf (port);
+            std::cout << textOf (port, profiles);
         for (const auto& card : cards)
             std::cout << textOf (card);
     }

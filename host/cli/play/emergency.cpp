@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emergency.hpp"
-#include "rearm_key.hpp"
+#include "lone_key.hpp"
 
 #include <host/platform/signals.hpp>
 #include <tactus/run/realtime.hpp>
@@ -39,7 +39,7 @@ void Emergency::listen (const std::stop_token& stop)
     static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that
     takeEmergencySignals();
     constexpr auto patience = std::chrono::milliseconds (20);
-    RearmKey rearm_key;
+    LoneKey rearm_key { 'r' }, clutch_key { 's' };
     while (! stop.stop_requested())
     {
         if (! hasKeys())
@@ -51,9 +51,13 @@ void Emergency::listen (const std::stop_token& stop)
         if (key == ' ') stops.emergencyStop();
         if (key == '\x03') requestStop();   // Ctrl-C in a terminal that sends no signal for it
         if (key != '\0')
+        {
             rearm_key.typed (key, now());
-        else if (rearm_key.isDue (now()) && ! session.rearm())
-            came_too_early = true;
+            clutch_key.typed (key, now());
+            continue;
+        }
+        if (rearm_key.isDue (now()) && ! session.rearm()) came_too_early = true;
+        if (clutch_key.isDue (now())) clutch_turned = ! clutch_turned;
     }
 }
 

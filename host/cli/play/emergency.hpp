@@ -14,7 +14,7 @@ namespace tactus::host
 /// Presses the stop switch of a session, while this object exists: the space bar in a terminal, and SIGUSR1 from anywhere. Its own thread reads
 /// the keys and handles the signals. Its priority is above that of the tick thread if the system allows it. So a stop takes effect however long the
 /// main thread compiles, prints or waits, and however busy the tick thread is. For the signals, call holdEmergencySignals() before other threads
-/// are started. R rearms if it comes alone (RearmKey), when StopSwitch::mayRearm allows it. Only one object of this class may exist at a time.
+/// are started. R rearms if it comes alone (LoneKey), when StopSwitch::mayRearm allows it. Only one object of this class may exist at a time.
 /// [main thread]
 class Emergency final
 {
@@ -28,6 +28,9 @@ public:
     bool hasKeys() const noexcept { return keys.areThere(); }
     void restoreTerminal() const noexcept { keys.restore(); }   ///< before the program ends without destructors   [any thread]
 
+    /// True if S, which holds or releases the clutch, was pressed an odd number of times since the last call. [main thread]
+    bool takeClutch() noexcept { return clutch_turned.exchange (false); }
+
     /// Messages for the user since the last call, one per line; "" if there are none. [main thread]
     std::string takeNotes();
 
@@ -37,7 +40,7 @@ private:
     LiveSession& session;
     StopSwitch& stops;
     Keys keys;
-    std::atomic<bool> came_too_early { false };
+    std::atomic<bool> came_too_early { false }, clutch_turned { false };
     std::jthread listening;   // declared last: it uses the other members
 };
 

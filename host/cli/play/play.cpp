@@ -148,7 +148,7 @@ private:
         if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
         if (options.watch) more += ", reloading the graph file when it is edited";
         if (live.count() > 0) more += ", compiling nodes when their code is edited";
-        const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms" : "Ctrl-C stops";
+        const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms, S moves the workspace" : "Ctrl-C stops";
         std::fprintf (stderr, "%s at %g Hz%s; %s\n", printableName (name).c_str(), command.rate(), more.c_str(), keys);
     }
 
@@ -177,6 +177,7 @@ private:
     void poll (int i)
     {
         print (emergency.takeNotes());
+        if (emergency.takeClutch()) turnClutch();
         if (recording) recording->drain();
         tell (session.poll());
         if (options.watch && i % 10 == 0 && file_watch.poll()) reload();
@@ -192,6 +193,19 @@ private:
         const auto fusion = options.fuse ? "   " + session.fuser()->describe() : std::string {};
         const auto more = statusOf (session.health(), session.deviceClock()) + statusOf (command.audio().status()) + fusion;
         printStatus (command.run().live(), command.rate(), true, more, false);
+    }
+
+    /// Lets the workspaces move with the hand, or stay. The force of a workspace that moves is zero, so it does not matter that this waits for the main
+    /// thread.
+    void turnClutch()
+    {
+        const bool may_move = session.holdWorkspaces (! holds_clutch);
+        holds_clutch = may_move && ! holds_clutch;
+        if (! may_move)
+            print ("S moves the workspace of a device; this run has no device whose position its graph reads\n");
+        else
+            print (holds_clutch ? "the workspace moves with the hand, without force; press S again to end this\n"
+                                : "the workspace stays; the force comes back along the ramp\n");
     }
 
     /// Says once that compiled code has taken over.
@@ -278,7 +292,7 @@ private:
     Remote remote { command, stops };
     const std::string token = randomToken();
     std::optional<RemoteControl> control;
-    bool was_fused = false;
+    bool was_fused = false, holds_clutch = false;
     const bool terminal = stderrIsTerminal();
 
     std::uint64_t last_ticks = 0;
@@ -328,7 +342,8 @@ void addPlay (const Command& app)
     command.addOption ("--osc-answer", options->osc_answer, "Address of the only other machine that gets answers, such as 192.168.1.7").check (addressCheck());
     command.footer ("However the run stops, the guards first bring all forces smoothly to zero. The space bar or SIGUSR1 is the emergency\n"
                     "stop: no forces, but the graph keeps running. R, pressed at least a second later, rearms;\n"
-                    "this also ends a stop that a limit caused.\n"
+                    "this also ends a stop that a limit caused. S lets the workspaces of real devices move with the hand, without force,\n"
+                    "until S is pressed again.\n"
                     "With --watch, a file with errors is reported and the previous graph keeps running. Roles keep their devices,\n"
                     "a new role gets its own, --set still takes precedence over the file, and the recorded ports stay the same.\n\n"
                     "Examples:\n"

@@ -42,6 +42,17 @@ TEST_CASE ("an audio option that cannot work is refused with a remedy", "[cli][a
     CHECK (holds (errorOf ({ "--device", "stylus=audio:one", "--audio", "another" }), "audio/two_cards"));
 }
 
+TEST_CASE ("a card on which nothing plays is not opened, and a warning says what is missing", "[cli][audio]")
+{
+    const auto unused = runTactus ({ "play", wood, "--session", "off", "--osc", "off", "--duration", "0.1", "--device", "stylus=sim", "--audio", "no such card" });
+    CHECK (unused.status == 0);
+    CHECK (holds (unused.err, "--audio no such card: warning: nothing in this run plays on a sound card"));
+    CHECK (holds (unused.err, "--route PORT=CHANNEL"));
+    CHECK (holds (unused.err, "audio/unused"));
+    const auto none = runTactus ({ "play", wood, "--session", "off", "--osc", "off", "--duration", "0.1", "--device", "stylus=sim" });
+    CHECK_FALSE (holds (none.err, "audio/unused"));
+}
+
 TEST_CASE ("a render uses no sound card, and a graph that names one is valid on any machine", "[cli][audio]")
 {
     const auto refused = runTactus ({ "render", wood, "--duration", "1", "--device", "stylus=audio" });

@@ -70,6 +70,37 @@ TEST_CASE ("each kind of bad file is refused with its id and its place", "[cli]"
     CHECK (ran.err.find (file + place) != std::string::npos);
 }
 
+TEST_CASE ("a misspelt control after --set is named, together with those that exist", "[cli]")
+{
+    const Scratch scratch;
+    const auto out = scratch.path ("out.csv");
+    const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+    const auto ran = runTactus ({ "render", wood, "--duration", "0.01", "--set", "roughnes=1", "--out", out });
+    INFO (ran.err);
+    CHECK (ran.status == 1);
+    CHECK (ran.err.find ("--set roughnes: error: there is no control 'roughnes' (did you mean 'roughness'?)") != std::string::npos);
+    CHECK (ran.err.find ("[control/unknown]") != std::string::npos);
+    CHECK_FALSE (std::filesystem::exists (out));
+    const auto param = runTactus ({ "render", wood, "--duration", "0.01", "--set", "drag.m=1", "--out", out });
+    CHECK (param.err.find ("[param/unknown]") != std::string::npos);
+    const auto bare = runTactus ({ "render", scratch.write ("bare.json", graph (hand)), "--duration", "0.01", "--set", "roughnes=1", "--out", out });
+    CHECK (bare.err.find ("[param/name]") != std::string::npos);   // it has no controls
+}
+
+TEST_CASE ("a folder without plugins after --plugins is a warning, and a folder that does not exist, too", "[cli][plugins]")
+{
+    const Scratch scratch;
+    scratch.write ("readme.txt", "no plugin");
+    const auto folder = std::filesystem::path (scratch.path ("readme.txt")).parent_path().string();
+    const auto empty = runTactus ({ "nodes", "--plugins", folder });
+    CHECK (empty.status == 0);
+    CHECK (empty.err.find (folder + ": warning: --plugins names a folder without plugins") != std::string::npos);
+    CHECK (empty.err.find ("[plugin/none]") != std::string::npos);
+    const auto absent = runTactus ({ "nodes", "--plugins", folder + "/none" });
+    CHECK (absent.err.find ("[plugin/no_folder]") != std::string::npos);
+    CHECK (absent.err.find ("[plugin/none]") == std::string::npos);
+}
+
 TEST_CASE ("a graph with a node of an unknown type is not run", "[cli]")
 {
     const Scratch scratch;

@@ -3,6 +3,7 @@
 
 #include "fake_events.hpp"
 #include "support/corpus.hpp"
+#include "support/rounds.hpp"
 
 #include <fuzz/events_target.hpp>
 #include <host/evdev/force_device.hpp>
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <numbers>
 
 using namespace tactus;
@@ -337,4 +340,43 @@ TEST_CASE ("a device with a constant force is not rumbled: one motor would rende
 TEST_CASE ("every file of the events corpus leaves finite readings and a device at rest", "[evdev][safety]")
 {
     CHECK (test::replay ("events", fuzz::tryEvents) > 20);
+}
+
+TEST_CASE ("a long run of a wheel at an event device: each change is read once and in order, each torque reaches it, and none after a stop", "[evdev][soak]")
+{
+    // TACTUS_SOAK_SECONDS of the device's time, in which it sends 1000 changes and gets 1000 torques a second. The time is given, so this shows that nothing
+    // is lost, doubled or out of order, and that the effect is restarted before it ends. Threads and the kernel are those of evdev_driver_test and the guest.
+    const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
+    const auto ticks = wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::atof (wanted))) : test::rounds (60'000ull);
+    Opened wheel { FakeEvents::wheel(), torque, 1000.0 };
+    std::uint64_t read = 0, uploaded = 0, started = 0, wrong = 0, started_at = 0, longest_ms = 0;
+    for (std::uint64_t k = 0; k < ticks; ++k)
+    {
+        const int place = static_cast<int> (k % 60'000) + 1000;
+        wheel.events.move (wheel.on, place);
+        read += wheel.read() == TACTUS_DEVICE_OK ? 1 : 0;
+        wrong += std::abs (wheel.reading.rotation[1] - (place / 65535.0 - 0.5) * turn) > 1e-3 ? 1 : 0;
+        const double newton_metres = 0.01 * (static_cast<double> (k % 200) - 100.5);
+        wrong += wheel.write (newton_metres, 1ms) != 0 ? 1 : 0;
+        for (const auto& told : wheel.on.told)
+        {
+            if (told.what == "upload")
+            {
+                ++uploaded;
+                wrong += told.level != -static_cast<int> (std::lround (newton_metres / 2.5 * 32767.0)) ? 1 : 0;
+            }
+            if (told.what != "play") continue;
+            ++started;
+            started_at = k;
+        }
+        longest_ms = std::max (longest_ms, k - started_at);
+        wheel.on.told.clear();
+    }
+    CHECK (read == ticks);
+    CHECK (uploaded + started == ticks);   // a start is a report, too, and takes the time of one torque
+    CHECK (wrong == 0);
+    CHECK (longest_ms < 500);   // how long the effect lasts
+    wheel.write (0.0, 1ms);
+    CHECK (wheel.levels() == std::vector<int> { 0 });
+    if (wanted != nullptr) std::cout << "event device: " << read << " changes, " << uploaded << " torques in their order\n";
 }

@@ -45,8 +45,9 @@ struct OpenBoard
         INFO ((opened ? std::string() : opened.error().text));
         REQUIRE (opened);
         device = std::make_unique<HidDevice> (std::move (*opened));
-        device->heed (&emergency);
-        device->prepare (1e-5);   // a rearm takes many ticks, so that the threads of the port have time to send it
+        device->heed (guard);
+        guard.prepare ({}, tick_s);
+        device->prepare (tick_s);
         board.moveTo (0, 0);
         REQUIRE (eventually ([&] {
             tick (Vec3::Zero());
@@ -54,10 +55,13 @@ struct OpenBoard
         }));
     }
 
+    static constexpr double tick_s = 1e-5;   // a rearm takes many ticks, so that the threads of the port have time to send it
+
     void tick (const Vec3& newtons)
     {
         board.ns += 20'000'000;   // within this time, any force can follow any other
         reading = device->read();
+        guard ({}, reading);
         device->write ({ .force = newtons });
         std::this_thread::sleep_for (200us);   // gives way to the threads of the port
     }
@@ -66,7 +70,7 @@ struct OpenBoard
 
     FarBoard board;
     std::shared_ptr<const Profile> profile;
-    std::atomic<bool> emergency = false;
+    Guard guard;
     std::unique_ptr<HidDevice> device;
     Reading reading;
 };
@@ -160,7 +164,7 @@ TEST_CASE ("the emergency stop of Tactus is that of an OpenFFBoard, after its fo
         run.tick (push);
         return run.board.torque()[1] == -14745;
     }));
-    run.emergency = true;
+    run.guard.emergencyStop();
     for (int k = 0; k < 50; ++k)
         run.tick (push);   // the fade of the guard has not ended
     CHECK (run.board.seen().commands.empty());
@@ -175,7 +179,7 @@ TEST_CASE ("the emergency stop of Tactus is that of an OpenFFBoard, after its fo
         return run.reading.fault == ReadingFault::stopped && ! run.reading.valid;
     }));
 
-    run.emergency = false;
+    run.guard.rearm();
     REQUIRE (eventually ([&] {
         run.tick (Vec3::Zero());
         return run.reading.valid;
@@ -199,10 +203,10 @@ TEST_CASE ("a rearm does not end an emergency stop that was pressed at the board
         });
     };
     REQUIRE (ticksWhile ([&] { return run.reading.fault == ReadingFault::stopped; }));
-    run.emergency = true;
+    run.guard.emergencyStop();
     for (int k = 0; k < 300; ++k)
         run.tick (Vec3::Zero());
-    run.emergency = false;
+    run.guard.rearm();
     for (int k = 0; k < 300; ++k)
         run.tick (Vec3::Zero());
     CHECK (run.board.seen().commands.empty());
@@ -214,9 +218,12 @@ TEST_CASE ("a rearm does not end an emergency stop that was pressed at the board
 TEST_CASE ("a board is stopped only at rest, and rearmed only for a while and after a stop of Tactus", "[hid][ffboard][safety]")
 {
     using Says = BoardStop::Says;
+    using Cause = BoardStop::Cause;
     constexpr double dt = 0.125;   // s
     BoardStop stop;
-    const auto step = [&] (bool emergency, bool rests, bool is_stopped) { return stop (emergency, rests, is_stopped, dt); };
+    const auto step = [&] (bool emergency, bool rests, bool is_stopped) {
+        return stop (emergency ? Cause::emergency : Cause::none, rests, is_stopped, dt);
+    };
     CHECK (step (false, true, false) == Says::nothing);
     CHECK (step (true, false, false) == Says::nothing);
     CHECK (step (true, true, false) == Says::stop);
@@ -245,6 +252,50 @@ TEST_CASE ("a board is stopped only at rest, and rearmed only for a while and af
     CHECK (step (false, true, true) == Says::rearm);
 }
 
+TEST_CASE ("a limit that is exceeded stops a board only when the board had the time to say that its button is pressed", "[hid][ffboard][safety]")
+{
+    using Says = BoardStop::Says;
+    using Cause = BoardStop::Cause;
+    constexpr double dt = 0.03125;   // s; the board has 0.1 s, which are four steps
+    const auto after = [] (BoardStop& stop, Cause cause, int steps, bool rests, bool is_stopped) {
+        auto last = Says::nothing;
+        for (int k = 0; k < steps; ++k)
+            last = stop (cause, rests, is_stopped, dt);
+        return last;
+    };
+    {
+        BoardStop stop;
+        CHECK (after (stop, Cause::limit, 3, true, false) == Says::nothing);
+        CHECK (after (stop, Cause::limit, 1, true, false) == Says::stop);
+        CHECK (after (stop, Cause::limit, 3, true, true) == Says::stop);
+        CHECK (after (stop, Cause::none, 1, true, true) == Says::rearm);
+        CHECK (after (stop, Cause::limit, 1, true, true) == Says::stop);   // again, before the board has said that it is rearmed: it is known whose stop it is
+    }
+    {
+        BoardStop stop;   // the button is pressed, the tool is let go and becomes too fast, and only then the board says so
+        CHECK (after (stop, Cause::limit, 2, true, false) == Says::nothing);
+        CHECK (after (stop, Cause::limit, 40, true, true) == Says::nothing);
+        CHECK (after (stop, Cause::none, 20, true, true) == Says::nothing);
+        CHECK (after (stop, Cause::none, 20, true, false) == Says::nothing);
+    }
+    {
+        BoardStop stop;   // a force that does not fade
+        CHECK (after (stop, Cause::limit, 40, false, false) == Says::nothing);
+        CHECK (after (stop, Cause::limit, 1, true, false) == Says::stop);
+    }
+    {
+        BoardStop stop;   // a rearm before the board was told
+        CHECK (after (stop, Cause::limit, 2, true, false) == Says::nothing);
+        CHECK (after (stop, Cause::none, 20, true, false) == Says::nothing);
+    }
+    {
+        BoardStop stop;   // someone presses the emergency stop meanwhile
+        CHECK (after (stop, Cause::limit, 1, true, false) == Says::nothing);
+        CHECK (after (stop, Cause::emergency, 1, true, false) == Says::stop);
+        CHECK (after (stop, Cause::none, 1, true, false) == Says::rearm);
+    }
+}
+
 TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the board, and REARM lets it go", "[hid][ffboard][live][safety]")
 {
     FarBoard board;
@@ -263,10 +314,10 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
     REQUIRE_FALSE (hasErrors (read.messages));
     REQUIRE_FALSE (hasErrors (session.load (read.graph)));
     REQUIRE_FALSE (hasErrors (session.openDevices()));
-    int ticks = 0;
+    int ticks = 0, torn = 0;
     const auto ticksUntil = [&] (auto so) {
         return eventually ([&] {
-            board.moveTo (++ticks % 2, 0);   // a sensor that trembles is not frozen
+            board.moveTo (torn + ++ticks % 2, 0);   // a sensor that trembles is not frozen
             board.ns += 50'000;
             session.run().tick();
             std::this_thread::sleep_for (200us);
@@ -278,6 +329,19 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
     REQUIRE (ticksUntil ([&] { return board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (1));
     CHECK (session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause));
+    CHECK (ticksUntil ([&] { return ! board.isStopped(); }));
+    CHECK (board.seen().commands.back() == stopCommand (0));
+    CHECK (ticksUntil ([&] { return board.torque()[0] == 8192; }));
+
+    // A limit that latches its stop: the tool is torn away. The board hears of it after its force is zero.
+    CHECK (ticksUntil ([&] { return session.engine().guardOf ("stylus").stop() == Guard::Stop::none; }));
+    const auto commands = board.seen().commands.size();
+    torn = 30000;
+    REQUIRE (ticksUntil ([&] { return board.isStopped(); }));
+    CHECK (session.engine().guardOf ("stylus").isLatched());
+    CHECK_FALSE (session.engine().isEmergency());
+    CHECK (board.seen().commands[commands] == stopCommand (1));
+    CHECK (ticksUntil ([&] { return bool (session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause)); }));
     CHECK (ticksUntil ([&] { return ! board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (0));
     CHECK (ticksUntil ([&] { return board.torque()[0] == 8192; }));

@@ -3,11 +3,14 @@
 
 #include "support/temporary_folder.hpp"
 
+#include <host/hid_link/profile_library.hpp>
 #include <host/hid_link/serial_ports.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 
 using namespace tactus::host::hid;
 namespace fs = std::filesystem;
@@ -48,4 +51,21 @@ TEST_CASE ("serial ports are listed with the USB device behind them, and interfa
     CHECK (ports[1].vid.empty());
 
     CHECK (serialPorts (folder / "nothing", files).empty());
+}
+
+TEST_CASE ("a serial port could have a device of each profile that names a serial line, and first of all the one with its USB ids", "[wires][hid]")
+{
+    const auto shipped = loadProfiles (profileFolder());
+    const auto idsFor = [&] (const SerialPort& port) {
+        std::vector<std::string> ids;
+        for (const auto& profile : profilesFor (port, shipped.profiles))
+            ids.push_back (profile->id);
+        return ids;
+    };
+    const auto of_unknown = idsFor ({ .path = "/dev/ttyS0" });
+    CHECK (of_unknown == std::vector<std::string> { "dualpanto", "haply_2diy", "tactus_board" });
+    CHECK (idsFor ({ .path = "/dev/ttyACM0", .vid = "1234", .pid = "0006" }) == of_unknown);
+    const auto of_board = idsFor ({ .path = "/dev/ttyACM0", .vid = "16c0", .pid = "0486" });
+    CHECK (of_board == std::vector<std::string> { "tactus_board", "dualpanto", "haply_2diy" });
+    CHECK (profilesFor ({ .path = "/dev/ttyS0" }, {}).empty());
 }

@@ -39,13 +39,37 @@ using namespace std::chrono_literals;
 using test::eventually;
 using WireClock = WireFile::Clock;
 
+/// An open device without a failsafe, which would notice that the test was suspended, and write to the device.
+struct WithoutFailsafe final : Transport
+{
+    explicit WithoutFailsafe (std::unique_ptr<Transport> t) : to (std::move (t)) {}
+
+    Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override { return to->read (into, timeout); }
+    bool canReadUntil() const noexcept override { return to->canReadUntil(); }
+    std::size_t keptBySystem() const noexcept override { return to->keptBySystem(); }
+    bool awaitsAnswer() const noexcept override { return to->awaitsAnswer(); }
+    ReportFile::Outcome readUntil (std::span<std::uint8_t> into, ReportFile::Clock::time_point until) noexcept override { return to->readUntil (into, until); }
+    Result<> write (std::span<const std::uint8_t> report) override { return to->write (report); }
+    Result<> sendFeature (std::span<const std::uint8_t> report) override { return to->sendFeature (report); }
+    Result<> getFeature (std::span<std::uint8_t> report) override { return to->getFeature (report); }
+
+    std::unique_ptr<Transport> to;
+};
+
 /// A computer without HID devices, with a clock of its own.
 struct NoHid final : host::hid::HidSystem
 {
     std::vector<ConnectedDevice> connected() override { return {}; }
     Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override { return Message::error ("hid/not_opened", {}, "there is none"); }
+    Result<std::unique_ptr<Transport>> reach (const ConnectedDevice& device, const Profile& profile) override
+    {
+        auto reached = HidSystem::reach (device, profile);
+        if (! has_failsafe && reached) return std::make_unique<WithoutFailsafe> (std::move (*reached));
+        return reached;
+    }
     std::chrono::steady_clock::time_point now() const noexcept override { return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (ns.load())); }
 
+    bool has_failsafe = true;
     std::atomic<std::int64_t> ns = 1'000'000'000;
 };
 
@@ -81,9 +105,10 @@ struct Bench
 {
     /// Records what passes in a file, if there is one.
     explicit Bench (Wire w, std::shared_ptr<const Profile> p = board(), std::unique_ptr<Device> hand = stillHand(), const std::string& link = {},
-                    CaptureFile* file = nullptr)
+                    CaptureFile* file = nullptr, bool has_failsafe = true)
         : profile (std::move (p))
     {
+        system.has_failsafe = has_failsafe;
         if (file != nullptr) capturing.emplace (system, *file);
         auto made = FakeDevice::make (profile, std::move (hand), { .wire = w, .link = link, .faults = {} });
         INFO ((made ? std::string() : made.error().text));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which R in a terminal rearms.
-#include <host/cli/play/rearm_key.hpp>
+// Which letter in a terminal counts, such as the R that rearms.
+#include <host/cli/play/lone_key.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <string>
 
-using tactus::host::RearmKey;
+using tactus::host::LoneKey;
 
 namespace
 {
 /// Types the keys `apart` seconds apart, looking for an R to act on every 10 ms, and returns how many there were.
-int rearmsOf (const std::string& keys, double apart, RearmKey& key, double& now)
+int rearmsOf (const std::string& keys, double apart, LoneKey& key, double& now)
 {
     int count = 0;
     const auto wait = [&] (double s) {
@@ -29,7 +29,7 @@ int rearmsOf (const std::string& keys, double apart, RearmKey& key, double& now)
 
 int rearmsOf (const std::string& keys, double apart = 0.0)
 {
-    RearmKey key;
+    LoneKey key { 'r' };
     double now = 1000.0;
     return rearmsOf (keys, apart, key, now);
 }
@@ -57,8 +57,24 @@ TEST_CASE ("an R in an escape sequence, in pasted text, or of a key held down do
     CHECK (rearmsOf (std::string (100, 'R'), 0.03) == 0);
     CHECK (rearmsOf (std::string (100, 'R'), 0.25) == 1);
 
-    RearmKey key;
+    LoneKey key { 'r' };
     double now = 0.0;
     CHECK (rearmsOf ("\x1bOR", 0.0, key, now) == 0);
     CHECK (rearmsOf ("R", 0.0, key, now) == 1);   // pressed again, alone
+}
+
+TEST_CASE ("letters wait for each other, so that only one of several that come together can count", "[cli]")
+{
+    LoneKey rearms { 'r' }, moves { 's' };
+    for (const char key : { 's', 'r' })
+    {
+        rearms.typed (key, 10.0);
+        moves.typed (key, 10.0);
+    }
+    CHECK_FALSE (moves.isDue (10.1));
+    CHECK_FALSE (rearms.isDue (10.1));
+    for (auto* each : { &rearms, &moves })
+        each->typed ('S', 11.0);
+    CHECK (moves.isDue (11.1));
+    CHECK_FALSE (rearms.isDue (11.1));
 }

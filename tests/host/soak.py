@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs the long tests, those with the tag [soak], side by side, each in a process of its own: soak.py PROGRAM
+
+TACTUS_SOAK_SECONDS and TACTUS_SOAK_TICKS say how long they are. None of them judges time, so they may take turns on few processors. Prints what each says,
+how long it took and how much of a processor it needed. Exits with 1 if one of them fails."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+program = sys.argv[1]
+names = subprocess.run([program, "[soak]", "--list-test-names-only"], stdout=subprocess.PIPE, text=True, check=False).stdout.splitlines()
+names = [name.strip() for name in names if name.strip()]
+if not names:
+    sys.exit("there is no test with the tag [soak]")
+
+begin = time.monotonic()
+running = {}
+for name in names:
+    output = tempfile.TemporaryFile("w+")
+    wanted = re.sub(r"([\\,\[])", r"\\\1", name)   # as Catch2 reads a name
+    running[subprocess.Popen([program, wanted], stdout=output, stderr=subprocess.STDOUT).pid] = name, output
+
+failed = 0
+while running:
+    pid, status, used = os.wait4(-1, 0)
+    name, output = running.pop(pid)
+    output.seek(0)
+    text = output.read()
+    passed = status == 0 and "All tests passed" in text
+    failed += not passed
+    print(f"{'passed' if passed else 'FAILED'} after {time.monotonic() - begin:.0f} s, {used.ru_utime + used.ru_stime:.0f} s of a processor, "
+          f"{used.ru_maxrss / 1024:.0f} MB at most: {name}")
+    shown = [line for line in text.splitlines() if line.strip() and not line.startswith(("=", "All tests passed"))] if passed else text.splitlines()
+    print("".join("    " + line + "\n" for line in shown), end="", flush=True)
+sys.exit(1 if failed else 0)
