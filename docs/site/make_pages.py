@@ -47,6 +47,8 @@ SECTIONS = {
     "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
 
+TITLES = {"start": "Install, and a first feel <start>", "tutorials/notebook": "A Python notebook <tutorials/notebook>"}
+
 # Words of the glossary that have other meanings, too. They become links only where a page links them to the glossary, or has them in bold.
 EVERYDAY = set("binding bypass check claim clock control engine feed fused hit instance limit passive port probe rate reading record run section session setting stable "
                "stop tap trace wire".split())
@@ -199,7 +201,8 @@ class Site:
         text = "# Tactus\n\nHaptic effects, patched like a modular synthesiser. [Feel a few in the browser](playground.md), or [build it](start.md).\n"
         text += "\n" + self.page_film() + "\n"
         for title, (about, pages) in SECTIONS.items():
-            text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(pages) + "\n```\n"
+            named = [TITLES.get(page, page) for page in pages]
+            text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(named) + "\n```\n"
         self.write("index", text)
         (self.source / "tutorials").mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / NOTEBOOK, self.source / "tutorials/notebook.ipynb")
@@ -325,7 +328,8 @@ class Site:
             text += "".join(f"| `{key}` | {escaped(value)} |\n" for key, value in sources.items())
         self.write(f"gallery/{name}", text)
         card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
-        return card + f"<a href=\"../playground/index.html#preset={name}\">Play</a> · {', '.join(graph.get('tags', []))}\n:::\n"
+        heard = f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n\n"
+        return card + heard + f"{links} · [sources]({name}.md)\n\n{', '.join(graph.get('tags', []))}\n:::\n"
 
     def gallery(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -367,15 +371,12 @@ class Site:
     @staticmethod
     def docstring(item):
         """The description of something in Python, as Markdown: its arguments become a list."""
-        lines = []
+        lines, in_code = [], False
         for line in (inspect.getdoc(item) or "").splitlines():
             argument = re.match(r"(\w+): (?=\S)", line)
-            in_code = line.startswith("    ") and not (lines and lines[-1].startswith(("- ", "  ")))
-            if in_code:
-                lines.append(line)
-            else:
-                told = re.sub(r"([<*_\[\]{}])", r"\\\1", line[argument.end():] if argument else line)
-                lines.append((f"- `{argument[1]}`: " if argument else "") + told)
+            in_code = line.startswith("    ") and (in_code or not lines or lines[-1] == "")
+            told = line if in_code else re.sub(r"`[^`]+`|[<*_\[\]{}]", lambda part: part[0] if part[0][0] == "`" else "\\" + part[0], line)
+            lines.append(f"- `{argument[1]}`{told[len(argument[1]):]}" if argument else told)
         return "\n".join(lines)
 
     def python_item(self, name, item, level):
