@@ -312,10 +312,12 @@ class Site:
         media.mkdir(parents=True, exist_ok=True)
         file = ROOT / "graphs" / f"{name}.json"
         run(self.tactus, "render", file, "--plot", media / f"{name}.png", "--size", "150x90", "--dpi", "110", "--listen", media / f"{name}.wav")
+        (media / f"{name}_patch.svg").write_text(importlib.import_module("tactus").Graph(file)._repr_svg_(), encoding="utf-8")
         title, known = graph["name"], {node["id"] for node in self.nodes}
         links = (f"<a href=\"../playground/index.html#preset={name}\">Play</a> · [Download](../{self.copied(f'graphs/{name}.json')}) · "
                  f"edit with `tactus-host graphs/{name}.json`")
         text = f"# {title}\n\n{graph['about']}\n\n{links}\n\n![The forces of {title} in its own gesture](../_static/gallery/{name}.png)\n\n"
+        text += f"![The patch of {title}: its nodes and wires](../_static/gallery/{name}_patch.svg)\n\n"
         text += f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n"
         if graph.get("controls"):
             text += "\n## Knobs\n\n| knob | moves |\n|---|---|\n"
@@ -329,7 +331,8 @@ class Site:
         self.write(f"gallery/{name}", text)
         card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
         heard = f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n\n"
-        return card + heard + f"{links} · [sources]({name}.md)\n\n{', '.join(graph.get('tags', []))}\n:::\n"
+        patch = f"![The patch of {title}](../_static/gallery/{name}_patch.svg)\n\n"
+        return card + patch + heard + f"{links} · [sources]({name}.md)\n\n{', '.join(graph.get('tags', []))}\n:::\n"
 
     def gallery(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -360,6 +363,7 @@ class Site:
                 declared = {}
                 for found in DECLARED.finditer(header.read_text(encoding="utf-8")):
                     comment = " ".join(line.removeprefix("///").strip() for line in found[1].split("///\n")[0].splitlines())
+                    comment = re.sub(r"(?<=\. )[^.]*:$", "", comment)   # what leads to an example
                     declared.setdefault(f"`{found['type']}`" if found["type"] else f"`{found['call']}()`", comment)
                 if not declared:
                     continue

@@ -125,7 +125,9 @@ class Site(unittest.TestCase):
                 self.assertIn(play, index)
                 page = self.pages[self.site / "gallery" / f"{preset['id']}.html"]
                 self.assertIn(play, page.links)
-                self.assertTrue(any(link.endswith(f"{preset['id']}.png") for link in page.loaded))
+                for picture in (f"{preset['id']}.png", f"{preset['id']}_patch.svg"):
+                    self.assertIn(picture, index)
+                    self.assertTrue(any(link.endswith(picture) for link in page.loaded))
                 self.assertTrue(any(link.endswith(f"{preset['id']}.wav") for link in page.loaded))
                 self.assertTrue(any(link.endswith(f"{preset['id']}.json") for link in page.links))
                 self.assertTrue(any("../nodes/" in link for link in page.links))
