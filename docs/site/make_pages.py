@@ -43,7 +43,8 @@ SECTIONS = {
     "Concepts": ("What the words mean, and how the parts work together.",
                  ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "lanes", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
-                  ["nodes/index", "graph_file", "commands", "osc", "profiles", "wires", "cpp_api", "c_api", "python_api", "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
+                  ["nodes/index", "graph_file", "commands", "osc", "profiles", "wires", "cpp_api", "c_api", "python_api",
+                   "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
     "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
 
@@ -329,7 +330,8 @@ class Site:
             text += "\n## Where the numbers come from\n\n| number | source |\n|---|---|\n"
             text += "".join(f"| `{key}` | {escaped(value)} |\n" for key, value in sources.items())
         self.write(f"gallery/{name}", text)
-        card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
+        card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n"
+        card += f"**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
         heard = f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n\n"
         patch = f"![The patch of {title}](../_static/gallery/{name}_patch.svg)\n\n"
         return card + patch + heard + f"{links} · [sources]({name}.md)\n\n{', '.join(graph.get('tags', []))}\n:::\n"

@@ -44,8 +44,8 @@ return [...document.querySelectorAll ('article *, .sidebar-drawer *')].filter (o
 """
 UNNAMED = """
 return [...document.querySelectorAll ('input:not([type=checkbox]), select, button, a[href], audio, video, img')].filter (one => one.getClientRects().length > 0
-    && ! one.labels?.length && ! one.getAttribute ('aria-label') && ! one.title && ! one.alt && ! one.textContent.trim() && ! one.querySelector ('img[alt], title')
-    && ! one.placeholder).map (one => one.outerHTML.slice (0, 200));
+    && ! one.labels?.length && ! one.getAttribute ('aria-label') && ! one.title && ! one.alt && ! one.placeholder && ! one.textContent.trim()
+    && ! one.querySelector ('img[alt], title')).map (one => one.outerHTML.slice (0, 200));
 """
 SET = "return document.querySelectorAll ('.MathJax_CHTML, .mjx-chtml').length"
 

@@ -139,7 +139,8 @@ TEST_CASE ("the C code for a serial board writes the frames of Tactus, and takes
         Bytes bytes;
         for (int i = 0; i < 20; ++i)
         {
-            auto frame = *rc::gen::inRange (0, 8) == 0 ? writtenByTactus (Bytes (static_cast<std::size_t> (*rc::gen::inRange (1, 200)), 7)) : writtenInC (anyReport());
+            const Bytes other (static_cast<std::size_t> (*rc::gen::inRange (1, 200)), 7);   // of another size
+            auto frame = *rc::gen::inRange (0, 8) == 0 ? writtenByTactus (other) : writtenInC (anyReport());
             const auto fault = *rc::gen::inRange (0, 12);
             const auto at = *rc::gen::inRange (0, static_cast<int> (frame.size()));
             if (fault == 1) frame.erase (frame.begin() + at);
