@@ -31,7 +31,7 @@ QUIET = YES
 END
 
 python=/usr/bin/python3   # Debian's, which has Sphinx
-"$python" -B docs/site/make_pages.py "$build/bin/tactus" "$work/source" "${presets[@]}"
+PYTHONPATH=$build/python "$python" -B docs/site/make_pages.py "$build/bin/tactus" "$work/source" "${presets[@]}"
 mathjax=$(realpath "$work")/source/_static/mathjax
 mkdir -p "$mathjax"
 for part in MathJax.js config/TeX-MML-AM_CHTML.js jax/output/CommonHTML jax/element fonts/HTML-CSS/TeX/woff extensions/MathMenu.js extensions/MathEvents.js; do
@@ -42,7 +42,14 @@ theme=$("$python" -c 'import furo, pathlib; print(pathlib.Path(furo.__file__).pa
 mkdir -p "$work/source/_static/scripts" "$work/source/_static/styles"
 cat "$theme/scripts/gumshoe-patched.js" <(sed '/^import Gumshoe/d' "$theme/scripts/furo.js") >"$work/source/_static/scripts/furo.js"
 sed 's|/javascript/normalize.css/||' "$theme/styles/furo.css" >"$work/source/_static/styles/furo.css"
+# And this style has lost the rule by which a page is dark where the system is.
+{
+    echo '@media screen and (prefers-color-scheme: dark) {'
+    sed -n '/^  body\[data-theme="dark"\] {/,/}/p' "$theme/styles/furo.css" | sed 's/body\[data-theme="dark"\]/body:not([data-theme="light"])/'
+    echo '}'
+} >>"$work/source/_static/styles/furo.css"
 cp -L /usr/share/javascript/normalize.css/normalize.css "$work/source/_static/styles"
+export PYDEVD_DISABLE_FILE_VALIDATION=1   # says nothing about a debugger that nobody uses
 PYTHONPATH=$build/python TACTUS_XML=$(realpath "$work/doxygen/xml") TACTUS_VERSION=$("$build/bin/tactus" --version | grep -o '[0-9.]*' | head -n 1) \
     "$python" -m sphinx -W --keep-going -n -q -j auto -d "$work/doctrees" -b html "$work/source" "$out"
 "$python" -B docs/site/build_playground.py "$build/bin/tactus" "$out/playground" "${presets[@]}"

@@ -16,6 +16,7 @@ breathe_default_project = "tactus"
 breathe_domain_by_extension = {"h": "c"}
 primary_domain = None
 highlight_language = "none"
+pygments_style, pygments_dark_style = "default", "github-dark"   # all of their colours can be read
 
 nbsphinx_execute = "always"
 nbsphinx_requirejs_path = ""   # nothing is loaded from elsewhere

@@ -3,8 +3,11 @@
 """Writes the source of the site, which Sphinx reads: make_pages.py TACTUS SOURCE [PRESET...]
 
 The pages of the repository come as they are, in sections. Links that lead out of the pages become copies of the files. A page is made for each node, from its
-datasheet and the comment of its header; for each preset, from its file and a run of it; and for the commands, from their --help."""
+datasheet and the comment of its header; for each preset, from its file and a run of it; for the commands, from their --help; and for the interfaces in C++
+and Python, from the comments of the headers and of the package tactus, which must be on PYTHONPATH."""
 
+import importlib
+import inspect
 import json
 import os
 import pathlib
@@ -35,14 +38,17 @@ SECTIONS = {
     "Tutorials": ("A quarter of an hour each, from nothing to something that you feel.",
                   [*(f"tutorials/{name}" for name in ("first_graph", "first_node", "first_device", "recording_to_preset", "embed")), "tutorials/notebook"]),
     "How to": ("One page per task: first patching and playing, then devices, then programs of your own.",
-               ["host", "osc", "replay", "fit", "import", "clips", "spectra", "devices", "sessions", "audio", "check", "realtime",
+               ["host", "replay", "fit", "import", "clips", "spectra", "devices", "known_devices", "sessions", "audio", "check", "realtime",
                 "library", "live", "export", "python", "plugins"]),
     "Concepts": ("What the words mean, and how the parts work together.",
                  ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "lanes", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
-                  ["nodes/index", "graph_file", "commands", "c_api", "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
+                  ["nodes/index", "graph_file", "commands", "osc", "profiles", "wires", "cpp_api", "c_api", "python_api",
+                   "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
     "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
+
+TITLES = {"start": "Install, and a first feel <start>", "tutorials/notebook": "A Python notebook <tutorials/notebook>"}
 
 # Words of the glossary that have other meanings, too. They become links only where a page links them to the glossary, or has them in bold.
 EVERYDAY = set("binding bypass check claim clock control engine feed fused hit instance limit passive port probe rate reading record run section session setting stable "
@@ -51,6 +57,11 @@ PLURALS = {"quantum": "quanta"}
 # What stays as it is when words become links: code, headings, links, markup, and names of buttons.
 FIXED = re.compile(r"^ *```.*?^ *```|^#.*?$|^ {4,}.*?$|(?<!\*)\*(?!\*)[^*\n]+\*(?!\*)|"
                    r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\([^)\s]+\)|\{term\}`[^`]+`|`[^`\n]+`|<[^>\n]+>", re.M | re.S)
+
+# The headers of the C++ interface: where a program that uses Tactus begins, and what these need.
+HEADERS = ("framework/node", "framework/graph", "framework/file", "framework/plan", "framework/run", "framework/run/clock", "framework/run/device")
+DECLARED = re.compile(r"^((?:///(?! *@)[^\n]*\n)+)(?:template <[^\n]*>\n)?(?:\[\[\w+\]\] )?(?:(?:class|struct|enum class) (?P<type>\w+)(?: final)?[^;\n]*$|"
+                      r"[^\n(=]*?\b(?P<call>\w+) \()", re.M)
 
 GESTURES = ("stroke", "circle", "press", "tap", "cut")   # tags of presets, and the parts of the gallery
 
@@ -191,7 +202,8 @@ class Site:
         text = "# Tactus\n\nHaptic effects, patched like a modular synthesiser. [Feel a few in the browser](playground.md), or [build it](start.md).\n"
         text += "\n" + self.page_film() + "\n"
         for title, (about, pages) in SECTIONS.items():
-            text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(pages) + "\n```\n"
+            named = [TITLES.get(page, page) for page in pages]
+            text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(named) + "\n```\n"
         self.write("index", text)
         (self.source / "tutorials").mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / NOTEBOOK, self.source / "tutorials/notebook.ipynb")
@@ -301,10 +313,12 @@ class Site:
         media.mkdir(parents=True, exist_ok=True)
         file = ROOT / "graphs" / f"{name}.json"
         run(self.tactus, "render", file, "--plot", media / f"{name}.png", "--size", "150x90", "--dpi", "110", "--listen", media / f"{name}.wav")
+        (media / f"{name}_patch.svg").write_text(importlib.import_module("tactus").Graph(file)._repr_svg_(), encoding="utf-8")
         title, known = graph["name"], {node["id"] for node in self.nodes}
         links = (f"<a href=\"../playground/index.html#preset={name}\">Play</a> · [Download](../{self.copied(f'graphs/{name}.json')}) · "
                  f"edit with `tactus-host graphs/{name}.json`")
         text = f"# {title}\n\n{graph['about']}\n\n{links}\n\n![The forces of {title} in its own gesture](../_static/gallery/{name}.png)\n\n"
+        text += f"![The patch of {title}: its nodes and wires](../_static/gallery/{name}_patch.svg)\n\n"
         text += f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n"
         if graph.get("controls"):
             text += "\n## Knobs\n\n| knob | moves |\n|---|---|\n"
@@ -316,8 +330,11 @@ class Site:
             text += "\n## Where the numbers come from\n\n| number | source |\n|---|---|\n"
             text += "".join(f"| `{key}` | {escaped(value)} |\n" for key, value in sources.items())
         self.write(f"gallery/{name}", text)
-        card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
-        return card + f"<a href=\"../playground/index.html#preset={name}\">Play</a> · {', '.join(graph.get('tags', []))}\n:::\n"
+        card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n"
+        card += f"**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
+        heard = f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n\n"
+        patch = f"![The patch of {title}](../_static/gallery/{name}_patch.svg)\n\n"
+        return card + patch + heard + f"{links} · [sources]({name}.md)\n\n{', '.join(graph.get('tags', []))}\n:::\n"
 
     def gallery(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -340,6 +357,54 @@ class Site:
         for name in names:
             text += f"\n## tactus {name}\n\n```\n{run(self.tactus, name, '--help').strip()}\n```\n"
         self.write("commands", text)
+
+    def cpp_api(self):
+        text = "# C++ headers\n\n[Tactus in your own program](library.md) shows how to use them. All names are in the namespace `tactus`.\n"
+        for folder in HEADERS:
+            for header in sorted((ROOT / folder).glob("*.hpp")):
+                declared = {}
+                for found in DECLARED.finditer(header.read_text(encoding="utf-8")):
+                    comment = " ".join(line.removeprefix("///").strip() for line in found[1].split("///\n")[0].splitlines())
+                    comment = re.sub(r"(?<=\. )[^.]*:$", "", comment)   # what leads to an example
+                    declared.setdefault(f"`{found['type']}`" if found["type"] else f"`{found['call']}()`", comment)
+                if not declared:
+                    continue
+                included = f"tactus/{header.relative_to(ROOT / 'framework')}"
+                text += f"\n## {included}\n\n[The header]({self.copied(header.relative_to(ROOT))}).\n\n| name | meaning |\n|---|---|\n"
+                text += "".join(f"| {name} | {escaped(comment)} |\n" for name, comment in declared.items())
+        self.write("cpp_api", text)
+
+    @staticmethod
+    def docstring(item):
+        """The description of something in Python, as Markdown: its arguments become a list."""
+        lines, in_code = [], False
+        for line in (inspect.getdoc(item) or "").splitlines():
+            argument = re.match(r"(\w+): (?=\S)", line)
+            in_code = line.startswith("    ") and (in_code or not lines or lines[-1] == "")
+            told = line if in_code else re.sub(r"`[^`]+`|[<*_\[\]{}]", lambda part: part[0] if part[0][0] == "`" else "\\" + part[0], line)
+            lines.append(f"- `{argument[1]}`{told[len(argument[1]):]}" if argument else told)
+        return "\n".join(lines)
+
+    def python_item(self, name, item, level):
+        """A class with its methods, a function or a property."""
+        head, described = "#" * level, inspect.unwrap(item) if callable(item) else item
+        text = f"\n{head} {name}\n\n"
+        if inspect.isfunction(described):
+            signature = str(inspect.signature(described)).replace("'", "").replace("(self, ", "(").replace("(self)", "()")
+            text += f"```\n{name}{signature}\n```\n\n"
+        text += self.docstring(item) + "\n"
+        if inspect.isclass(item):
+            for member, value in vars(item).items():
+                value = getattr(value, "__func__", value)
+                if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)) and inspect.getdoc(value):
+                    text += self.python_item(f"{name}.{member}", value, level + 1)
+        return text
+
+    def python_api(self):
+        package = importlib.import_module("tactus")
+        text = "# Python\n\nThe package `tactus`, as its comments describe it. [From Python](python.md) shows how to use it.\n"
+        text += "".join(self.python_item(name, getattr(package, name), 2) for name in package.__all__)
+        self.write("python_api", text)
 
     def c_api(self):
         text = "# C interfaces\n\nThe headers, as their comments describe them. [Tactus in your own program](library.md) shows how to use them.\n"
@@ -364,7 +429,9 @@ def main():
     site.node_pages()
     site.gallery()
     site.commands()
+    site.cpp_api()
     site.c_api()
+    site.python_api()
     print(f"{source}: {len(PAGES)} pages, {len(site.nodes)} nodes, {len(presets)} presets")
 
 

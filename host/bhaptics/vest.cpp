@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A device driver for vests that are driven through bHaptics Player (version 2): WebSocket and JSON. Written from the public description of the messages; no
-// vest and no Player has been tried. See docs/devices.md.
+// vest and no Player has been tried. See docs/known_devices.md.
 #include "vest.hpp"
 #include "vest_messages.hpp"
 

@@ -8,7 +8,7 @@
 namespace tactus::host::evdev
 {
 
-/// The device driver `evdev`: wheels, joysticks and pads with force feedback, through the event devices of Linux. docs/devices.md describes its
+/// The device driver `evdev`: wheels, joysticks and pads with force feedback, through the event devices of Linux. docs/known_devices.md describes its
 /// keys: port, calibration, max_rate.
 extern const tactus_device_driver driver;
 

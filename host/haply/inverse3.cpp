@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A device driver for Haply's Inverse3 and VerseGrip, through the service of its maker: WebSocket and JSON, one answer for each message. Written from the
-// public description of the messages; no device has been tried. See docs/devices.md.
+// public description of the messages; no device has been tried. See docs/known_devices.md.
 #include "inverse3.hpp"
 #include "inverse3_messages.hpp"
 

@@ -8,7 +8,7 @@ namespace tactus::host
 
 inline constexpr auto usual_inverse3_service = "localhost:10001";   ///< where it is unless the person says otherwise
 
-/// The device driver `haply`: Haply's Inverse3 and VerseGrip, through the service of their maker. docs/devices.md describes its keys: port, device_id, grip,
+/// The device driver `haply`: Haply's Inverse3 and VerseGrip, through the service of their maker. docs/known_devices.md describes its keys: port, device_id, grip,
 /// spelling.
 extern const tactus_device_driver haply_driver;
 

@@ -22,6 +22,31 @@ except ImportError:
 PATIENCE_S = 60
 PAGES = ("index", "start", "concepts", "glossary", "tutorials/first_graph", "tutorials/notebook", "nodes/index", "nodes/friction.elasto_plastic",
          "gallery/index", "c_api", "decisions/index")
+# Text that is fainter than WCAG 2.1 asks for (AA, whose threshold for large text is lower), and elements without a name.
+FAINT = """
+const parts = text => text.match (/[\\d.]+/g).map (Number);
+const light = ([r, g, b]) => [r, g, b].map (c => c / 255).map (c => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+                                     .reduce ((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+const over = (top, bottom) => top.slice (0, 3).map ((c, i) => (top[3] ?? 1) * c + (1 - (top[3] ?? 1)) * bottom[i]);
+const behind = one => {
+    const c = parts (getComputedStyle (one).backgroundColor);
+    return c.length === 3 || c[3] === 1 ? c : over (c, one.parentElement ? behind (one.parentElement) : [255, 255, 255]);
+};
+const isShown = one => one.getClientRects().length > 0 && ! one.closest ('noscript, .MathJax_CHTML, .mjx-chtml, .MJX_Assistive_MathML');
+const hasText = one => [...one.childNodes].some (node => node.nodeType === 3 && node.data.trim());
+return [...document.querySelectorAll ('article *, .sidebar-drawer *')].filter (one => hasText (one) && isShown (one))
+    .map (one => {
+        const ground = behind (one), style = getComputedStyle (one), size = Number.parseFloat (style.fontSize);
+        const [dark, bright] = [light (over (parts (style.color), ground)), light (ground)].sort ((a, b) => a - b);
+        return [one.outerHTML.slice (0, 200), (bright + 0.05) / (dark + 0.05), size >= 24 || (size >= 18.6 && style.fontWeight >= 700) ? 3 : 4.5];
+    })
+    .filter (([, contrast, least]) => contrast < least);
+"""
+UNNAMED = """
+return [...document.querySelectorAll ('input:not([type=checkbox]), select, button, a[href], audio, video, img')].filter (one => one.getClientRects().length > 0
+    && ! one.labels?.length && ! one.getAttribute ('aria-label') && ! one.title && ! one.alt && ! one.placeholder && ! one.textContent.trim()
+    && ! one.querySelector ('img[alt], title')).map (one => one.outerHTML.slice (0, 200));
+"""
 SET = "return document.querySelectorAll ('.MathJax_CHTML, .mjx-chtml').length"
 
 
@@ -68,6 +93,22 @@ class Pages(unittest.TestCase):
             themes.add(self.browser.execute_script("return document.body.dataset.theme"))
             self.browser.execute_script("document.querySelector ('.theme-toggle').click()")
         self.assertEqual(themes, {"auto", "light", "dark"})
+
+    def test_everything_has_a_name_and_can_be_read(self):
+        try:
+            for scheme, is_dark in (("light", False), ("dark", True)):
+                self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+                for page in PAGES:
+                    with self.subTest(page, scheme=scheme):
+                        self.open(f"{page}.html")
+                        self.browser.execute_script("localStorage.clear(); document.body.dataset.theme = 'auto'")
+                        self.until("return document.readyState === 'complete'")
+                        ground = self.browser.execute_script("return getComputedStyle (document.body).backgroundColor.match (/\\d+/g).map (Number)")
+                        self.assertEqual(max(ground[:3]) < 128, is_dark)
+                        self.assertEqual(self.browser.execute_script(FAINT)[:5], [])
+                        self.assertEqual(self.browser.execute_script(UNNAMED), [])
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     def test_laws_are_set_without_an_error(self):
         self.open("nodes/friction.elasto_plastic.html")

@@ -242,6 +242,24 @@ const tests = {
         assert.equal (page.state.latched, 'impulse');   // as if the last force had been on the device for 30 s
     },
 
+    async 'a limit that is exceeded while the board is silent stops it after a new start, too'()
+    {
+        const page = await pressing();
+        await page.run (0.1, { is_silent: true });
+        monotonic += 30e3;
+        wall += 30e3;
+        await page.run (0.1);   // the last force counts for 30 s, and the stop of a silent board hides that
+        assert.deepEqual (page.state.stops, ['stale']);
+        assert.equal (page.state.latched, 'limit');
+        page.post ({ record: true });
+        assert.equal (most (await page.run (1, { position: pressed })), 0);
+        assert.equal (page.state.latched, 'limit');
+        page.hid.rearm();
+        page.post ({ rearm: true });
+        assert (most (await page.run (1, { position: pressed })) > 1.9);
+        assert.equal (page.state.latched, null);
+    },
+
     async 'the computer sleeps: one clock stands still, and the first thing that runs is an old state'()
     {
         const page = await pressing();

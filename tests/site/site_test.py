@@ -108,6 +108,13 @@ class Site(unittest.TestCase):
         for page in ("index", "start"):
             self.assertTrue(any(link.endswith("first_minute.webm") for link in self.pages[self.site / f"{page}.html"].loaded), page)
 
+    def test_the_reference_has_the_interfaces(self):
+        for page, words in {"cpp_api": "tactus/run/run.hpp GuardLimits", "c_api": "tactus_plugin.h tactus_graph_load", "python_api": "Graph.render sweep",
+                            "commands": "check-preset", "profiles": "kinematics", "wires": "cobs", "osc": "/tactus"}.items():
+            text = (self.site / f"{page}.html").read_text(encoding="utf-8")
+            for word in words.split():
+                self.assertIn(word, text, page)
+
     def test_every_preset_has_a_card_and_a_page(self):
         index = (self.site / "gallery/index.html").read_text(encoding="utf-8")
         presets = json.loads((self.site / "playground/presets.json").read_text())["presets"]
@@ -118,7 +125,9 @@ class Site(unittest.TestCase):
                 self.assertIn(play, index)
                 page = self.pages[self.site / "gallery" / f"{preset['id']}.html"]
                 self.assertIn(play, page.links)
-                self.assertTrue(any(link.endswith(f"{preset['id']}.png") for link in page.loaded))
+                for picture in (f"{preset['id']}.png", f"{preset['id']}_patch.svg"):
+                    self.assertIn(picture, index)
+                    self.assertTrue(any(link.endswith(picture) for link in page.loaded))
                 self.assertTrue(any(link.endswith(f"{preset['id']}.wav") for link in page.loaded))
                 self.assertTrue(any(link.endswith(f"{preset['id']}.json") for link in page.links))
                 self.assertTrue(any("../nodes/" in link for link in page.links))

@@ -40,7 +40,7 @@ class Engine extends AudioWorkletProcessor
     {
         super();
         this.graph = null;
-        this.latched = null;   // a stop that lasts until rearm(), even if the graph is restarted
+        this.latched = null;   // a stop that lasts until rearm(), even if the graph is restarted; 'limit' until its cause is known
         this.rest = null;      // the number of the rest that the device takes now
         this.waiting = [];     // requests, until no effort is left
         this.is_at_rest = true;
@@ -199,7 +199,8 @@ class Engine extends AudioWorkletProcessor
         {
             const stop = this.graph.stop (role.name);
             is_stopped ||= stop !== 'none';
-            if (latching.includes (stop)) this.latched ??= stop;
+            if (latching.includes (stop) && (this.latched === null || (this.latched === 'limit' && stop !== 'emergency'))) this.latched = stop;
+            else if (this.graph.isLatched (role.name)) this.latched ??= 'limit';   // another stop, such as that of a silent device, hides it
             const force = this.graph.outputs[role.member].force;
             heard += force[0] + force[1] + force[2];
         }

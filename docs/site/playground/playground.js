@@ -8,12 +8,12 @@ const $ = id => document.getElementById (id);
 const pad = $('pad'), scope = $('scope');
 const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow',
                 released: 'a button is released', halted: 'the device comes to rest first', speed: 'the hand was too fast', impulse: 'it pushed for too long',
-                energy: 'it gave too much energy', emergency: 'you stopped it' };
+                energy: 'it gave too much energy', limit: 'a limit was exceeded', emergency: 'you stopped it' };
 
 const longest_rumble_ms = 100;
 
 let presets = [], preset = null, about = null, module_bytes = null;
-let engine = null, context = null, device = null, recording = false, is_stopped = false;
+let engine = null, context = null, device = null, recording = false, is_stopped = false, is_kept = false;
 let state = { positions: [], efforts: [], stops: [], rumble: 0 }, reason;
 let heights = null, wanted = [], chosen = 0, pressing = new Map(), forces = [], trail = [];
 
@@ -138,6 +138,8 @@ function load()
 
 function receive (data)
 {
+    if (data.loaded && ! is_kept) keepForLater().catch (() => {});   // it works without
+    is_kept ||= data.loaded !== undefined;
     if (data.loaded === about.name) say (`${about.title} is running.`);
     if (data.recorded) keepRecording (data.recorded);
     if (! data.state) return;
@@ -174,6 +176,16 @@ function rearm()
     $('rearm').hidden = true;
     reason = undefined;   // a stop that has not ended is shown again
     say (about ? `${about.title} is running.` : '');
+}
+
+/** Keeps the page and what it has loaded, so that it opens without its server, too: offline.js. */
+async function keepForLater()
+{
+    if (! navigator.serviceWorker) return;
+    await navigator.serviceWorker.register ('offline.js');
+    const shelf = await caches.open ('tactus-playground'), page = location.href.split ('#')[0];
+    const loaded = performance.getEntriesByType ('resource').map (one => one.name).filter (name => name.startsWith (new URL ('.', page).href));
+    await shelf.addAll ([...new Set ([page, ...['engine.js', 'graphs/tactus_graph.js', 'profiles.json'].map (name => new URL (name, page).href), ...loaded])]);
 }
 
 //==============================================================================

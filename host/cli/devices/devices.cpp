@@ -445,7 +445,7 @@ void addDevices (const Command& app)
                                         "they are initialised as their profiles specify, but not driven");
     command.addOption ("--duration", options->duration_s, "How long to probe or capture, in s").check (within (1e-3, 1e9));
     const auto capture = command.addOption ("--capture", options->capture.file,
-                                            "Record each report that a device sends or gets, until Ctrl-C, without driving it; see docs/devices.md")
+                                            "Record each report that a device sends or gets, until Ctrl-C, without driving it; see docs/known_devices.md")
                              .type ("FILE")
                              .excludes (probe);
     command.addOption ("--device", options->capture.device,

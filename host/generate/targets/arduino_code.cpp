@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arduino_code.hpp"
 #include <host/generate/sources/single_precision.hpp>
+#include <host/generate/sources/sources.hpp>
 
 namespace tactus::host
 {
@@ -246,14 +247,19 @@ constexpr const char* drive_brake = R"(    const double braking = effort.brake *
 )";
 
 constexpr const char* sketch = R"(// SPDX-License-Identifier: MIT
-// The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus by RawHID. From the first report of
-// Tactus on, Tactus alone drives the motors. When Tactus lets go, or is silent for 20 ms, the board rests, until Tactus drives it again, the
+// The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus. From the first report of Tactus on,
+// Tactus alone drives the motors. When Tactus lets go, or is silent for 20 ms, the board rests, until Tactus drives it again, the
 // arm button is pressed while Tactus is silent, or the board is reset. Then the board plays the graph again. All forces pass the guard of
 // the graph. Here the position comes from three analog sensors, the force goes to three motor drivers, and the arm button connects its pin to
 // ground. Change readPosition, drive and the numbers above them to what your device has, and the limits in setup to what its motors are
 // rated for. The limits of the patch hold as well.
 #include <@S@.hpp>
 #include <tactus_board.hpp>
+
+// 0: reports go over USB, by the RawHID of a Teensy. 1: over a serial line, of any board.
+#ifndef OVER_SERIAL
+#define OVER_SERIAL 0
+#endif
 
 static @C@ graph;
 static @C@::Inputs in;
@@ -299,19 +305,63 @@ void setup()
     graph.@ROLE@.tighten ({ .max_force = 3.0, .max_slew = 500.0, .ramp = 0.5 });   // N, N/s, and s until the full force
     graph.prepare (1e6 / period_us);
     state.is_homed = true;   // analog sensors know the position from power-on
+#if OVER_SERIAL
+    Serial.begin (2000000);
+#endif
     last_tick = last_report = micros();
 }
+
+#if OVER_SERIAL
+#include <tactus_serial.h>
+
+static tactus_line line;
+static uint8_t frame[tactus_frame_size];
+static int frame_sent = tactus_frame_size;   // bytes of the frame that the line has taken
+
+static bool receive (tactus::board::Report& report)
+{
+    while (Serial.available() > 0)
+        if (tactus_take (&line, static_cast<uint8_t> (Serial.read()), report.data()) != 0) return true;
+    return false;
+}
+
+/// Hands the line as much of the frame as it takes without waiting.
+static void sendFrame()
+{
+    const int left = tactus_frame_size - frame_sent, room = Serial.availableForWrite(), now = room < left ? room : left;
+    if (now > 0) frame_sent += static_cast<int> (Serial.write (frame + frame_sent, static_cast<size_t> (now)));
+}
+
+static bool send (const tactus::board::Report& report)
+{
+    if (frame_sent < tactus_frame_size) return false;
+    tactus_frame (report.data(), frame);
+    frame_sent = 0;
+    return true;
+}
+#else
+static bool receive (tactus::board::Report& report)
+{
+    for (int size; (size = RawHID.recv (report.data(), 0)) > 0;)
+        if (size == static_cast<int> (report.size())) return true;
+    return false;
+}
+
+static void sendFrame() {}
+static bool send (const tactus::board::Report& report) { return RawHID.send (report.data(), 0) > 0; }
+#endif
 
 /// Reads all waiting reports. The newest counts.
 static void listen (uint32_t now)
 {
     tactus::board::Report report;
-    for (int size; (size = RawHID.recv (report.data(), 0)) > 0;)
-        if (size == static_cast<int> (report.size())) authority.hear (report, now);
+    while (receive (report))
+        authority.hear (report, now);
 }
 
 void loop()
 {
+    sendFrame();
     // Never faster than the rate of the patch: what is late is lost, not caught up.
     const uint32_t now = micros(), passed = now - last_tick;
     if (passed < period_us) return;
@@ -329,8 +379,7 @@ void loop()
     state.us = now;
     state.is_driven = authority.isDriven();
     state.is_released = authority.hasTimedOut();
-    const auto report = tactus::board::reportOf (in.@PORT@, state);
-    if (RawHID.send (report.data(), 0) > 0) ++state.number;
+    if (send (tactus::board::reportOf (in.@PORT@, state))) ++state.number;
 }
 )";
 }   // namespace
@@ -354,6 +403,7 @@ std::vector<std::pair<std::string, std::string>> arduinoFiles (const Exported& e
     const auto code = [&e] (const std::string& text) { return e.is_single ? inSinglePrecision (text) : text; };
     return { { "library.properties", filled (properties, marks) },
              { "src/tactus_board.hpp", code (board) },
+             { "src/tactus_serial.h", std::string (findSource ("docs/examples/serial_board/tactus_serial.h")->text) },
              { "examples/Board/Board.ino", code (filled (sketch, marks)) } };
 }
 

@@ -86,6 +86,7 @@ export class Graph<Inputs = any, Outputs = any, Param extends string = string, C
     tighten (role: Role, limits: Readonly<Record<string, number>>): boolean;
     limitsOf (role: Role): Record<string, number>;
     stop (role: Role): Stop;
+    isLatched (role: Role): boolean;
     halt(): void;
     resume(): void;
     emergencyStop(): void;

@@ -137,6 +137,9 @@ export class Graph
     /** Why the guard withholds the effort of a device: "none" if it does not. */
     stop (role) { return stops[this.wasm.stop (indexOf (this.about.roles, role, 'role'))]; }
 
+    /** True during a stop that only rearm() ends, even if stop() names another cause. */
+    isLatched (role) { return this.wasm.latched (indexOf (this.about.roles, role, 'role')) !== 0; }
+
     /** Brings all efforts to zero smoothly, and keeps them there until resume(). */
     halt() { this.wasm.halt?.(); }
     resume() { this.wasm.resume?.(); }

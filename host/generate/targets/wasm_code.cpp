@@ -59,6 +59,11 @@ EXPORT (stop) int wasmStop (int role)
     const auto* const asked = roleOf (wasm_graph.all, static_cast<@S@_role> (role));
     return asked == nullptr ? 0 : static_cast<int> (asked->guard.stop());
 }
+EXPORT (latched) bool wasmIsLatched (int role)
+{
+    const auto* const asked = roleOf (wasm_graph.all, static_cast<@S@_role> (role));
+    return asked != nullptr && asked->guard.isLatched();
+}
 EXPORT (halt) void wasmHalt() { @S@_halt (&wasm_graph); }
 EXPORT (resume) void wasmResume() { @S@_resume (&wasm_graph); }
 EXPORT (emergency_stop) void wasmEmergencyStop() { @S@_emergency_stop (&wasm_graph); }

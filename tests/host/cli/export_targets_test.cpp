@@ -237,7 +237,7 @@ TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][expor
 TEST_CASE ("a board rests when its host stops, and every force on its motors passes the guard of the patch", "[cli][export]")
 {
     // The limits of the sketch, 3 N, 500 N/s and 0.5 s, hold where the patch has none.
-    const Scratch tight_scratch, loose_scratch, single_scratch;
+    const Scratch tight_scratch, loose_scratch, single_scratch, serial_scratch;
     const auto tight = R"("max_force": "0.5 N", "max_slew": "20 N/s", "ramp": "2 s", "max_impulse": "4 N*s", "impulse_window": "10 s")";
     const struct
     {
@@ -245,7 +245,9 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
         std::string guard;
         std::vector<std::string> limits;
         std::vector<std::string> options;
+        bool is_serial = false;
     } patches[] { { loose_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" }, {} },
+                  { serial_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" }, {}, true },
                   { tight_scratch, tight, { "0.5", "20", "2" }, {} },
                   { single_scratch, tight, { "0.5", "20", "2" }, { "--float" } } };
     const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
@@ -257,7 +259,7 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
             for (const auto* file : { "/src/plate.hpp", "/src/plate.cpp", "/src/tactus_board.hpp", "/examples/Board/Board.ino" })
                 CHECK (textOf (folder + file).find ("double ") == std::string::npos);
         REQUIRE (succeeds ("cd '" + folder + "' && c++ " + flags + "-O1 -Isrc -I'" + boards + "' -DSKETCH='\"" + folder
-                               + "/examples/Board/Board.ino\"' -o board '" + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
+                               + "/examples/Board/Board.ino\"' -DOVER_SERIAL=" + (patch.is_serial ? "1" : "0") + " -o board '" + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
                            patch.scratch.path ("said")));
         const auto run = [&] (const std::string& scenario, const std::string& seed) {
             auto arguments = patch.limits;

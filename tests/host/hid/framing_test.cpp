@@ -48,7 +48,7 @@ TEST_CASE ("frames have the bytes that the manual describes", "[hid][wires]")
                                                              "123456789\x26\x39\xf4\xcb\0",
                                                              16));
 
-    // The example in docs/devices.md: the neutral report to the Tactus board.
+    // The example in docs/wires.md: the neutral report to the Tactus board.
     Bytes neutral (64, 0);
     std::ranges::copy (Bytes { 0x54, 0x01 }, neutral.begin());
     std::ranges::copy (Bytes { 0x90, 0x2a, 0x5e, 0x87 }, neutral.begin() + 60);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Simulates the parts of a board that the sketch of an exported Arduino library uses: a sensor that moves into the object, motors, a
-// button, a clock, and RawHID. simulated_board.cpp is its program.
+// Simulates the parts of a board that sketches use: a sensor that moves into the object, motors, a button, a clock, RawHID, and a serial line.
+// simulated_board.cpp is the program for the sketch of an exported Arduino library.
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <vector>
 
 #define LOW 0
 #define HIGH 1
@@ -61,6 +62,41 @@ struct SimulatedBoard
 };
 
 inline SimulatedBoard RawHID;
+
+/// A serial line, whose buffer is smaller than a frame.
+struct SimulatedLine
+{
+    std::deque<std::uint8_t> to_board;
+    std::vector<std::uint8_t> from_board;
+    void (*before_reading)() = nullptr, (*after_writing)() = nullptr, (*emptied)() = nullptr;
+
+    void begin (unsigned long) {}
+
+    int available()
+    {
+        if (before_reading != nullptr) before_reading();
+        return static_cast<int> (to_board.size());
+    }
+
+    int read()
+    {
+        const auto byte = to_board.front();
+        to_board.pop_front();
+        if (to_board.empty() && emptied != nullptr) emptied();
+        return byte;
+    }
+
+    int availableForWrite() const { return 32; }
+
+    std::size_t write (const std::uint8_t* bytes, std::size_t count)
+    {
+        from_board.insert (from_board.end(), bytes, bytes + count);
+        if (after_writing != nullptr) after_writing();
+        return count;
+    }
+};
+
+inline SimulatedLine Serial;
 
 inline std::uint32_t micros() { return static_cast<std::uint32_t> (RawHID.now_us); }
 inline int analogRead (int pin)

@@ -3,6 +3,8 @@
 //
 //     board SCENARIO MAX_FORCE MAX_SLEW RAMP [SEED]
 //
+// With OVER_SERIAL, the reports go over a serial line.
+//
 // The three numbers are what the force on the motors must keep to. On every pass of loop(), the watch checks that.
 // Prints what went wrong, or how long each driver pushed.
 #include "Arduino.h"
@@ -39,6 +41,52 @@ SimulatedBoard::Report asking (double force_z, bool drives = true, double force_
 }
 
 void send (const SimulatedBoard::Report& r, int size = 64) { RawHID.to_board.push_back ({ r, size }); }
+
+#if OVER_SERIAL
+SimulatedBoard::Sent on_the_line;
+
+/// The next report for the board goes on the line, if that is empty.
+void frameNext()
+{
+    if (RawHID.to_board.empty() || ! Serial.to_board.empty()) return;
+    on_the_line = RawHID.to_board.front();
+    RawHID.to_board.pop_front();
+    std::vector<std::uint8_t> summed (on_the_line.bytes.begin(), on_the_line.bytes.begin() + on_the_line.size);
+    const auto crc = tactus_crc (summed.data(), on_the_line.size);
+    for (int i = 0; i < 4; ++i)
+        summed.push_back (static_cast<std::uint8_t> (crc >> 8 * i));
+    summed.push_back (0);   // ends the last part
+    Serial.to_board.push_back (0);
+    for (auto part = summed.begin(); part != summed.end();)
+    {
+        const auto zero = std::find (part, summed.end(), std::uint8_t { 0 });
+        Serial.to_board.push_back (static_cast<std::uint8_t> (zero - part + 1));
+        Serial.to_board.insert (Serial.to_board.end(), part, zero);
+        part = zero + 1;
+    }
+    Serial.to_board.push_back (0);
+}
+
+/// Takes the reports of the board from the line.
+void unframe()
+{
+    static tactus_line from_board;
+    for (const auto byte : Serial.from_board)
+        if (tactus_take (&from_board, byte, RawHID.from_board.data()) != 0) ++RawHID.reports;
+    Serial.from_board.clear();
+}
+
+void connectLine()
+{
+    Serial.before_reading = frameNext;
+    Serial.after_writing = unframe;
+    Serial.emptied = [] { RawHID.received (on_the_line); };
+}
+#else
+void connectLine()
+{
+}
+#endif
 
 Watch* watch = nullptr;
 
@@ -419,6 +467,7 @@ int main (int count, char** arguments)
     Watch watching;
     watch = &watching;
     RawHID.received = [] (const SimulatedBoard::Sent& sent) { watch->read (sent); };
+    connectLine();
     setup();
     const struct Scenario
     {

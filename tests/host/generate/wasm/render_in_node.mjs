@@ -37,10 +37,12 @@ const role = about.roles[0].name;
 assert.throws (() => graph.set ('nothing', 1), /there is no parameter "nothing"/);
 assert.equal (graph.tighten (role, { max_force: 1e-3 }), false);   // after the first tick
 assert.equal (graph.stop (role), 'none');
+assert (! graph.isLatched (role));
 graph.emergencyStop();
 for (let k = 0; k < about.rate_hz; ++k)
     graph.tick();
 assert.equal (graph.stop (role), 'emergency');
+assert (graph.isLatched (role));
 assert (efforts().every (value => value === 0));
 assert (graph.prepare (about.rate_hz));
 assert (! graph.prepare (2 * about.rate_hz));
