@@ -117,7 +117,7 @@ struct Soak
 /// Each report is answered once and in order, and nothing pushes after a stop.
 void soakOver (Wire wire, const char* framing)
 {
-    Bench bench { wire, board (framing), stillHand(), {}, nullptr, false };
+    Bench bench { wire, board (framing) };
     Soak soak { bench };
     REQUIRE (soak.tick());   // with what came while the device was opened
     const auto before = bench.device->counts();

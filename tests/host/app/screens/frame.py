@@ -60,19 +60,18 @@ def check(host, size):
             width, height = map(int, size.split("x"))
             seen = []
 
-            def fits():
+            def place():
                 for window in output(environment, "xdotool", "search", "--onlyvisible", "--name", "Tactus").split():
-                    place = outer(environment, window)
-                    if place:
-                        seen[:] = [place]
-                        if place == (0, 0, width, height):
-                            return place
+                    if found := outer(environment, window):
+                        seen[:] = [found]
+                        return found
                 return None
 
-            if until(fits) is None:
+            whole = (0, 0, width, height)
+            if until(lambda: place() == whole or None) is None:
                 return f"on a screen of {size}, the window with its frame is at {seen}"
             time.sleep(1.0)  # it stays there
-            return None if fits() else f"on a screen of {size}, the window moves to {seen}"
+            return None if until(place) == whole else f"on a screen of {size}, the window moves to {seen}"
         finally:
             for program in reversed(programs):
                 program.terminate()
