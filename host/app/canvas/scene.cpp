@@ -85,6 +85,7 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
     for (const auto* exposed : { &patch.expose.inputs, &patch.expose.params })
         for (const auto& [name, end] : *exposed)
             ends_at[end.node].push_back (&end);
+    const auto outside = drivenFromOutside (graph, seen);
     for (const auto& node : patch.nodes)
     {
         auto& made = all_nodes.emplace_back();
@@ -94,11 +95,14 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.bypass = node.bypass;
         made.face = std::make_shared<const Face> (faceOf (graph, patch, node, catalogue));
         const auto wired = [&, &its = ends_at[node.name]] (const FacePort& p) {
-            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; });
+            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; })
+                   || (! outside.empty() && outside.contains (node.name + '.' + p.id));
         };
-        const auto driver = [&its = wires_to[node.name]] (const FacePort& p) {
+        const auto driver = [&, &its = wires_to[node.name]] (const FacePort& p) {
             const auto wire = std::ranges::find_if (its, [&] (const graph::Wire* w) { return drives (*w, p); });
-            return wire == its.end() ? std::string() : graph::toText ((*wire)->from);
+            if (wire != its.end()) return graph::toText ((*wire)->from);
+            const auto outer = outside.empty() ? outside.end() : outside.find (node.name + '.' + p.id);
+            return outer == outside.end() ? std::string() : outer->second;
         };
         const auto valueNow = [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; };
         made.curve = curves.of (graph, seen, node, *made.face);

@@ -65,11 +65,9 @@ public:
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
         drivers.clear();
-        const auto* in = findPatch (document.graph(), patch.name);
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
-            const auto* wire = driverOf (*in, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1);
-            drivers.push_back (wire == nullptr ? std::string() : graph::toText (wire->from));
+            drivers.push_back (driverName (document.graph(), patch, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1));
         }
         setIsSet (now.is_set && (numbers.empty() || std::ranges::any_of (drivers, &std::string::empty)));
         note (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String());
