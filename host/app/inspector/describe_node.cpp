@@ -149,7 +149,7 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
         auto fillMenu = [fill = at.menuOfParam, n = node.name, id = p.id] (auto& menu) {
             if (fill) fill (menu, n, id);
         };
-        column.add (paramRow (at.document, { at.patch, at.path }, node.name, p, at.refused, at.live, std::move (fillMenu)));
+        column.add (paramRow (at.document, at.catalogue, { at.patch, at.path }, node.name, p, at.refused, at.live, std::move (fillMenu)));
     }
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
