@@ -206,6 +206,7 @@ private:
     void addEdits (std::vector<Action>&);
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
+    void addHands (std::vector<Action>&);
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();
