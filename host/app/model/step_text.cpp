@@ -67,6 +67,28 @@ std::optional<Difference> differenceOf (const Json& before, const Json& after, d
     return found;
 }
 
+/// The graph that a command opens, or brings back. Null if it does neither.
+const graph::Graph* openedBy (const graph::Command& command)
+{
+    if (const auto* replaces = std::get_if<graph::ReplaceGraph> (&command.edit)) return replaces->to.get();
+    const auto* batch = std::get_if<graph::Batch> (&command.edit);
+    return batch != nullptr && batch->commands.size() == 1 ? openedBy (batch->commands.front()) : nullptr;
+}
+
+/// The graph that a step edits: another one may have been opened since, or before a step that has been undone.
+const graph::Graph& graphOf (const graph::History& history, std::size_t step)
+{
+    const auto done = history.position();
+    if (step < done)
+        for (auto later = step + 1; later < done; ++later)
+            for (const auto& c : history.inversesOf (later))
+                if (const auto* before = openedBy (c)) return *before;
+    for (auto earlier = step; earlier-- > done;)
+        for (const auto& c : history.commandsOf (earlier))
+            if (const auto* opened = openedBy (c)) return *opened;
+    return history.graph();
+}
+
 std::optional<std::string> textOf (const graph::SetParam& back, const graph::SetParam& to, const graph::Graph& g, const Catalogue& catalogue)
 {
     if (back.patch != to.patch || back.node != to.node || back.param != to.param) return {};
@@ -102,7 +124,7 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
     if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return c.edit.index() != first.index(); })) return {};
     const auto &back = inverses.front().edit, &to = commands.back().edit;
     if (const auto* a = std::get_if<graph::SetParam> (&back), *b = std::get_if<graph::SetParam> (&to); a != nullptr && b != nullptr)
-        return textOf (*a, *b, history.graph(), catalogue);
+        return textOf (*a, *b, graphOf (history, step), catalogue);
     if (const auto* a = std::get_if<graph::ChangeControl> (&back), *b = std::get_if<graph::ChangeControl> (&to); a != nullptr && b != nullptr)
         return textOf (*a, *b);
     return {};
