@@ -7,6 +7,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -55,7 +56,7 @@ void listPorts (const std::vector<FacePort>& ports, const juce::String& title, C
     column.add (title, TextBlock::Kind::heading);
     for (const auto& p : ports)
     {
-        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : TRANS ("any unit").toStdString();
+        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? unitShown (std::string (p.unit.unit.symbol)) : TRANS ("any unit").toStdString();
         column.add (fromUtf8 (readableName (p) + (unit == "1" ? "" : ", " + unit)) + (p.width == 3 ? ", " + TRANS ("vector") : juce::String()),
                     TextBlock::Kind::text);
         column.add (fromUtf8 (p.about), TextBlock::Kind::small);

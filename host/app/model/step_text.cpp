@@ -36,7 +36,7 @@ std::optional<ShownValue> shownValue (const Json& value, const PortSheet& sheet)
     auto shown = withBestPrefix (*read, sheet);
     shown.number = rounded (shown.number);
     const bool has_unit = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol != "1";
-    const auto unit = shown.unit.empty() && has_unit ? std::string (sheet.unit.unit.symbol) : unitShown (shown.unit);
+    const auto unit = shown.unit.empty() && has_unit ? unitShown (std::string (sheet.unit.unit.symbol)) : unitShown (shown.unit);
     return ShownValue { QuantityText { shown.number, {}, 1.0 }.toText(), unit };
 }
 
