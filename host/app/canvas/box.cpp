@@ -32,7 +32,8 @@ std::string briefly (const std::string& text)
 /// A text about as long as that of a value while a graph runs.
 std::string longestLive (const FacePort& port)
 {
-    const auto unit = port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.symbol != "1" ? " m" + std::string (port.unit.unit.symbol) : std::string();
+    const bool has_unit = port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.symbol != "1";
+    const auto unit = has_unit ? " m" + unitShown (std::string (port.unit.unit.symbol)) : std::string();
     return port.width == 3 ? "(-0.00, -0.00, -0.00)" : "-0.0000" + unit;
 }
 }   // namespace

@@ -68,13 +68,13 @@ void Canvas::rebuild()
 {
     ++scenes_made;
     const bool is_only_moved = shown != nullptr && shown_of == std::pair (document.version(), seen());
-    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), textWidth()) : sceneOf (document.graph());
+    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), kept_places, textWidth()) : sceneOf (document.graph());
     shown_of = { document.version(), seen() };
 }
 
 std::shared_ptr<const Scene> Canvas::sceneOf (const graph::Graph& g)
 {
-    return std::make_shared<const Scene> (g, seen(), catalogue, curves, textWidth());
+    return std::make_shared<const Scene> (g, seen(), catalogue, curves, kept_places, textWidth());
 }
 
 void Canvas::hint (const juce::String& text)

@@ -203,6 +203,7 @@ private:
     CanvasCommands edits { *this, document };
     const Catalogue& catalogue;
     NodeCurves curves;
+    KeptPlaces kept_places;
     std::shared_ptr<const Scene> shown;
     std::pair<std::uint64_t, SeenPatch> shown_of;   // the version of the document, and the patch
     std::uint64_t scenes_made = 0;

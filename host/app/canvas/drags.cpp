@@ -5,6 +5,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
+#include <host/app/model/patch.hpp>
 #include <tactus/run/turn.hpp>
 
 #include <algorithm>
@@ -178,6 +179,9 @@ public:
     DragParam (Canvas& c, const SceneNode& n, const FacePort& p, const QuantityText& v)
         : canvas (c), id { n.id, Role::param, p.id }, sheet (*p.sheet), grabbed (v), now (v)
     {
+        const auto* patch = findPatch (c.edited().graph(), c.patch());
+        if (const auto* node = patch == nullptr ? nullptr : patch->find (n.name))
+            sheet = sheetInUse (c.edited().graph(), *patch, *node, p, v.toJson(), c.types());
         if (const auto address = c.seen().address (n.name + '.' + p.id); ! address.empty()) control = controlOf (c.edited().graph(), address);
     }
 
@@ -199,7 +203,7 @@ public:
 private:
     Canvas& canvas;
     PortId id;
-    const PortSheet& sheet;
+    PortSheet sheet;
     std::optional<ControlledParam> control;   // set if a control drives the param; it limits the range
     QuantityText grabbed, now;
     DragWay way;

@@ -4,6 +4,7 @@
 #include "paint/paint_nodes.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -18,7 +19,7 @@ std::string nameOf (const FacePort& port) { return readableName (port) == port.i
 juce::String portText (const SceneNode& node, const FacePort& port)
 {
     const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (node.quantityOf (port));
-    return fromUtf8 (node.name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about);
+    return fromUtf8 (node.name + "." + port.id + "  [" + unitShown (std::string (unit.symbol)) + "]  " + port.about);
 }
 
 /// The port whose socket or label is at a place.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tactus::host
 {
@@ -104,19 +105,64 @@ std::vector<juce::Point<float>> bendsAround (std::vector<juce::Rectangle<float>>
 }
 }   // namespace
 
+namespace
+{
+/// How many of the boxes a path leads through.
+int countMet (const juce::Path& path, const std::vector<juce::Rectangle<float>>& boxes)
+{
+    constexpr float step = 8.0f;
+    std::vector<juce::Point<float>> points;
+    for (juce::PathFlatteningIterator i (path); i.next();)
+    {
+        const juce::Point<float> a (i.x1, i.y1), b (i.x2, i.y2);
+        const int parts = std::max (1, static_cast<int> (a.getDistanceFrom (b) / step));
+        for (int k = 0; k < parts; ++k)
+            points.push_back (a + (b - a) * (static_cast<float> (k) / static_cast<float> (parts)));
+    }
+    return static_cast<int> (std::ranges::count_if (boxes, [&] (const juce::Rectangle<float>& box) {
+        return std::ranges::any_of (points, [&] (juce::Point<float> p) { return box.contains (p); });
+    }));
+}
+
+/// The bends of a wire that runs back to the left: below both nodes, or, if one of them is above the other and would be in the way, between them or above.
+std::vector<juce::Point<float>> bendsBack (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
+                                           const std::vector<juce::Rectangle<float>>& obstacles)
+{
+    float low = std::max (start.getBottom(), end.getBottom());
+    for (const auto& o : obstacles)   // stay below everything in between
+    {
+        const bool is_between = o.getX() < from.x && o.getRight() > to.x;
+        if (is_between && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
+    }
+    const auto& upper = start.getY() < end.getY() ? start : end;
+    const auto& lower = start.getY() < end.getY() ? end : start;
+    const float gap = lower.getY() - upper.getBottom();
+    std::vector<float> levels { low + 2 * clearance };
+    if (gap >= clearance) levels.push_back (upper.getBottom() + gap / 2);
+    levels.push_back (upper.getY() - 2 * clearance);
+    auto boxes = obstacles;
+    boxes.push_back (start.reduced (2.0f));
+    boxes.push_back (end.reduced (2.0f));
+    std::vector<juce::Point<float>> best;
+    int fewest = std::numeric_limits<int>::max();
+    for (const float y : levels)
+    {
+        const std::vector<juce::Point<float>> by { { from.x, y }, { to.x, y } };
+        if (const int met = countMet (curveThrough (from, by, to), boxes); met < fewest)
+        {
+            best = by;
+            fewest = met;
+        }
+        if (fewest == 0) break;
+    }
+    return best;
+}
+}   // namespace
+
 std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
                                              const std::vector<juce::Rectangle<float>>& obstacles)
 {
-    if (to.x < from.x)
-    {
-        float low = std::max (start.getBottom(), end.getBottom());
-        for (const auto& o : obstacles)   // stay below everything in between
-        {
-            const bool is_between = o.getX() < from.x && o.getRight() > to.x;
-            if (is_between && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
-        }
-        return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
-    }
+    if (to.x < from.x) return bendsBack (from, to, start, end, obstacles);
 
     // A bend around one box may lead through another one, which then counts as met, too. A box above or below one of the two nodes cannot be
     // avoided there: the wire runs straight past it.

@@ -9,7 +9,8 @@ namespace tactus::host
 {
 
 /// The waypoints of a wire that keep it from running behind nodes; empty if the direct path is free. A wire that runs back to
-/// the left goes below both ends. `start` and `end` are the boxes at its ends, `obstacles` the boxes of all other nodes.
+/// the left goes below both ends, or, if one of them is in the way there, between them or above. `start` and `end` are the boxes at
+/// its ends, `obstacles` the boxes of all other nodes.
 std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
                                              const std::vector<juce::Rectangle<float>>& obstacles);
 

@@ -38,30 +38,30 @@ const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
     return socket == box.sockets.end() ? nullptr : &*socket;
 }
 
-Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue& catalogue, NodeCurves& curves, const TextWidth& widthOf)
+Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue& catalogue, NodeCurves& curves, KeptPlaces& kept, const TextWidth& widthOf)
 {
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
     addNodes (graph, seen, *patch, catalogue, curves, widthOf);
     findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
-    layOut (graph, seen, *patch, widthOf);
+    layOut (graph, seen, *patch, kept, widthOf);
 }
 
-Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, const TextWidth& widthOf)
+Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, KeptPlaces& kept, const TextWidth& widthOf)
     : all_nodes (before.all_nodes), all_wires (before.all_wires), indices (before.indices)
 {
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
     for (auto& w : all_wires)
         if (! w.has_bends) w.waypoints.clear();
-    layOut (graph, seen, *patch, widthOf);
+    layOut (graph, seen, *patch, kept, widthOf);
 }
 
-void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const TextWidth& widthOf)
+void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, KeptPlaces& kept, const TextWidth& widthOf)
 {
     all_notes = notesOf (graph, seen.name);
-    place (patch);
+    place (patch, kept);
     for (auto& w : all_wires)
     {
         const auto &a = all_nodes[at (w.start)], &b = all_nodes[at (w.end)];
@@ -85,6 +85,7 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
     for (const auto* exposed : { &patch.expose.inputs, &patch.expose.params })
         for (const auto& [name, end] : *exposed)
             ends_at[end.node].push_back (&end);
+    const auto outside = drivenFromOutside (graph, seen);
     for (const auto& node : patch.nodes)
     {
         auto& made = all_nodes.emplace_back();
@@ -94,11 +95,14 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.bypass = node.bypass;
         made.face = std::make_shared<const Face> (faceOf (graph, patch, node, catalogue));
         const auto wired = [&, &its = ends_at[node.name]] (const FacePort& p) {
-            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; });
+            return std::ranges::any_of (its, [&] (const graph::Endpoint* e) { return made.face->endOf (*e) == &p; })
+                   || (! outside.empty() && outside.contains (node.name + '.' + p.id));
         };
-        const auto driver = [&its = wires_to[node.name]] (const FacePort& p) {
+        const auto driver = [&, &its = wires_to[node.name]] (const FacePort& p) {
             const auto wire = std::ranges::find_if (its, [&] (const graph::Wire* w) { return drives (*w, p); });
-            return wire == its.end() ? std::string() : graph::toText ((*wire)->from);
+            if (wire != its.end()) return graph::toText ((*wire)->from);
+            const auto outer = outside.empty() ? outside.end() : outside.find (node.name + '.' + p.id);
+            return outer == outside.end() ? std::string() : outer->second;
         };
         const auto valueNow = [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; };
         made.curve = curves.of (graph, seen, node, *made.face);
@@ -107,7 +111,44 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
     }
 }
 
-void Scene::place (const graph::Patch& patch)
+/// What the automatic places depend on: the nodes, their ports, the places that are stored, and the wires. Not the values, whose texts make nodes wider.
+std::string Scene::shapeFor (const std::vector<bool>& placed) const
+{
+    std::string shape;
+    const auto add = [&shape] (auto number) { shape += std::to_string (number) + ' '; };
+    for (std::size_t i = 0; i < all_nodes.size(); ++i)
+    {
+        const auto& n = all_nodes[i];
+        add (n.id);
+        add (n.face->inputs.size());
+        add (n.face->outputs.size());
+        if (! placed[i]) continue;
+        add (n.at.x);
+        add (n.at.y);
+    }
+    for (const auto& w : all_wires)
+    {
+        if (w.delay != 0) continue;
+        add (w.start);
+        add (w.end);
+    }
+    return shape;
+}
+
+const std::vector<juce::Point<float>>* KeptPlaces::find (const std::string& shape) const
+{
+    const auto found = known.find (shape);
+    return found == known.end() ? nullptr : &found->second;
+}
+
+void KeptPlaces::keep (std::string shape, std::vector<juce::Point<float>> places)
+{
+    constexpr std::size_t most = 64;
+    if (known.size() >= most) known.clear();
+    known.emplace (std::move (shape), std::move (places));
+}
+
+void Scene::place (const graph::Patch& patch, KeptPlaces& kept)
 {
     std::vector<bool> placed (all_nodes.size());
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
@@ -117,7 +158,22 @@ void Scene::place (const graph::Patch& patch)
             placed[i] = true;
         }
     if (std::ranges::count (placed, false) == 0) return;
-    if (std::ranges::count (placed, true) > 0) return placeAmongOthers (std::move (placed));
+    auto shape = shapeFor (placed);
+    if (const auto* places = kept.find (shape))
+    {
+        for (std::size_t i = 0; i < all_nodes.size(); ++i)
+            all_nodes[i].at = (*places)[i];
+        return;
+    }
+    std::ranges::count (placed, true) > 0 ? placeAmongOthers (std::move (placed)) : placeAll();
+    std::vector<juce::Point<float>> places;
+    for (const auto& n : all_nodes)
+        places.push_back (n.at);
+    kept.keep (std::move (shape), std::move (places));
+}
+
+void Scene::placeAll()
+{
     std::vector<juce::Point<float>> sizes;
     std::vector<std::pair<int, int>> wires;
     for (const auto& n : all_nodes)

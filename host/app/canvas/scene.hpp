@@ -94,15 +94,26 @@ struct SceneSocket
     explicit operator bool() const noexcept { return socket != nullptr; }
 };
 
+/// Keeps the automatic places of the nodes of patches, by the shapes of these, so that an edit of a value moves no node.
+class KeptPlaces
+{
+public:
+    const std::vector<juce::Point<float>>* find (const std::string& shape) const;
+    void keep (std::string shape, std::vector<juce::Point<float>>);
+
+private:
+    std::map<std::string, std::vector<juce::Point<float>>> known;
+};
+
 /// The layout of one patch on the canvas, in canvas units. Rebuilt after each edit.
 class Scene
 {
 public:
-    /// Nodes without a stored position are arranged automatically.
-    Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, const TextWidth&);
+    /// Nodes without a stored position are arranged automatically. They keep their places while nodes and wires stay the same.
+    Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, KeptPlaces&, const TextWidth&);
 
     /// As above, if nothing but places has changed since another scene was made.
-    Scene (const Scene& before, const graph::Graph&, const SeenPatch&, const TextWidth&);
+    Scene (const Scene& before, const graph::Graph&, const SeenPatch&, KeptPlaces&, const TextWidth&);
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
@@ -139,8 +150,10 @@ public:
 
 private:
     void addNodes (const graph::Graph&, const SeenPatch&, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
-    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, const TextWidth&);
-    void place (const graph::Patch&);
+    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, KeptPlaces&, const TextWidth&);
+    std::string shapeFor (const std::vector<bool>& placed) const;
+    void place (const graph::Patch&, KeptPlaces&);
+    void placeAll();
     void placeAmongOthers (std::vector<bool> placed);
     void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);

@@ -196,6 +196,19 @@ const BindingChoice* DevicesPanel::choiceNow (const std::string& role) const
     return choice == choices.end() ? nullptr : &*choice;
 }
 
+std::vector<std::pair<std::string, std::vector<std::string>>> DevicesPanel::choices()
+{
+    update();
+    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+    for (std::size_t i = 0; i < shape.roles.size(); ++i)
+    {
+        all.emplace_back (shape.roles[i], std::vector<std::string> {});
+        for (const auto& c : shape.choices[i])
+            all.back().second.push_back (c.label);
+    }
+    return all;
+}
+
 void DevicesPanel::setPart (const std::string& role, const std::string& pointer, const juce::String& text)
 {
     const auto* before = bindingOf (role);

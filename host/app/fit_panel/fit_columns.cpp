@@ -159,6 +159,14 @@ juce::String FitColumns::problem() const
     return {};
 }
 
+juce::StringArray FitColumns::turnedByUser() const
+{
+    juce::StringArray roles;
+    for (const auto& cell : cells)
+        if (cell->turned && cell->sign.isEnabled()) roles.add (roleName (cell->wanted));
+    return roles;
+}
+
 void FitColumns::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);

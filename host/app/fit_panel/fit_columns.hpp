@@ -26,7 +26,8 @@ public:
 
     /// What is chosen. A unit that does not fit is left out; see problem().
     ColumnChoice choice() const;
-    juce::String problem() const;   ///< what is missing or does not fit; empty: nothing
+    juce::String problem() const;
+    juce::StringArray turnedByUser() const;   ///< the columns whose signs the user has chosen   ///< what is missing or does not fit; empty: nothing
 
     void chooseColumn (const std::string& role, const juce::String& column);   ///< as in the list; an empty name: not recorded
     void setUnit (const std::string& role, const juce::String& unit);          ///< as typed, such as "mm" or "0.5 N"

@@ -197,7 +197,14 @@ void FitPanel::poll()
     if (job.isRunning()) repaint (scroll.getBounds());
     auto done = job.take();
     if (! done) return;
-    if (! *done) return fail (messageText (done->error()));
+    if (! *done)
+    {
+        auto why = sentence (messageText (done->error()));
+        if (const auto turned = which.turnedByUser(); ! turned.isEmpty())
+            why << " "
+                << filled (TRANS ("You have chosen the sign of %1: a click on the button before its unit changes it back."), turned.joinIntoString (", "));
+        return fail (why.toStdString());
+    }
     result = std::move (**done);
     plot.show (result->report.picture);
     values.show (*result);
@@ -261,7 +268,7 @@ void FitPanel::resized()
     auto row = area.removeFromTop (field_height);
     if (amount.isVisible())
     {
-        amount.setBounds (row.removeFromRight (isLow() ? 80 : 120));
+        amount.setBounds (row.removeFromRight (isLow() ? 116 : 120));
         amount_label.setBounds (row.removeFromRight (130));
         row.removeFromRight (12);
     }

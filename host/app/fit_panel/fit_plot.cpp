@@ -54,10 +54,12 @@ FitAxes fitAxes (const FitPicture& picture)
     return axes;
 }
 
-/// Grid and labels. Leaves the area of the curves in axes.inner.
-void paintFitAxes (juce::Graphics& g, juce::Rectangle<int> area, FitAxes& axes, const Theme& theme)
+/// Grid and labels, with room for more lines of the legend below the first. Leaves the area of the curves in axes.inner.
+void paintFitAxes (juce::Graphics& g, juce::Rectangle<int> area, FitAxes& axes, const Theme& theme, int more_lines)
 {
-    const auto top = area.removeFromTop (row + 4), bottom = area.removeFromBottom (2 * row + 2);
+    const auto top = area.removeFromTop (row + 4);
+    area.removeFromTop (row * more_lines);
+    const auto bottom = area.removeFromBottom (2 * row + 2);
     const auto y_ticks = ticksWithin (axes.ys, std::max (2, area.getHeight() / 48)), x_ticks = ticksWithin (axes.xs, std::max (2, area.getWidth() / 90));
     float left = 0.0f;
     for (const auto& t : y_ticks)
@@ -119,20 +121,35 @@ juce::Colour fitColour (const FitCurve& curve, std::size_t index, const Theme& t
     return index == 0 ? theme.dim : theme.axes[1];
 }
 
-/// Names and colours in the upper right corner.
-void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture& picture, const Theme& theme)
+constexpr int sample_width = 16, legend_gap = 16, beside_sample = 6;
+
+int labelWidth (const juce::Graphics& g, const FitCurve& curve)
+{
+    return juce::roundToInt (g.getCurrentFont().getStringWidthFloat (fromUtf8 (curve.label))) + 1;
+}
+
+int legendWidth (const juce::Graphics& g, const FitPicture& picture)
+{
+    int width = 0;
+    for (const auto& curve : picture.curves)
+        width += labelWidth (g, curve) + beside_sample + sample_width + legend_gap;
+    return width;
+}
+
+/// Names and colours in the upper right corner, beside each other or each in a line of its own.
+void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture& picture, const Theme& theme, bool one_line)
 {
     auto line = area.removeFromTop (row);
     for (std::size_t i = picture.curves.size(); i-- > 0;)
     {
-        const auto label = fromUtf8 (picture.curves[i].label);
-        const int width = juce::roundToInt (g.getCurrentFont().getStringWidthFloat (label)) + 1;
+        const auto& curve = picture.curves[i];
         g.setColour (theme.text);
-        g.drawText (label, line.removeFromRight (width), juce::Justification::centredLeft, false);
-        line.removeFromRight (6);
-        g.setColour (fitColour (picture.curves[i], i, theme));
-        g.fillRect (line.removeFromRight (16).withSizeKeepingCentre (16, 3));
-        line.removeFromRight (16);
+        g.drawText (fromUtf8 (curve.label), line.removeFromRight (labelWidth (g, curve)), juce::Justification::centredLeft, true);
+        line.removeFromRight (beside_sample);
+        g.setColour (fitColour (curve, i, theme));
+        g.fillRect (line.removeFromRight (sample_width).withSizeKeepingCentre (sample_width, 3));
+        line.removeFromRight (legend_gap);
+        if (! one_line) line = area.removeFromTop (row);
     }
 }
 }   // namespace
@@ -162,7 +179,10 @@ void FitPlot::paint (juce::Graphics& g)
     if (picture.curves.empty()) return;
     g.setFont (look.font (12.0f));
     auto axes = fitAxes (picture);
-    paintFitAxes (g, getLocalBounds().reduced (12, 10), axes, theme);
+    const auto area = getLocalBounds().reduced (12, 10);
+    const float name_width = g.getCurrentFont().getStringWidthFloat (fromUtf8 (axes.up.label));
+    const bool one_line = static_cast<int> (name_width) + legendWidth (g, picture) <= area.getWidth();   // the name of the axis is there, too
+    paintFitAxes (g, area, axes, theme, one_line ? 0 : static_cast<int> (picture.curves.size()) - 1);
     {
         const juce::Graphics::ScopedSaveState clipped (g);
         g.reduceClipRegion (axes.inner.toNearestInt());
@@ -173,7 +193,7 @@ void FitPlot::paint (juce::Graphics& g)
             g.strokePath (fitPath (curve, axes), juce::PathStrokeType (curve.is_recorded ? 2.6f : 1.4f, juce::PathStrokeType::curved));
         }
     }
-    paintLegend (g, getLocalBounds().reduced (16, 10), picture, theme);
+    paintLegend (g, getLocalBounds().reduced (16, 10), picture, theme, one_line);
 }
 
 }   // namespace tactus::host

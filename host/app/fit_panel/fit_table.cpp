@@ -15,7 +15,8 @@ namespace tactus::host
 
 namespace
 {
-constexpr int verdict_height = 34, header_height = 22, row_height = 22, gap = 10;
+constexpr int verdict_height = 34, header_height = 22, row_height = 22, second_line = 16, gap = 10;
+constexpr int narrower = 8;   // the gap beside a value in a narrow table
 
 /// "402 um" and "[398, 407]" of "402 um  [398, 407]".
 std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
@@ -92,7 +93,8 @@ juce::TextLayout FitTable::remarks (int width) const
 int FitTable::heightFor (int width) const
 {
     if (rows.empty()) return 0;
-    return verdict_height + header_height + row_height * static_cast<int> (rows.size()) + gap + static_cast<int> (std::ceil (remarks (width).getHeight())) + 4;
+    const int each = row_height + (isNarrow (width) ? second_line : 0);
+    return verdict_height + header_height + each * static_cast<int> (rows.size()) + gap + static_cast<int> (std::ceil (remarks (width).getHeight())) + 4;
 }
 
 /// Those of the columns of the value and the interval, with the gap to the left of each.
@@ -107,6 +109,17 @@ std::pair<int, int> FitTable::widths() const
         interval = std::max (interval, font.getStringWidthFloat (row.interval));
     }
     return { static_cast<int> (std::ceil (value)) + apart, static_cast<int> (std::ceil (interval)) + apart };
+}
+
+/// True if a name, a value and an interval have no room beside each other. The interval is then below the value.
+bool FitTable::isNarrow (int width) const
+{
+    const auto font = lookOf (*this).font (12.5f);
+    float name = 0.0f;
+    for (const auto& row : rows)
+        name = std::max (name, font.getStringWidthFloat (row.name));
+    const auto [value_width, interval_width] = widths();
+    return width < static_cast<int> (std::ceil (name)) + value_width + interval_width;
 }
 
 void FitTable::paint (juce::Graphics& g)
@@ -125,23 +138,36 @@ void FitTable::paint (juce::Graphics& g)
 
     const int width = area.getWidth();
     const auto [value_width, interval_width] = widths();
-    const int name_width = std::max (width * 25 / 100, width - value_width - interval_width);
-    const auto cells = [&, value_width = value_width] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value,
-                                                       const juce::String& interval) {
+    const bool is_narrow = isNarrow (width);
+    const int value_room = is_narrow ? value_width - narrower : value_width;
+    const int name_width = std::max (width * 25 / 100, width - value_room - (is_narrow ? 0 : interval_width));
+    const auto cells = [&] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value, const juce::String& interval) {
+        if (is_narrow)
+        {
+            g.drawText (interval, line.removeFromBottom (second_line), juce::Justification::centredRight, true);
+            line.translate (0, 2);   // the two lines are one row
+        }
         g.drawText (name, line.removeFromLeft (name_width), juce::Justification::centredLeft, true);
-        g.drawText (value, line.removeFromLeft (value_width), juce::Justification::centredRight, true);
-        g.drawText (interval, line, juce::Justification::centredRight, true);
+        g.drawText (value, line.removeFromLeft (value_room), juce::Justification::centredRight, true);
+        if (! is_narrow) g.drawText (interval, line, juce::Justification::centredRight, true);
     };
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    cells (area.removeFromTop (header_height), TRANS ("Parameter"), TRANS ("Value"), TRANS ("95 % interval"));
+    auto head = area.removeFromTop (header_height);
+    if (is_narrow)
+    {
+        g.drawText (TRANS ("Parameter"), head.removeFromLeft (width / 3), juce::Justification::centredLeft, true);
+        g.drawText (TRANS ("Value, 95 % interval"), head, juce::Justification::centredRight, true);
+    }
+    else
+        cells (head, TRANS ("Parameter"), TRANS ("Value"), TRANS ("95 % interval"));
     for (const auto& row : rows)
     {
         g.setColour (theme.hairline);
         g.drawHorizontalLine (area.getY(), static_cast<float> (area.getX()), static_cast<float> (area.getRight()));
         g.setColour (row.is_main ? theme.text : theme.dim);
         g.setFont (look.font (12.5f));
-        cells (area.removeFromTop (row_height), row.name, row.value, row.interval);
+        cells (area.removeFromTop (row_height + (is_narrow ? second_line : 0)), row.name, row.value, row.interval);
     }
     area.removeFromTop (gap);
     remarks (width).draw (g, area.toFloat());

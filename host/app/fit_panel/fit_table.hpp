@@ -32,6 +32,7 @@ private:
 
     juce::TextLayout remarks (int width) const;
     std::pair<int, int> widths() const;
+    bool isNarrow (int width) const;
 
     FitReport report;
     juce::StringArray details;

@@ -6,6 +6,7 @@
 #include <host/app/inspector/settings/setting_editor.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/tool_button.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -71,6 +72,9 @@ public:
         fader.setTitle (c->name.empty() ? c->id : c->name);
         name.show (fromUtf8 (c->name.empty() ? c->id : c->name));
         fader.setValue (c->value, juce::dontSendNotification);
+        fader.setEnabled (! isOverridden (document.graph(), *c));
+        fader.setAlpha (fader.isEnabled() ? 1.0f : 0.5f);
+        fader.setTooltip (overriddenText (document.graph(), *c));
     }
 
     void resized() override
@@ -108,6 +112,9 @@ protected:
         if (const auto* c = find (document, id))
             for (const auto& t : c->to)
                 all += t.path + '|';
+        if (const auto* c = find (document, id))
+            for (const auto& driver : driversOf (document.graph(), *c))
+                all += driver + '|';
         return all;
     }
 
@@ -117,10 +124,12 @@ protected:
         const auto* c = find (document, id);
         if (c == nullptr) return;
         if (c->to.empty()) add (TRANS ("No targets yet. Right-click a parameter to add one."), TextBlock::Kind::small);
+        const auto drivers = driversOf (document.graph(), *c);
         for (std::size_t i = 0; i < c->to.size(); ++i)
         {
             const auto path = c->to[i].path;
-            add (filled (TRANS ("%1, range"), path), TextBlock::Kind::small);
+            add (drivers[i].empty() ? filled (TRANS ("%1, range"), path) : filled (TRANS ("%1, without effect: a wire from %2 sets it"), path, drivers[i]),
+                 TextBlock::Kind::small);
             const auto end = [this, i] (Json graph::Control::Target::*which) {
                 return Binding { [this, i, which] {
                                     const auto* now = find (document, id);

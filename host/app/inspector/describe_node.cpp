@@ -7,6 +7,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -55,7 +56,7 @@ void listPorts (const std::vector<FacePort>& ports, const juce::String& title, C
     column.add (title, TextBlock::Kind::heading);
     for (const auto& p : ports)
     {
-        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : TRANS ("any unit").toStdString();
+        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? unitShown (std::string (p.unit.unit.symbol)) : TRANS ("any unit").toStdString();
         column.add (fromUtf8 (readableName (p) + (unit == "1" ? "" : ", " + unit)) + (p.width == 3 ? ", " + TRANS ("vector") : juce::String()),
                     TextBlock::Kind::text);
         column.add (fromUtf8 (p.about), TextBlock::Kind::small);
@@ -149,7 +150,7 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
         auto fillMenu = [fill = at.menuOfParam, n = node.name, id = p.id] (auto& menu) {
             if (fill) fill (menu, n, id);
         };
-        column.add (paramRow (at.document, { at.patch, at.path }, node.name, p, at.refused, at.live, std::move (fillMenu)));
+        column.add (paramRow (at.document, at.catalogue, { at.patch, at.path }, node.name, p, at.refused, at.live, std::move (fillMenu)));
     }
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);

@@ -2,6 +2,7 @@
 #include "describe.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -44,7 +45,7 @@ std::string unitAt (const InspectorContext& at, const graph::Endpoint& e, bool s
     const auto face = faceOf (at.document.graph(), *in, *node, at.catalogue);
     const auto* port = start ? face.startOf (e) : face.endOf (e);
     if (port == nullptr) return {};
-    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : anyUnit();
+    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? unitShown (std::string (port->unit.unit.symbol)) : anyUnit();
     return unit + (port->width == 3 && e.component < 0 ? ", " + TRANS ("vector").toStdString() : "");
 }
 

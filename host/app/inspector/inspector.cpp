@@ -24,6 +24,9 @@ Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue
     scroll.setWantsKeyboardFocus (false);   // the keys are for the fields
     addAndMakeVisible (scroll);
     addChildComponent (strip);
+    strip.onHint = [this] (const juce::String& why) {
+        if (onHint) onHint (why);
+    };
     document.add (*this);
     rebuild();
 }

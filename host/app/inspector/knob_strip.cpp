@@ -4,6 +4,7 @@
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr double scale_start = 1.25, scale_end = 2.75;   // of the scale, in hal
 class KnobStrip::Knob final : public juce::Slider
 {
 public:
-    Knob (Document& d, std::string i) : juce::Slider (RotaryHorizontalVerticalDrag, NoTextBox), document (d), id (std::move (i))
+    Knob (KnobStrip& s, std::string i) : juce::Slider (RotaryHorizontalVerticalDrag, NoTextBox), strip (s), document (s.document), id (std::move (i))
     {
         setRange (0.0, 1.0);
         setNumDecimalPlacesToDisplay (2);
@@ -44,7 +45,10 @@ public:
         if (c == nullptr) return;
         name = fromUtf8 (c->name.empty() ? c->id : c->name);
         setTitle (name);
-        setTooltip (filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle, or on the name to rename it"), name));
+        overridden = overriddenText (document.graph(), *c);
+        has_no_effect = isOverridden (document.graph(), *c);
+        const auto usual = filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle, or on the name to rename it"), name);
+        setTooltip (has_no_effect ? name + ": " + overridden : usual + (overridden.isEmpty() ? "" : "\n" + overridden));
         setValue (c->value, juce::dontSendNotification);
         repaint();
     }
@@ -54,6 +58,7 @@ public:
         const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
         const bool is_down = key.isKeyCode (juce::KeyPress::downKey) || key.isKeyCode (juce::KeyPress::leftKey);
         if (! is_up && ! is_down) return false;
+        if (refusesHand()) return true;
         const double by = key.getModifiers().isShiftDown() ? 0.001 : 0.01;
         change (std::clamp (getValue() + (is_up ? by : -by), 0.0, 1.0), false);
         return true;
@@ -62,8 +67,28 @@ public:
     /// On the dial, JUCE moves it to the middle.
     void mouseDoubleClick (const juce::MouseEvent& e) override
     {
-        if (e.y < getHeight() - label_height) return juce::Slider::mouseDoubleClick (e);
-        rename();
+        if (e.y >= getHeight() - label_height) return rename();
+        if (! has_no_effect) juce::Slider::mouseDoubleClick (e);
+    }
+
+    void mouseDown (const juce::MouseEvent& e) override
+    {
+        if (! refusesHand()) juce::Slider::mouseDown (e);
+    }
+
+    void mouseDrag (const juce::MouseEvent& e) override
+    {
+        if (! has_no_effect) juce::Slider::mouseDrag (e);
+    }
+
+    void mouseUp (const juce::MouseEvent& e) override
+    {
+        if (! has_no_effect) juce::Slider::mouseUp (e);
+    }
+
+    void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel) override
+    {
+        if (! refusesHand()) juce::Slider::mouseWheelMove (e, wheel);
     }
 
     void focusGained (FocusChangeType cause) override
@@ -93,14 +118,14 @@ public:
             g.strokePath (p, juce::PathStrokeType (4.0f, juce::PathStrokeType::beveled, juce::PathStrokeType::rounded));
         };
         arc (scale_end, theme.hairline);
-        if (getValue() > 0.0) arc (scale_start + (scale_end - scale_start) * getValue(), theme.accent);
+        if (getValue() > 0.0) arc (scale_start + (scale_end - scale_start) * getValue(), has_no_effect ? theme.dim.withMultipliedAlpha (0.5f) : theme.accent);
         if (hasKeyboardFocus (false))
         {
             g.setColour (theme.accent);
             g.drawRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f, 1.0f);
         }
         g.setFont (look.font (11.0f));
-        g.setColour (theme.text);
+        g.setColour (has_no_effect ? theme.dim : theme.text);
         g.drawText (juce::String (getValue(), 2), dial, juce::Justification::centred, false);
         g.setColour (isMouseOverOrDragging() ? theme.text : theme.dim);
         g.drawText (name, label, juce::Justification::centred, true);
@@ -131,6 +156,13 @@ private:
         return c == all.end() ? nullptr : &*c;
     }
 
+    /// A value that wires set cannot be set by hand. Says so.
+    bool refusesHand() const
+    {
+        if (has_no_effect && strip.onHint) strip.onHint (overridden);
+        return has_no_effect;
+    }
+
     void change (double to, bool joins)
     {
         if (const auto* c = find(); c != nullptr && c->value != to) edit ([to] (graph::Control& changed) { changed.value = to; }, joins);
@@ -145,9 +177,11 @@ private:
         document.perform (graph::ChangeControl { id, std::move (changed) }, joins ? graph::Step::joined : graph::Step::own);
     }
 
+    KnobStrip& strip;
     Document& document;
     std::string id;
-    juce::String name;
+    juce::String name, overridden;
+    bool has_no_effect = false;         // wires set all its targets
     std::unique_ptr<TextField> field;   // while the control is being renamed
     bool continues = false;
 };
@@ -171,7 +205,7 @@ void KnobStrip::refresh()
     {
         knobs.clear();
         for (const auto& c : controls)
-            addAndMakeVisible (*knobs.emplace_back (std::make_unique<Knob> (document, c.id)));
+            addAndMakeVisible (*knobs.emplace_back (std::make_unique<Knob> (*this, c.id)));
         resized();
     }
     for (auto& k : knobs)

@@ -4,6 +4,7 @@
 #include <host/app/look/look.hpp>
 #include <host/app/model/document.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace tactus::host
 {
 
 /// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
-/// keys; a double click on the dial sets it to the middle, and one on the name renames it.
+/// keys; a double click on the dial sets it to the middle, and one on the name renames it. A knob is dimmed and does not turn if wires set all its targets.
 class KnobStrip final : public juce::Component
 {
 public:
@@ -25,6 +26,8 @@ public:
     std::size_t size() const noexcept { return knobs.size(); }
     juce::Slider& knob (std::size_t i);
     void rename (const std::string& control);   ///< opens the field for the name of a control
+
+    std::function<void (const juce::String&)> onHint;   ///< receives the reason why a knob has no effect
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -4,6 +4,7 @@
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
+#include <host/app/model/drag_number.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
@@ -31,8 +32,9 @@ const graph::Node* find (const Document& document, const SeenPatch& patch, const
 class ParamRow final : public SetRow
 {
 public:
-    ParamRow (Document& d, SeenPatch p, std::string n, const FacePort& f, const Refusal& r, LiveValues v)
-        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r), live (std::move (v))
+    ParamRow (Document& d, const Catalogue& c, SeenPatch p, std::string n, const FacePort& f, const Refusal& r, LiveValues v)
+        : SetRow (fromUtf8 (readableName (f))), document (d), catalogue (c), patch (std::move (p)), node_name (std::move (n)), port (f), sheet (*f.sheet),
+          refused (r), live (std::move (v))
     {
         const auto id = std::string (port.sheet->id);
         setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\n" + filled (TRANS ("In files: %1"), id)));
@@ -40,7 +42,7 @@ public:
         const int fields = port.isChoice() ? 0 : port.width;
         for (int i = 0; i < fields; ++i)
         {
-            auto& field = *numbers.emplace_back (std::make_unique<NumberField> (*port.sheet));
+            auto& field = *numbers.emplace_back (std::make_unique<NumberField> (sheet));
             field.onChange = [this, i] (const std::optional<Json>& v, bool continues) {
                 const bool is_component = v && port.width == 3;
                 change (is_component ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : v, continues);
@@ -64,12 +66,12 @@ public:
         if (node == nullptr) return;
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
+        if (const auto* in = findPatch (document.graph(), patch.name); in != nullptr && port.width == 1)
+            sheet = sheetInUse (document.graph(), *in, *node, port, current, catalogue);
         drivers.clear();
-        const auto* in = findPatch (document.graph(), patch.name);
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
-            const auto* wire = driverOf (*in, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1);
-            drivers.push_back (wire == nullptr ? std::string() : graph::toText (wire->from));
+            drivers.push_back (driverName (document.graph(), patch, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1));
         }
         setIsSet (now.is_set && (numbers.empty() || std::ranges::any_of (drivers, &std::string::empty)));
         note (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String());
@@ -141,9 +143,11 @@ private:
     }
 
     Document& document;
+    const Catalogue& catalogue;
     SeenPatch patch;
     std::string node_name;
     FacePort port;
+    PortSheet sheet;   // of the port, with the usual range that follows from the wires
     Refusal refused;
     LiveValues live;
     Json current;
@@ -154,10 +158,10 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> paramRow (Document& document, const SeenPatch& patch, const std::string& node, const FacePort& port, const Refusal& refused,
-                                 LiveValues live, std::function<void (juce::PopupMenu&)> fillMenu)
+std::unique_ptr<Block> paramRow (Document& document, const Catalogue& catalogue, const SeenPatch& patch, const std::string& node, const FacePort& port,
+                                 const Refusal& refused, LiveValues live, std::function<void (juce::PopupMenu&)> fillMenu)
 {
-    auto row = std::make_unique<ParamRow> (document, patch, node, port, refused, std::move (live));
+    auto row = std::make_unique<ParamRow> (document, catalogue, patch, node, port, refused, std::move (live));
     row->onWantsMenu = std::move (fillMenu);
     return row;
 }
@@ -173,12 +177,13 @@ bool controlBy (Document& document, const SeenPatch& patch, const std::string& n
     const auto si = valueInEffect (document.graph(), path, catalogue);
     if (! si) return false;
     if (shown && *si != shown->si()) now = shown->exactly (*si).toJson();
+    const auto sheet = sheetInUse (document.graph(), *findPatch (document.graph(), patch.name), *node, port, now, catalogue);
     if (! control.empty())
     {
-        auto command = addTarget (document.graph(), control, path, now, *port.sheet);
+        auto command = addTarget (document.graph(), control, path, now, sheet);
         return command && document.perform (std::move (*command));
     }
-    const auto [low, high] = sweepOf (now, *port.sheet);
+    const auto [low, high] = sweepOf (now, sheet);
     return document.perform (newControlFor (document.graph(), path, low, high, siOf (now, *port.sheet)));
 }
 

@@ -21,7 +21,7 @@ using LiveValues = std::function<std::vector<double> (const std::string& param)>
 
 /// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. If a wire sets it, its
 /// value is that of the run, and the source is named. `fillMenu` fills its menu.
-std::unique_ptr<Block> paramRow (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&, LiveValues,
+std::unique_ptr<Block> paramRow (Document&, const Catalogue&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&, LiveValues,
                                  std::function<void (juce::PopupMenu&)> fillMenu);
 
 /// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param, so

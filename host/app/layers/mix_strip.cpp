@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strip.hpp"
 
+#include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -35,6 +36,8 @@ void MixStrip::show()
         const auto own = node->params.find (param);
         return own != node->params.end() ? Json (*own) : Json (mixerSheet (context->catalogue, param).initial[0]);
     };
+    duck.setDriver (driverAt (context->document.graph(), context->place.path + ".duck_db"));
+    ceiling.setDriver (driverAt (context->document.graph(), context->place.path + ".ceiling"));
     duck.show (value ("duck_db"));
     duck.setBold (node->params.contains ("duck_db"));
     ceiling.show (value ("ceiling"));

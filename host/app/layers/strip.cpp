@@ -4,6 +4,7 @@
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/face.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
@@ -100,9 +101,13 @@ void LayerStrip::show()
     const auto held = controlOf (graph, pathOf ("gain"));
     held_by = held ? juce::String (held->name) : juce::String();
     gain = held ? held->value : numberOf (*node, "gain");
+    driver = driverAt (graph, pathOf ("gain"));
+    gain_field.setDriver (driver);
     gain_field.show (Json (decibelsOf (gain)));
     fader.show (gain);
+    fader.setAlpha (driver.empty() ? 1.0f : 0.4f);
     auto note = held ? "\n" + filled (TRANS ("The control %1 sets this gain. A change of the gain here moves the control."), held_by) : juce::String();
+    if (! driver.empty()) note = "\n" + drivenText (driver);
     if (gain < 0.0) note << "\n" + TRANS ("The layer is inverted: its gain is negative.");
     fader.setTooltip (TRANS ("Gain. Drag to change, with Shift for fine steps; double-click for 0 dB; Alt+click for the default") + note);
     gain_field.setTooltip (TRANS ("Gain. Type -6 dB, x0.5, 50 %, off, or the level you want, such as 0.3 N") + note);
@@ -223,6 +228,11 @@ void LayerStrip::openSends()
 
 void LayerStrip::setGain (std::optional<Json> to, bool goes_on)
 {
+    if (! driver.empty())
+    {
+        if (context->hint) context->hint (drivenText (driver));
+        return show();
+    }
     if (const auto held = controlOf (context->document.graph(), pathOf ("gain")))
     {
         // The range of the control limits the fader.

@@ -104,6 +104,7 @@ private:
     double gain = 1.0;
     bool heard = true, wired = false, moving = false;
     juce::String held_by;
+    std::string driver;   // the output whose wire sets the gain
 };
 
 /// The master strip: the level of the mix, its ceiling, and the ducking of layers.

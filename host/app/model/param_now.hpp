@@ -5,7 +5,10 @@
 #include "face.hpp"
 #include "patch.hpp"
 
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tactus::host
 {
@@ -25,6 +28,25 @@ const graph::Wire* driverOf (const graph::Patch&, const std::string& node, const
 
 /// True if a wire sets the param of a node, or a component of it.
 bool drives (const graph::Wire&, const FacePort& param);
+
+/// The params of a patch that wires outside of it set, through ports that its subgraph exposes or by their path, such as "drag.mu", each with the output
+/// where its wire begins, as seen from the graph itself. None if one has not entered the patch.
+std::map<std::string, std::string> drivenFromOutside (const graph::Graph&, const SeenPatch&);
+
+/// The output whose wire sets a param, or one component of it: "level.out". Empty if none does.
+std::string driverName (const graph::Graph&, const SeenPatch&, const std::string& node, const FacePort& param, int component = -1);
+
+/// The same for a path such as "grain/drag.mu".
+std::string driverAt (const graph::Graph&, const std::string& path);
+
+/// By target of a control: the output whose wire sets it, so that the control has no effect on it. Empty if none does.
+std::vector<std::string> driversOf (const graph::Graph&, const graph::Control&);
+
+/// True if wires set all targets of a control, which has some: it has no effect.
+bool isOverridden (const graph::Graph&, const graph::Control&);
+
+/// Tells the user which targets of a control a wire sets. Empty if none.
+juce::String overriddenText (const graph::Graph&, const graph::Control&);
 
 /// Explains to the user why the value of a param cannot be set: a wire from this output sets it.
 juce::String drivenText (const std::string& output);

@@ -36,7 +36,7 @@ std::optional<ShownValue> shownValue (const Json& value, const PortSheet& sheet)
     auto shown = withBestPrefix (*read, sheet);
     shown.number = rounded (shown.number);
     const bool has_unit = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol != "1";
-    const auto unit = shown.unit.empty() && has_unit ? std::string (sheet.unit.unit.symbol) : unitShown (shown.unit);
+    const auto unit = shown.unit.empty() && has_unit ? unitShown (std::string (sheet.unit.unit.symbol)) : unitShown (shown.unit);
     return ShownValue { QuantityText { shown.number, {}, 1.0 }.toText(), unit };
 }
 
@@ -65,6 +65,28 @@ std::optional<Difference> differenceOf (const Json& before, const Json& after, d
         found = Difference { b, a, '[' + std::to_string (i) + ']' };
     }
     return found;
+}
+
+/// The graph that a command opens, or brings back. Null if it does neither.
+const graph::Graph* openedBy (const graph::Command& command)
+{
+    if (const auto* replaces = std::get_if<graph::ReplaceGraph> (&command.edit)) return replaces->to.get();
+    const auto* batch = std::get_if<graph::Batch> (&command.edit);
+    return batch != nullptr && batch->commands.size() == 1 ? openedBy (batch->commands.front()) : nullptr;
+}
+
+/// The graph that a step edits: another one may have been opened since, or before a step that has been undone.
+const graph::Graph& graphOf (const graph::History& history, std::size_t step)
+{
+    const auto done = history.position();
+    if (step < done)
+        for (auto later = step + 1; later < done; ++later)
+            for (const auto& c : history.inversesOf (later))
+                if (const auto* before = openedBy (c)) return *before;
+    for (auto earlier = step; earlier-- > done;)
+        for (const auto& c : history.commandsOf (earlier))
+            if (const auto* opened = openedBy (c)) return *opened;
+    return history.graph();
 }
 
 std::optional<std::string> textOf (const graph::SetParam& back, const graph::SetParam& to, const graph::Graph& g, const Catalogue& catalogue)
@@ -102,7 +124,7 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
     if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return c.edit.index() != first.index(); })) return {};
     const auto &back = inverses.front().edit, &to = commands.back().edit;
     if (const auto* a = std::get_if<graph::SetParam> (&back), *b = std::get_if<graph::SetParam> (&to); a != nullptr && b != nullptr)
-        return textOf (*a, *b, history.graph(), catalogue);
+        return textOf (*a, *b, graphOf (history, step), catalogue);
     if (const auto* a = std::get_if<graph::ChangeControl> (&back), *b = std::get_if<graph::ChangeControl> (&to); a != nullptr && b != nullptr)
         return textOf (*a, *b);
     return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wire_rules.hpp"
+#include "quantity_text.hpp"
 
 #include <host/app/text/filled.hpp>
 
@@ -25,7 +26,7 @@ std::string described (const Unit& u)
 {
     std::string text (name (u.quantity));
     std::ranges::replace (text, '_', ' ');
-    return u.symbol == "1" ? text : text + " (" + std::string (u.symbol) + ")";
+    return u.symbol == "1" ? text : text + " (" + unitShown (std::string (u.symbol)) + ")";
 }
 }   // namespace
 

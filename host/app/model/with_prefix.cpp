@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "with_prefix.hpp"
+#include "quantity_text.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -34,7 +35,7 @@ std::string withPrefix (double value, const std::string& unit, int digits)
         std::snprintf (text, sizeof text, "%.*e", digits - 1, scaled);
     else
         std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
-    const auto shown_unit = unit == "1" ? std::string {} : (prefix.text == "u" ? "µ" : std::string (prefix.text)) + unit;
+    const auto shown_unit = unit == "1" ? std::string {} : (prefix.text == "u" ? "µ" : std::string (prefix.text)) + unitShown (unit);
     return shown_unit.empty() ? std::string (text) : std::string (text) + " " + shown_unit;
 }
 

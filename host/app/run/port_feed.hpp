@@ -20,7 +20,7 @@ namespace tactus::host
 class PortFeed final : public RunListener
 {
 public:
-    static constexpr std::size_t most = 128;             ///< components of all ports, at most
+    static constexpr std::size_t most = 512;             ///< components of all ports, at most
     static constexpr double frames_per_second = 120.0;   ///< how often values are taken, at most
     static constexpr std::size_t columns = 240;          ///< length of a course, in frames
 

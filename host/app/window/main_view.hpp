@@ -178,6 +178,7 @@ private:
     bool hasBoundRole() const;   ///< true if the session binds a role of the graph to a device that moves a tool
     bool bindsTool (const std::string& role) const;
     void attendNewFolder();
+    void openWhenMade (juce::AlertWindow&, juce::TextEditor& name);
     bool isAnythingOpen() const;
     bool escStops();
     void escape (const juce::KeyPress&);
@@ -206,6 +207,7 @@ private:
     void addEdits (std::vector<Action>&);
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
+    void addHands (std::vector<Action>&);
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();

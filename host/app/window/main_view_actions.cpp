@@ -110,6 +110,18 @@ void MainView::addTabsAndButtons (std::vector<Action>& all)
     });
 }
 
+/// What moves the tool: the mouse, a gesture, or the device of a role.
+void MainView::addHands (std::vector<Action>& all)
+{
+    if (welcome.isVisible()) return;
+    for (auto& [name, choose] : hand.choices())
+        all.push_back ({ name, TRANS ("What moves the tool"), std::move (choose) });
+    for (const auto& [role, labels] : devices.choices())
+        for (const auto& label : labels)
+            all.push_back ({ filled (TRANS ("Device of %1: %2"), role, label), TRANS ("The device for this role, in every graph"),
+                             [this, of = role, to = label] { devices.bind (of, to); } });
+}
+
 /// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
 void MainView::addNodes (std::vector<Action>& all)
 {
@@ -148,6 +160,7 @@ void MainView::findAction()
 {
     std::vector<Action> all;
     addEdits (all);
+    addHands (all);
     addTabsAndButtons (all);
     addItems (windowMenu(), {}, all);
     addNodes (all);

@@ -49,10 +49,25 @@ void MainView::attendNewFolder()
     if (asks == nullptr || asks == begun.getComponent()) return;
     auto* name = nameField (*asks);
     if (name == nullptr) return;
-    if (name->hasKeyboardFocus (false))
-        begun = asks;
-    else
-        takeFocus (*name);
+    if (! name->hasKeyboardFocus (false)) return takeFocus (*name);
+    begun = asks;
+    openWhenMade (*asks, *name);
+}
+
+/// JUCE makes the folder and goes on to list the one around it.
+void MainView::openWhenMade (juce::AlertWindow& asks, juce::TextEditor& name)
+{
+    auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (juce::ModalComponentManager::getInstance()->getModalComponent (1));
+    auto* browser = dialog == nullptr ? nullptr : browserIn (*dialog);
+    if (browser == nullptr) return;
+    const auto open = [browser = SafePointer (browser), name = SafePointer (&name)] (int result) {
+        if (result == 0 || browser == nullptr || name == nullptr) return;
+        const auto folder = browser->getRoot().getChildFile (juce::File::createLegalFileName (name->getText()));
+        juce::MessageManager::callAsync ([browser, folder] {   // when it is made
+            if (browser != nullptr && folder != browser->getRoot() && folder.isDirectory()) browser->setRoot (folder);
+        });
+    };
+    juce::ModalComponentManager::getInstance()->attachCallback (&asks, juce::ModalCallbackFunction::create (open));
 }
 
 void MainView::nextPanel (int step)

@@ -185,8 +185,8 @@ void NumberField::openEditor()
     editor->onReturnKey = [this] { apply (true); };
     editor->onEscapeKey = [this] {
         accept();
+        letGoOfFocus (*editor);   // the canvas gets the keyboard
         closeEditor();
-        takeFocus (*this);
     };
     editor->onFocusLost = [this] { apply (false); };
     addAndMakeVisible (*editor);
@@ -199,7 +199,8 @@ void NumberField::apply (bool by_return)
 {
     if (! isEditing()) return;
     const auto text = editor->getText();
-    const bool is_accepted = text.trim().toStdString() == value.toText() || type (text);
+    const bool is_same = text.trim().toStdString() == value.toText() || text.trim() == spokenValue();   // what is shown may be rounded
+    const bool is_accepted = is_same || type (text);
     if (is_accepted) accept();
     if (by_return && ! is_accepted) return;   // stays open, for another try
     error.fold();                             // from now on, the tooltip shows it

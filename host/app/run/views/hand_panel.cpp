@@ -200,6 +200,20 @@ void HandPanel::choose()
     playback.moveBy (chosen_hand);
 }
 
+std::vector<std::pair<juce::String, std::function<void()>>> HandPanel::choices()
+{
+    std::vector<std::pair<juce::String, std::function<void()>>> all;
+    const auto add = [&all] (juce::ComboBox& list, const juce::String& name) {
+        for (int i = 0; i < list.getNumItems(); ++i)
+            all.emplace_back (filled (name, list.getItemText (i).replace (": ", " ")), [safe = SafePointer (&list), id = list.getItemId (i)] {
+                if (safe != nullptr) safe->setSelectedId (id, juce::sendNotificationSync);
+            });
+    };
+    add (source, TRANS ("Hand: %1"));
+    if (tools.isVisible()) add (tools, TRANS ("The hand moves %1"));
+    return all;
+}
+
 void HandPanel::useDevice()
 {
     chosen_hand = {};

@@ -21,6 +21,9 @@ public:
     /// What the user has chosen in the list to move the tool, whatever moves it now. It is meant for other graphs, too, unless it is their own device.
     const LiveRun::Hand& chosen() const noexcept { return chosen_hand; }
 
+    /// What can move the tool, and which tool it can be, by name, and how to choose it.
+    std::vector<std::pair<juce::String, std::function<void()>>> choices();
+
     void useDevice();   ///< from now on, the tool is moved by its own device
 
     HandView& view() noexcept { return surface; }

@@ -66,7 +66,7 @@ std::vector<std::string> LiveFeed::portsNow() const
 /// The params that wires set, such as "drag.mu". Found once for each version of the document, because a large patch has thousands of wires.
 const std::vector<std::string>& LiveFeed::drivenParams (const graph::Patch& patch) const
 {
-    const auto version = std::make_pair (canvas.edited().version(), canvas.patch());
+    const auto version = std::make_pair (canvas.edited().version(), canvas.seen());
     if (driven_of == version) return driven_params;
     driven_of = version;
     driven_params.clear();
@@ -83,6 +83,8 @@ const std::vector<std::string>& LiveFeed::drivenParams (const graph::Patch& patc
         if (port == nullptr || port->role != Role::param || ! drives (w, *port)) continue;
         if (auto param = w.to.node + '.' + port->id; std::ranges::count (driven_params, param) == 0) driven_params.push_back (std::move (param));
     }
+    for (const auto& [param, output] : drivenFromOutside (canvas.edited().graph(), canvas.seen()))
+        if (driven_params.size() < most_driven && nodes.contains (param.substr (0, param.rfind ('.')))) driven_params.push_back (param);
     return driven_params;
 }
 

@@ -16,7 +16,7 @@ public:
     static constexpr int rests_for = 5;               ///< refreshes that the pointer rests on a port until its card appears
     static constexpr int numbers_every = 4;           ///< refreshes between two values in a card: digits that change faster cannot be read
     static constexpr std::size_t most_sources = 64;   ///< how many ports it watches for their wires, at most
-    static constexpr std::size_t most_driven = 32;    ///< how many params it watches that wires set, at most
+    static constexpr std::size_t most_driven = 256;   ///< how many params it watches that wires set, at most
 
     LiveFeed (Canvas&, LiveRun&);
     ~LiveFeed();
@@ -73,7 +73,7 @@ private:
     std::string asked_for;   // a port that had a card, and that no wire of the patch starts from
     int rested = 0;
     std::vector<std::string> shown_values;
-    mutable std::optional<std::pair<std::uint64_t, std::string>> driven_of;   // the version of the document and the patch of `driven_params`
+    mutable std::optional<std::pair<std::uint64_t, SeenPatch>> driven_of;   // the version of the document and the patch of `driven_params`
     mutable std::vector<std::string> driven_params;
     std::map<std::string, PortFeed::Reading> driven_now;
     int since_driven = 0;

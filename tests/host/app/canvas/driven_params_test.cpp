@@ -197,3 +197,55 @@ TEST_CASE ("while the graph runs, the node and the inspector show what a wire se
     CHECK (w.graph().root.find ("drag")->params["d_max"] == "0.3 mm");
     w.view->run().letGo();
 }
+
+TEST_CASE ("a param that is driven from outside of its subgraph is marked inside, on the node and in the inspector", "[app][canvas][rows]")
+{
+    const TemporaryFolder folder;
+    Sketch s;
+    auto& inside = s.subgraph ("rub");
+    s.add (inside, "drag", "friction.elasto_plastic");
+    inside.expose.params.emplace_back ("grip", *graph::parseEndpoint ("drag.mu"));
+    s.node ("level", "signal.constant", { { "value", 0.4 } }).node ("part", "graph:rub").wire ("level.out -> part.grip");
+    REQUIRE (saveGraph (s.graph, folder / "nested.json"));
+    WindowRig w ((folder / "nested.json").string(), 1280, 1000);
+    auto& canvas = w.view->canvas();
+    const auto& part = canvas.scene().nodes()[1];
+    REQUIRE (part.name == "part");
+    w.stage->doubleClick (w.stage->getLocalPoint (&canvas, canvas.view().toPixels (part.at + juce::Point<float> (40.0f, 14.0f))));
+    WindowRig::settle();
+    REQUIRE (canvas.seen().path == "part/");
+    CHECK (reads (canvas, "level.out"));
+    canvas.select ({ canvas.scene().nodes().front().id });
+    WindowRig::settle();
+    auto* field = dynamic_cast<NumberField*> (w.titled (juce::String::fromUTF8 ("Parameter \xce\xbc, friction coefficient")));
+    if (field == nullptr) field = dynamic_cast<NumberField*> (w.titled ("mu"));
+    REQUIRE (field != nullptr);
+    CHECK (field->isDriven());
+    CHECK_FALSE (field->type ("0.3"));
+    canvas.grabKeyboardFocus();
+    w.key ("F5");
+    INFO (messagesOf (w.view->run()));
+    CHECK (waitFor ([&] { return field->spokenValue() == "0.4"; }));
+    CHECK (waitFor ([&] { return reads (canvas, "0.4"); }));
+    w.view->run().letGo();
+}
+
+TEST_CASE ("each of 60 params that wires set shows its value while the graph runs", "[app][canvas][rows]")
+{
+    const TemporaryFolder folder;
+    Sketch s;
+    constexpr int count = 60;
+    for (int i = 0; i < count; ++i)
+    {
+        const auto n = std::to_string (i);
+        s.node ("level" + n, "signal.constant", { { "value", 0.4 } }).node ("drag" + n, "friction.elasto_plastic");
+        s.wire ("level" + n + ".out -> drag" + n + ".mu");
+    }
+    REQUIRE (saveGraph (s.graph, folder / "many.json"));
+    WindowRig w ((folder / "many.json").string(), 1280, 1000);
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F5");
+    INFO (messagesOf (w.view->run()));
+    CHECK (waitFor ([&] { return w.view->canvas().highlighted().live.driven.size() == count; }));
+    w.view->run().letGo();
+}

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <host/app/inspector/rows.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -83,4 +84,54 @@ TEST_CASE ("a new oscillator stays in the hard range of each param of the catalo
             CHECK (rig.document.history().position() == 1);
         }
     }
+}
+
+TEST_CASE ("a drag of a source by 200 pixels covers the usual range of the param that it is wired to", "[app][canvas][sources]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    for (const char* param : { "mu", "d_max" })
+    {
+        INFO (param);
+        rig.canvas->select ({ rig.node ("drag").id });
+        rig.query = std::string (param) + " lfo";
+        rig.hand().key ("w");
+        const auto lfo = rig.graph().root.nodes.back().name;
+        REQUIRE (rig.hasWire (lfo + ".out -> drag." + param));
+        const auto usual = rig.node ("drag").face->find (Role::param, param)->sheet->limits.usual;
+        const auto si = [&] (const char* id) { return plan::readNumber (rig.graph().root.find (lfo)->params.at (id))->value; };
+        for (const char* id : { "offset", "amplitude" })
+        {
+            INFO (id);
+            const double before = si (id);
+            const auto at = rig.value (lfo, id);
+            rig.hand().drag (at, at.translated (40.0f, 0.0f));
+            const double ratio = std::pow (usual.max / usual.min, 0.2);   // of a range of decades, which a drag scales through
+            const double wanted = usual.min > 0.0 && usual.max / usual.min >= 100.0 ? before * ratio : before + 0.2 * (usual.max - usual.min);
+            CHECK (si (id) == Approx (wanted).epsilon (0.02));
+            rig.document.undo();
+        }
+        rig.document.undo();
+    }
+}
+
+TEST_CASE ("a drag of a number with a unit whose range nothing tells is relative to the number", "[app][canvas][sources]")
+{
+    Sketch s;
+    s.node ("tremble", "signal.lfo", { { "offset", "1 mm" }, { "amplitude", "0.1 mm" } }).node ("touch", "contact.window");
+    CanvasRig rig { s.wire ("tremble.out -> touch.depth").graph };
+    const auto at = rig.value ("tremble", "offset");
+    rig.hand().drag (at, at.translated (50.0f, 0.0f));
+    CHECK (rig.graph().root.find ("tremble")->params["offset"] == "1.5 mm");
+}
+
+TEST_CASE ("a new control of a source covers the usual range of the param that it is wired to", "[app][controls][sources]")
+{
+    const auto g = Sketch {}.node ("shake", "signal.lfo", { { "offset", 0.4 } }).node ("drag", "friction.elasto_plastic").wire ("shake.out -> drag.mu").graph;
+    Document document (g);
+    const auto face = faceOf (g, g.root, g.root.nodes[0], catalogue());
+    REQUIRE (controlBy (document, {}, "shake", *face.find (Role::param, "offset"), {}, catalogue()));
+    const auto usual = faceOf (g, g.root, g.root.nodes[1], catalogue()).find (Role::param, "mu")->sheet->limits.usual;
+    const auto& to = document.graph().controls.front().to.front();
+    CHECK (plan::readNumber (to.low)->value == Approx (usual.min));
+    CHECK (plan::readNumber (to.high)->value == Approx (usual.max));
 }

@@ -147,3 +147,20 @@ TEST_CASE ("arranged boxes have room around them and more between columns that m
     const auto joined = arrange ({ { 100, 80 }, { 100, 80 } }, many);
     CHECK (joined[1].x > alone[1].x + 40.0f);
 }
+
+TEST_CASE ("a wire that runs back to a node above or below its own runs behind neither of them", "[app][route]")
+{
+    const Box2 start { -100.0f, 0.0f, 100.0f, 100.0f };
+    const Point<float> from { 0.0f, 50.0f };
+    for (const float gap : { 24.0f, 40.0f, 120.0f })
+        for (const float shift : { -80.0f, -20.0f, 0.0f, 60.0f })
+            for (const bool is_above : { true, false })
+            {
+                INFO ("gap " << gap << ", shift " << shift << ", above " << is_above);
+                const Box2 end { -100.0f + shift, is_above ? -gap - 100.0f : 100.0f + gap, 140.0f, 100.0f };
+                const Point<float> to { end.getX(), end.getCentreY() };
+                const auto path = curveThrough (from, routeAround (from, to, start, end, {}), to);
+                CHECK_FALSE (touches (path, start));
+                CHECK_FALSE (touches (path, end));
+            }
+}

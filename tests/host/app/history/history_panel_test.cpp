@@ -38,3 +38,21 @@ TEST_CASE ("clicking a step of the history goes there, backwards and forwards")
     }
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
+
+TEST_CASE ("the steps of a graph keep their names when another graph is opened, and when all of it is undone", "[app][history]")
+{
+    Document document (loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph);
+    REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (0.3) }));
+    document.open (loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph, {}, "open Bronze bell");
+    REQUIRE (document.perform (graph::SetParam { "", "desk", "gain", Json::array ({ 1, 1, 0.25 }) }));
+    const auto names = [&] { return std::vector<std::string> { document.stepName (0), document.stepName (1), document.stepName (2) }; };
+    const auto before = names();
+    CHECK (before[0].find (" -> 0.3") != std::string::npos);
+    CHECK (before[2].find (" -> 0.25") != std::string::npos);
+    for (const std::size_t position : { 2, 1, 0, 1, 3 })
+    {
+        document.goTo (position);
+        INFO (position);
+        CHECK (names() == before);
+    }
+}

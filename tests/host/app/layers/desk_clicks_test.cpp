@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/window_rig.hpp"
+#include <host/app/inspector/blocks/number_field.hpp>
+#include <host/app/layers/fader.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -31,4 +35,136 @@ TEST_CASE ("three textures and a vibration are composed with a few clicks", "[la
         CHECK (wireInto (graph, mixer, i) != nullptr);
     CHECK (added.size() >= 4);
     CHECK (w.view->document().history().names().size() == steps + 4);   // one undo step for each
+}
+
+namespace
+{
+/// A bell with a mixer whose gains no control sets.
+std::string bellWithoutKnobs (const TemporaryFolder& folder)
+{
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
+    g.controls.clear();
+    REQUIRE (saveGraph (g, folder / "bell.json"));
+    return (folder / "bell.json").string();
+}
+
+std::vector<juce::Point<float>> placesIn (WindowRig& w)
+{
+    std::vector<juce::Point<float>> places;
+    for (const auto& n : w.view->canvas().scene().nodes())
+        places.push_back (n.at);
+    return places;
+}
+
+NumberField* gainField (juce::Component& in)
+{
+    if (auto* field = dynamic_cast<NumberField*> (&in); field != nullptr && field->isShowing() && field->getTitle().startsWith ("Gain of ")) return field;
+    for (auto* child : in.getChildren())
+        if (auto* found = gainField (*child)) return found;
+    return nullptr;
+}
+
+void typeGain (WindowRig& w, const juce::String& text)
+{
+    auto* field = gainField (*w.view);
+    REQUIRE (field != nullptr);
+    w.stage->doubleClick (w.middleOf (*field));
+    WindowRig::settle();
+    REQUIRE (field->isEditing());
+    w.key ("ctrl + a");
+    w.stage->type (text);
+    w.key ("return");
+    WindowRig::settle();
+}
+}   // namespace
+
+TEST_CASE ("a value that is typed moves no node, where nodes have no places of their own", "[layers][canvas]")
+{
+    const TemporaryFolder folder;
+    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
+    w.click ("Layers");
+    const auto before = placesIn (w);
+    for (const char* gain : { "-17.31 dB", "-3.3 dB", "0.123 %" })
+    {
+        const auto gains = w.graph().root.find ("desk")->params;
+        typeGain (w, gain);
+        CHECK (w.graph().root.find ("desk")->params != gains);
+        CHECK (placesIn (w) == before);
+    }
+    w.view->document().perform (graph::RenameNode { {}, "desk", "a_desk_with_a_name_that_is_long" });
+    CHECK (placesIn (w) == before);
+
+    // The first move stores where the nodes are; undone, they are where they were.
+    auto& canvas = w.view->canvas();
+    canvas.select ({ canvas.scene().nodes().front().id });
+    canvas.commands().nudgeSelection ({ 0.0f, 200.0f });
+    REQUIRE (placesIn (w) != before);
+    w.view->document().undo();
+    CHECK (placesIn (w) == before);
+}
+
+TEST_CASE ("a gain that is looked at in its field keeps all its digits", "[layers]")
+{
+    const TemporaryFolder folder;
+    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
+    w.click ("Layers");
+    REQUIRE (w.view->document().perform (graph::SetParam { {}, "desk", "gain", Json::array ({ 0.6037, 0.7, 0.123456 }) }));
+    WindowRig::settle();
+    const auto before = w.graph().root.find ("desk")->params;
+    const auto steps = w.view->document().history().position();
+    auto* field = gainField (*w.view);
+    REQUIRE (field != nullptr);
+    const auto open = [&] {
+        w.stage->doubleClick (w.middleOf (*field));
+        WindowRig::settle();
+        REQUIRE (field->isEditing());
+    };
+    for (const char* end : { "return", "escape", "tab" })
+    {
+        INFO (end);
+        open();
+        w.key (end);
+        WindowRig::settle();
+        CHECK (w.graph().root.find ("desk")->params == before);
+    }
+    open();
+    w.click ("Scopes");
+    CHECK (w.graph().root.find ("desk")->params == before);
+    w.click ("Layers");
+    open();
+    w.key ("ctrl + a");
+    w.stage->type (field->spokenValue());   // the same again, as it is shown
+    w.key ("return");
+    WindowRig::settle();
+    CHECK (w.graph().root.find ("desk")->params == before);
+    CHECK (w.view->document().history().position() == steps);
+}
+
+TEST_CASE ("a gain that a wire sets is dimmed on the desk, names the wire, and is not set by hand", "[layers]")
+{
+    const TemporaryFolder folder;
+    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
+    w.click ("Layers");
+    graph::Node level;
+    level.name = "level";
+    level.type = "signal.constant";
+    REQUIRE (w.view->document().perform (graph::AddNode { {}, level }));
+    REQUIRE (w.view->document().perform (graph::AddWire { {}, *graph::parseWire ("level.out -> desk.gain[0]") }));
+    WindowRig::settle();
+    auto* field = gainField (*w.view);
+    REQUIRE (field != nullptr);
+    CHECK (field->isDriven());
+    CHECK (field->spokenValue() == "level.out");
+    const auto version = w.view->document().version();
+    auto* strip = field->getParentComponent();
+    for (auto* part : strip->getChildren())
+        if (auto* fader = dynamic_cast<Fader*> (part))
+        {
+            CHECK (fader->getAlpha() < 1.0f);
+            CHECK (fader->getTooltip().contains ("level.out"));
+            const auto at = w.middleOf (*fader);
+            w.stage->drag (at, at.translated (0.0f, 30.0f));
+        }
+    WindowRig::settle();
+    CHECK (w.view->document().version() == version);
 }

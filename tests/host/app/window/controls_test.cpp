@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls in the window: no click on them moves a force unless it turns one, and parameters have their menu where they are.
+#include "host/app/support/seen_text.hpp"
 #include "host/app/support/values.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include "support/sketch.hpp"
+
+#include <host/app/inspector/knob_strip.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
 using namespace tactus::host::test;
+using tactus::test::Sketch;
 
 namespace
 {
@@ -239,4 +245,99 @@ TEST_CASE ("a right click on a parameter of a node opens its menu, inside a subg
     WindowRig::settle();
     INFO (c.w->view->statusText());
     CHECK (c.w->view->statusText().contains ("Usual"));
+}
+
+namespace
+{
+/// Dry wood, whose knob Roughness sets grain.amplitude and drag.mu, with wires from a constant into one or both of them.
+struct WiredKnob
+{
+    TemporaryFolder folder;
+    std::unique_ptr<WindowRig> w;
+
+    explicit WiredKnob (std::initializer_list<const char*> wires)
+    {
+        auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+        for (const auto* node : { "force", "ratio" })
+            g.root.nodes.push_back (Sketch::makeNode (node, "signal.constant", { { "value", 0.1 } }));
+        for (const auto* wire : wires)
+            g.root.wires.push_back (*graph::parseWire (wire));
+        REQUIRE (saveGraph (g, folder / "wood.json"));
+        w = std::make_unique<WindowRig> ((folder / "wood.json").string(), 1280, 1000);
+        w->view->canvas().select ({ w->graph().root.find ("board")->id });   // the knobs are below its parameters
+        WindowRig::settle();
+    }
+
+    juce::Slider& knob()
+    {
+        auto* strip = dynamic_cast<KnobStrip*> (w->titled ("Controls"));
+        REQUIRE (strip != nullptr);
+        REQUIRE (strip->size() == 1);
+        return strip->knob (0);
+    }
+
+    double value() const { return w->graph().controls.front().value; }
+
+    void turn()
+    {
+        const auto at = w->stage->getLocalPoint (&knob(), knob().getLocalBounds().getCentre().translated (0, -10)).toFloat();
+        w->stage->drag (at, at.translated (0.0f, -40.0f));
+        w->stage->wheel (at, 0.2f, false);
+        WindowRig::settle();
+    }
+
+    /// How many pixels of the knob have the colour of what is live.
+    int lit()
+    {
+        const auto image = knob().createComponentSnapshot (knob().getLocalBounds());
+        const auto accent = lookOf (knob()).theme().accent;
+        int count = 0;
+        for (int y = 0; y < image.getHeight(); ++y)
+            for (int x = 0; x < image.getWidth(); ++x)
+                count += image.getPixelAt (x, y) == accent ? 1 : 0;
+        return count;
+    }
+};
+}   // namespace
+
+TEST_CASE ("a knob whose parameters get wires is dimmed, names the wires, and does not turn", "[app][controls]")
+{
+    const auto both = { "force.out -> grain.amplitude", "ratio.out -> drag.mu" };
+    WiredKnob k (both);
+    CHECK (k.knob().getTooltip().contains ("force.out"));
+    CHECK (k.knob().getTooltip().contains ("ratio.out"));
+    CHECK (k.lit() == 0);
+    const double before = k.value();
+    const auto version = k.w->view->document().version();
+    k.turn();
+    CHECK (k.value() == before);
+    CHECK (k.knob().getValue() == before);
+    CHECK (k.w->view->document().version() == version);
+
+    k.w->view->canvas().select ({});   // the same in the list of controls
+    WindowRig::settle();
+    const auto texts = readTexts (k.w->view->inspected());
+    CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.contains ("drag.mu, without effect: a wire from ratio.out"); }));
+    auto* fader = dynamic_cast<juce::Slider*> (k.w->titled ("Roughness"));
+    REQUIRE (fader != nullptr);
+    CHECK_FALSE (fader->isEnabled());
+
+    const auto& wires = k.w->graph().root.wires;
+    const auto wire = std::ranges::find_if (wires, [] (const graph::Wire& w) { return w.to.port == "mu"; });
+    REQUIRE (wire != wires.end());
+    k.w->view->document().perform (graph::RemoveWire { {}, wire->id });
+    WindowRig::settle();
+    fader = dynamic_cast<juce::Slider*> (k.w->titled ("Roughness"));
+    REQUIRE (fader != nullptr);
+    CHECK (fader->isEnabled());
+}
+
+TEST_CASE ("a knob of which one parameter gets a wire turns, and names that wire", "[app][controls]")
+{
+    WiredKnob k ({ "ratio.out -> drag.mu" });
+    CHECK (k.knob().getTooltip().contains ("A wire from ratio.out sets drag.mu"));
+    CHECK (k.lit() > 0);
+    const double before = k.value();
+    k.turn();
+    CHECK (k.value() > before);
 }

@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <host/app/window/file_dialog_parts.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -145,7 +146,13 @@ TEST_CASE ("on a screen: a new folder", "[.screen]")
         w.key ("return");
         CHECK (waitFor ([&] { return std::filesystem::is_directory (mine / "oak"); }));
         REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() == dialog; }));
-        w.key ("escape");
+        const auto* browser = browserIn (*dialog);
+        REQUIRE (browser != nullptr);
+        CHECK (waitFor ([&] { return browser->getRoot() == juce::File ((mine / "oak").string()); }));   // one looks into it
+        CHECK (waitFor ([&] { return WindowRig::focused() == nameField (*dialog); }));
+        w.stage->type ("bark");
+        w.key ("return");
+        CHECK (waitFor ([&] { return std::filesystem::exists (mine / "oak" / "bark.json"); }));
         CHECK (waitFor ([] { return ! isDialogOpen(); }));
     }
     unsetenv ("TACTUS_GRAPHS");

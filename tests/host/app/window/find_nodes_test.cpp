@@ -222,3 +222,31 @@ TEST_CASE ("a wire that is dropped from an input offers what the input is made f
         CHECK (d.hasWire (added.name + "." + wire + " -> drag." + port));
     }
 }
+
+TEST_CASE ("Ctrl+K finds what moves the tool: the mouse, a gesture, and the devices of a role", "[app][keyboard][hand]")
+{
+    SearchDesk d ("dry_wood.json");
+    const auto& run = d.w.view->run();
+    d.choose ("ctrl + k", "hand mouse");
+    CHECK (run.hand() == LiveRun::Hand::pointer());
+    d.choose ("ctrl + k", "gesture circle");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
+    CHECK (run.hand().path == "circle");
+    auto* list = dynamic_cast<juce::ComboBox*> (d.w.titled ("What moves the tool"));
+    REQUIRE (list != nullptr);
+    CHECK (list->getText() == "Gesture: circle");   // as if it had been chosen there
+    d.choose ("ctrl + k", "hand its own device");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::described);
+
+    const auto devices = d.listed ("ctrl + k", "device of stylus");
+    d.w.key ("escape");
+    std::vector<std::string> names;
+    for (const auto& e : devices)
+        if (e.name.starts_with ("Device of ")) names.push_back (e.name);
+    REQUIRE (names.size() > 2);   // as in the graph, a simulated tool, the gestures ...
+    const auto before = d.w.view->document().history().position();
+    const auto simulated = std::ranges::find_if (names, [] (const std::string& n) { return n.find ("simulated") != std::string::npos; });
+    REQUIRE (simulated != names.end());
+    d.choose ("ctrl + k", simulated->c_str());
+    CHECK (d.w.view->document().history().position() == before + 1);   // the choice is a step
+}

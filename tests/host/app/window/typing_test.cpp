@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is typed into a field counts as soon as a key or a button does something with the graph, without Return.
+#include "host/app/support/wait_for.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -168,4 +170,52 @@ TEST_CASE ("a button acts on what is being typed into a field", "[app][keyboard]
     w.key ("return");
     w.clickTitled ("Snapshot 1");
     CHECK (stiffness() == "999 N/m");   // it is in the snapshot
+}
+
+TEST_CASE ("a click on START right after a key in a field starts the graph with what is typed", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    d.select ("board");
+    WindowRig::settle (1100);   // START ignores a click that comes within a second after it has appeared in place of STOP
+    d.typeNumber ("Stiffness", "777 N/m");
+    for (int i = 0; i < 60; ++i)
+        w.stage->hold();   // and its clock must not be late, however long the window took to open
+    auto* start = WindowRig::buttonIn (*w.view, "START");
+    REQUIRE (start != nullptr);
+    w.stage->click (w.middleOf (*start));   // before any message
+    CHECK (waitFor ([&] { return w.view->run().isRunning(); }));
+    CHECK (w.view->run().edited().root.find ("board")->params.at ("stiffness") == "777 N/m");
+    w.view->run().letGo();
+}
+
+TEST_CASE ("one Esc in an open number field takes back what is typed, and gives the keyboard to the canvas", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F5");
+    d.select ("board");
+    REQUIRE (waitFor ([&] { return w.view->run().isRunning(); }));
+    const auto before = w.graph().root.find ("board")->params;
+    d.typeNumber ("Stiffness", "777 N/m");
+    w.key ("escape");
+    WindowRig::settle();
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    CHECK (w.graph().root.find ("board")->params == before);
+    CHECK_FALSE (Desk::numberIn (*w.view, "Stiffness")->isEditing());
+    CHECK (w.view->run().isRunning());   // the key has closed the field, and stops nothing
+
+    w.key ("return");   // the field that the keyboard has opened, too
+    REQUIRE (dynamic_cast<NumberField*> (WindowRig::focused()) != nullptr);
+    auto& field = dynamic_cast<NumberField&> (*WindowRig::focused());
+    w.key ("return");
+    w.stage->type ("3");
+    REQUIRE (field.isEditing());
+    w.key ("escape");
+    WindowRig::settle();
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    CHECK_FALSE (field.isEditing());
+    CHECK (w.graph().root.find ("board")->params == before);
+    w.view->run().letGo();
 }

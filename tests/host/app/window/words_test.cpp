@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <host/app/model/with_prefix.hpp>
 #include <map>
 #include <set>
 
@@ -70,6 +71,9 @@ TEST_CASE ("while nothing runs, a port says what it is, also at its label, and w
     CHECK (rig.canvas->tooltipAt (at) == "drag.force  [N]  force on the tool");
     CHECK (rig.canvas->tooltipAt (at - juce::Point<float> (24.0f * rig.canvas->view().zoom, 0.0f)).startsWith ("drag.force"));
     CHECK (rig.canvas->tooltipAt (rig.nowhere()).isEmpty());
+    const auto damping = rig.canvas->tooltipAt (rig.port ("board", Role::param, "damping"));
+    CHECK (damping.contains (juce::String::fromUTF8 ("[N\xc2\xb7s/m]")));   // as in the fields
+    CHECK (withPrefix (0.3, "N*s/m") == "0.30 N\xc2\xb7s/m");
     LiveState running;
     running.runs = true;
     rig.canvas->showLive (running);
