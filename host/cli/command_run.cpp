@@ -29,7 +29,8 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace, StopSwitch* stops) : opt
         chooseAudio (device_session);
     }
     device_options = readDeviceOptions();
-    const auto hardware = pace == Pace::live ? Hardware { hid::thisComputer(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, &rig } : Hardware {};
+    const auto known = [this]() -> const hid::LoadedProfiles& { return profiles(); };
+    const auto hardware = pace == Pace::live ? Hardware { hid::thisComputer(), known, &rig } : Hardware {};
     playing = std::make_unique<LiveSession> (catalogue(), hardware, sessionOptions (pace, stops));
     load();
     openDevices();
