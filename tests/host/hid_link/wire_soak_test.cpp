@@ -66,7 +66,8 @@ struct Soak
         return "sent " + number (fake.sent) + ", the last is " + number (numberAt (sent, 4)) + "; read " + number (port.reports) + ": "
                + describe (bench.device->counts(), port) + "; written " + number (port.writes) + ", not accepted " + number (port.write_errors) + ", replaced "
                + number (port.dropped) + ", silences " + number (port.silences) + "; heard " + number (fake.heard) + ", the last answers " + number (echoed)
-               + ", refused " + number (fake.refused) + ", stray bytes " + number (fake.stray) + "; in all " + number (cut) + " cut, " + number (unheard) + " unheard";
+               + ", refused " + number (fake.refused) + ", stray bytes " + number (fake.stray) + "; in all " + number (cut) + " cut, "
+               + number (unheard) + " unheard";
     }
 
     /// Ends the reading on this thread, as the device cannot be closed before.
