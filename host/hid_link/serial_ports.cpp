@@ -66,8 +66,10 @@ std::vector<std::shared_ptr<const Profile>> profilesFor (const SerialPort& port,
     const auto is = [] (const std::vector<std::uint16_t>& ids, const std::string& hex) {
         return ! hex.empty() && std::ranges::count (ids, std::strtoul (hex.c_str(), nullptr, 16)) > 0;
     };
-    const auto isOfIt = [&] (const auto& p) { return std::ranges::any_of (p->match, [&] (const auto& m) { return is (m.vid, port.vid) && is (m.pid, port.pid); }); };
-    std::ranges::stable_partition (all, isOfIt);
+    const auto isOfIt = [&] (const auto& p) {
+        return std::ranges::any_of (p->match, [&] (const auto& m) { return is (m.vid, port.vid) && is (m.pid, port.pid); });
+    };
+    std::stable_partition (all.begin(), all.end(), isOfIt);
     return all;
 }
 

@@ -34,6 +34,15 @@ std::vector<fs::path> pluginsIn (const fs::path& folder)
     return files;
 }
 
+/// True if a folder has plugins with nodes or with drivers of devices, which end in .tactus-device.
+bool hasPlugins (const fs::path& folder)
+{
+    std::error_code unseen;
+    for (const auto& entry : fs::directory_iterator (folder, unseen))
+        if (entry.path().extension().string().starts_with (plugin_suffix)) return true;
+    return false;
+}
+
 /// The folders given to usePlugins().
 std::vector<std::string>& givenFolders()
 {
@@ -99,9 +108,9 @@ Messages usePlugins (const std::vector<std::string>& more)
         if (! fs::is_directory (folder, unseen))
             loaded.messages.push_back (Message::error ("plugin/no_folder", folder, "--plugins names a folder that does not exist",
                                                        "give the folder that contains the plugins"));
-        else if (pluginsIn (folder).empty())
+        else if (! hasPlugins (folder))
             loaded.messages.push_back (Message::warning ("plugin/none", folder, "--plugins names a folder without plugins",
-                                                         "give the folder that contains the plugins themselves, which end in " + std::string (plugin_suffix)));
+                                                         "give the folder that contains the plugins themselves, which end in .tactus or .tactus-device"));
     if (! loaded.types.empty()) extendCatalogue (std::move (loaded.types));
     return std::move (loaded.messages);
 }

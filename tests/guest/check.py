@@ -386,7 +386,8 @@ else:
 
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names the profiles that fit")
-devices = [d for d in json.loads(text("devices.json")) if "profiles" in d and "driver" not in d and not d.get("numbers_only")]   # no serial ports, event devices and profiles
+# No serial ports, event devices and profiles.
+devices = [d for d in json.loads(text("devices.json")) if "profiles" in d and "driver" not in d and not d.get("numbers_only")]
 check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices),
       "the list as JSON names them too")
 if any(d["product"] == "Test joystick" for d in devices):

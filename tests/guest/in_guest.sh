@@ -335,6 +335,7 @@ rumble ()
     for _ in $(seq 60); do $tactus devices --json >$work/pads.txt; grep -q rumble $work/pads.txt && break; sleep 0.5; done
     cp $work/pads.txt "/run/results/$1.json"
     $tactus play $work/rumble.json --osc off --device "pad=evdev:$3" --duration 2 2>$work/play.err || fail "the pad $1"
+    sleep 0.5   # the kernel sends the last report of a pad from a thread of its own
     unplug
     keep "$1"
 }

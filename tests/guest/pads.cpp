@@ -104,7 +104,8 @@ int switchPro (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
     Log log;
-    Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptorOf ({ { 0x21, 48 }, { 0x30, 48 }, { 0x81, 63 } }, { { 0x01, 48 }, { 0x10, 48 }, { 0x80, 63 } }));
+    const auto descriptor = descriptorOf ({ { 0x21, 48 }, { 0x30, 48 }, { 0x81, 63 } }, { { 0x01, 48 }, { 0x10, 48 }, { 0x80, 63 } });
+    Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptor);
     std::array<std::uint8_t, 64> report {};
     const auto state = [&] (std::uint8_t id) {
         report = {};

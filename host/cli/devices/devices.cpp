@@ -198,7 +198,13 @@ Json jsonOf (const SerialPort& p, const LoadedProfiles& profiles)
     Json could_be = Json::array();
     for (const auto& profile : profilesFor (p, profiles.profiles))
         could_be.push_back ({ { "id", profile->id }, { "name", profile->name } });
-    return { { "driver", "serial" }, { "port", p.path }, { "vid", p.vid }, { "pid", p.pid }, { "product", p.product }, { "may_open", p.may_open }, { "profiles", std::move (could_be) } };
+    return { { "driver", "serial" },
+             { "port", p.path },
+             { "vid", p.vid },
+             { "pid", p.pid },
+             { "product", p.product },
+             { "may_open", p.may_open },
+             { "profiles", std::move (could_be) } };
 }
 
 //==============================================================================

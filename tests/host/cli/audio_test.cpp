@@ -44,12 +44,15 @@ TEST_CASE ("an audio option that cannot work is refused with a remedy", "[cli][a
 
 TEST_CASE ("a card on which nothing plays is not opened, and a warning says what is missing", "[cli][audio]")
 {
-    const auto unused = runTactus ({ "play", wood, "--session", "off", "--osc", "off", "--duration", "0.1", "--device", "stylus=sim", "--audio", "no such card" });
+    const std::vector<std::string> play { "play", wood, "--session", "off", "--osc", "off", "--duration", "0.1", "--device", "stylus=sim" };
+    auto with_card = play;
+    with_card.insert (with_card.end(), { "--audio", "no such card" });
+    const auto unused = runTactus (with_card);
     CHECK (unused.status == 0);
     CHECK (holds (unused.err, "--audio no such card: warning: nothing in this run plays on a sound card"));
     CHECK (holds (unused.err, "--route PORT=CHANNEL"));
     CHECK (holds (unused.err, "audio/unused"));
-    const auto none = runTactus ({ "play", wood, "--session", "off", "--osc", "off", "--duration", "0.1", "--device", "stylus=sim" });
+    const auto none = runTactus (play);
     CHECK_FALSE (holds (none.err, "audio/unused"));
 }
 

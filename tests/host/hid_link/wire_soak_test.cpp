@@ -66,7 +66,8 @@ struct Soak
         return "sent " + number (fake.sent) + ", the last is " + number (numberAt (sent, 4)) + "; read " + number (port.reports) + ": "
                + describe (bench.device->counts(), port) + "; written " + number (port.writes) + ", not accepted " + number (port.write_errors) + ", replaced "
                + number (port.dropped) + ", silences " + number (port.silences) + "; heard " + number (fake.heard) + ", the last answers " + number (echoed)
-               + ", refused " + number (fake.refused) + ", stray bytes " + number (fake.stray) + "; in all " + number (cut) + " cut, " + number (unheard) + " unheard";
+               + ", refused " + number (fake.refused) + ", stray bytes " + number (fake.stray) + "; in all " + number (cut) + " cut, "
+               + number (unheard) + " unheard";
     }
 
     /// Ends the reading on this thread, as the device cannot be closed before.
@@ -82,7 +83,7 @@ struct Soak
         bench.system.ns += 1'000'000;
         const double number = numberAt (sent, 4);
         Reading reading;
-        const auto end = WireClock::now() + 10s;
+        const auto end = WireClock::now() + 1min;
         auto& port = bench.device->port();
         for (;;)
         {
@@ -117,7 +118,7 @@ struct Soak
 /// Each report is answered once and in order, and nothing pushes after a stop.
 void soakOver (Wire wire, const char* framing)
 {
-    Bench bench { wire, board (framing) };
+    Bench bench { wire, board (framing, "600 s") };   // a disk may hold up a program for longer than any watchdog
     Soak soak { bench };
     REQUIRE (soak.tick());   // with what came while the device was opened
     const auto before = bench.device->counts();
