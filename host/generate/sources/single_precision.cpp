@@ -17,7 +17,9 @@ namespace
 {
 constexpr std::pair<std::string_view, std::string_view> names[] {
     { "double", "float" },
+    { "Vector2d", "Vector2f" },
     { "Vector3d", "Vector3f" },
+    { "Matrix2d", "Matrix2f" },
     { "Matrix3d", "Matrix3f" },
     { "Quaterniond", "Quaternionf" },
     { "__SSE2__", "TACTUS_NO_DOUBLE" },

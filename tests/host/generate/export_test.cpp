@@ -5,6 +5,7 @@
 #include "exported_code.hpp"
 
 #include <host/generate/sources/code.hpp>
+#include <host/generate/sources/single_precision.hpp>
 #include <host/generate/sources/sources.hpp>
 #include <support/sketch.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -327,6 +329,17 @@ TEST_CASE ("random graphs in single precision have the same bits with each compi
         auto here = linesWith (program.run (compiler, "-O1"), "values compared");
         here.resize (compared.size());   // a second run follows if all values are right
         CHECK (here == compared);
+    }
+}
+
+TEST_CASE ("in single precision, no source that a graph may need has a type of Eigen with doubles", "[export]")
+{
+    const std::regex type (R"(\b(Vector|Matrix|Array|Quaternion|AngleAxis|Affine)[0-9X]*d\b)");
+    for (const auto& file : host::sourceFiles())
+    {
+        const auto text = host::inSinglePrecision (std::string (file.text));
+        INFO (file.path);
+        CHECK_FALSE (std::regex_search (text, type));
     }
 }
 
