@@ -76,7 +76,7 @@ MISTAKES = [
     ("set out of range", lambda: render(set={"drag.mu": -1}), "param/out_of_range", "drag.mu"),
     ("set to the wrong unit", lambda: render(set={"drag.mu": "20 um"}), "param/unit", "drag.mu"),
     ("set to NaN", lambda: render(set={"drag.mu": math.nan}), "api/value", "drag.mu"),
-    ("set without a node", lambda: render(set={"mu": 0.3}), "param/name", "mu"),
+    ("set without a node", lambda: render(set={"mu": 0.3}), "control/unknown", "mu"),
     ("set of an unknown parameter", lambda: render(set={"drag.nu": 0.3}), "param/unknown", "drag.nu"),
     ("devices as a list", lambda: render(devices=["stylus=sim"]), "argument/type", "devices"),
     ("a device that is a number", lambda: render(devices={"stylus": 3}), "device/kind", "stylus"),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace tactus
@@ -16,7 +17,8 @@ namespace
 using Mat2 = Eigen::Matrix2d;
 using Vec2 = Eigen::Vector2d;
 
-constexpr double h = 2e-6;   // step of the central differences, in barycentric coordinates
+// The step of the central differences, in barycentric coordinates: about the cube root of the rounding, also in single precision.
+constexpr double h = std::numeric_limits<double>::digits > 24 ? 2e-6 : 5e-3;
 
 /// A spot with coordinate 1 or 2 changed, and coordinate 0 by the opposite amount. It may be slightly outside of its triangle.
 Spot beside (const PlacedSurface& body, const Spot& spot, std::size_t k, double change) noexcept
