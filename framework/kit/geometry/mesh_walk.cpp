@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace tactus
@@ -28,7 +29,7 @@ std::vector<std::array<int, 3>> neighboursOf (const Mesh& mesh)
             const auto& corners = mesh.triangles[at (t)];
             sides.push_back ({ std::minmax (corners[at ((i + 1) % 3)], corners[at ((i + 2) % 3)]), t, i });
         }
-    std::ranges::stable_sort (sides, {}, &Side::ends);
+    std::ranges::sort (sides, {}, [] (const Side& s) { return std::tuple (s.ends, s.triangle, s.corner); });   // a stable sort takes memory from the heap
     std::vector<std::array<int, 3>> neighbours (mesh.triangles.size(), { -1, -1, -1 });
     for (std::size_t i = 1; i < sides.size(); ++i)
     {

@@ -141,6 +141,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
     CHECK (right == 22);
     CHECK (wrong == 1);
     CHECK (linesWith (said, "moves before prepare()").empty());
+    CHECK (linesWith (said, "takes memory from the heap").empty());
     for (auto& folder : all)
         checkMemory (said, folder.stem, folder.class_name, test::textOf (folder, "README.md"));
 }
@@ -346,7 +347,7 @@ TEST_CASE ("in single precision, no source that a graph may need has a type of E
 TEST_CASE ("a graph in single precision has no doubles, and notices a fault", "[export]")
 {
     ExportedProgram program;
-    for (const auto* name : { "dry_wood", "two_fingers" })
+    for (const auto* name : { "dry_wood", "nodule_under_skin", "two_fingers" })
         require (program, test::exportedPreset (name, true), name);
     auto broken = test::exportedPreset ("soft_pad", true);
     auto& source = test::textOf (broken, "soft_pad.cpp");
@@ -358,10 +359,12 @@ TEST_CASE ("a graph in single precision has no doubles, and notices a fault", "[
     INFO (said);
     CHECK_FALSE (passes (said));
     const auto right = linesWith (said, ", 0 differ by more than 0.001 of the largest");
-    REQUIRE (right.size() == 2);
+    REQUIRE (right.size() == 3);
     CHECK (right[0].starts_with ("dry_wood: "));
-    CHECK (right[1].starts_with ("two_fingers: "));
-    CHECK (linesWith (said, "values compared").size() == 3);
+    CHECK (right[1].starts_with ("nodule_under_skin: "));
+    CHECK (right[2].starts_with ("two_fingers: "));
+    CHECK (linesWith (said, "values compared").size() == 4);
+    CHECK (linesWith (said, "takes memory from the heap").empty());
 }
 
 TEST_CASE ("an exported graph calls its nodes and values what the patch calls them", "[export]")

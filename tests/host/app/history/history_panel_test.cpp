@@ -49,7 +49,7 @@ TEST_CASE ("the steps of a graph keep their names when another graph is opened, 
     const auto before = names();
     CHECK (before[0].find (" -> 0.3") != std::string::npos);
     CHECK (before[2].find (" -> 0.25") != std::string::npos);
-    for (const std::size_t position : { 2, 1, 0, 1, 3 })
+    for (const std::size_t position : { 2U, 1U, 0U, 1U, 3U })
     {
         document.goTo (position);
         INFO (position);
