@@ -178,7 +178,9 @@ int wheel (const std::vector<std::string>& args)
         {
             hang = 0;
             device->note ("hangs", 0);
-            pauseFor (option (args, "for", 1.0));
+            // It still moves: a force that does not change needs no update.
+            for (const double until = now() + option (args, "for", 1.0); now() < until && ended == 0; pauseFor (period))
+                device->move (now() - begin);
             device->note ("answers", 0);
         }
         if (unplug > 0 && device->forces >= unplug)
