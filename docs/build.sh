@@ -49,7 +49,7 @@ sed 's|/javascript/normalize.css/||' "$theme/styles/furo.css" >"$work/source/_st
     echo '}'
 } >>"$work/source/_static/styles/furo.css"
 cp -L /usr/share/javascript/normalize.css/normalize.css "$work/source/_static/styles"
-export PYDEVD_DISABLE_FILE_VALIDATION=1   # says nothing about a debugger that nobody uses
+export PYDEVD_DISABLE_FILE_VALIDATION=1   # silences a warning about a debugger, which no notebook here uses
 PYTHONPATH=$build/python TACTUS_XML=$(realpath "$work/doxygen/xml") TACTUS_VERSION=$("$build/bin/tactus" --version | grep -o '[0-9.]*' | head -n 1) \
     "$python" -m sphinx -W --keep-going -n -q -j auto -d "$work/doctrees" -b html "$work/source" "$out"
 "$python" -B docs/site/build_playground.py "$build/bin/tactus" "$out/playground" "${presets[@]}"
