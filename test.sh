@@ -24,7 +24,7 @@
 #   ./test.sh --site    builds the site with all presets, and uses its playground in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
-#                       it builds all nodes as plugins and examines them
+#                       it builds the libraries as part of another project, and all nodes as plugins, and examines these
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
 #   ./test.sh --tidy [PART/PARTS | --changed | FILE...] looks for mistakes in all files with clang-tidy, which takes an hour of a processor, or in
 #                       one part of them, in a few of the changed ones, or in these files
@@ -226,6 +226,8 @@ fi
 if [ "$mode" = --packages ]; then
     build release
     build release all_node_plugins
+    say "As part of another project"
+    tests/install/parent.sh --build
     say "All nodes as plugins"
     tests/plugins/all_nodes.sh build/release
     say "Packages"

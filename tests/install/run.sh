@@ -133,29 +133,4 @@ eval "c++ -std=c++20 \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_con
 LD_LIBRARY_PATH=$libs "$work/by_pkg_config" graphs/dry_wood.json | cmp - "$work/embed.txt"
 echo "pkg-config: C99 and C++ built, same output"
 
-# As part of another project, Tactus builds only its libraries and changes none of the project's settings.
-mkdir "$work/parent"
-cat >"$work/parent/CMakeLists.txt" <<CMAKE
-cmake_minimum_required (VERSION 3.25)
-project (Parent CXX)
-set (before "\${CMAKE_CXX_FLAGS}|\${CMAKE_CXX_STANDARD}|\${CMAKE_BUILD_TYPE}|\${CMAKE_RUNTIME_OUTPUT_DIRECTORY}|\${CMAKE_POSITION_INDEPENDENT_CODE}")
-add_subdirectory ("$source" tactus)
-add_executable (plain plain.cpp)
-get_directory_property (options COMPILE_OPTIONS)
-get_directory_property (link_options LINK_OPTIONS)
-set (after "\${CMAKE_CXX_FLAGS}|\${CMAKE_CXX_STANDARD}|\${CMAKE_BUILD_TYPE}|\${CMAKE_RUNTIME_OUTPUT_DIRECTORY}|\${CMAKE_POSITION_INDEPENDENT_CODE}")
-if (NOT before STREQUAL after OR options OR link_options)
-    message (FATAL_ERROR "Tactus changed the settings of the project that contains it: \${before} -> \${after}, \${options} \${link_options}")
-endif ()
-foreach (target tactus tactus-host tactus_tests)
-    if (TARGET \${target})
-        message (FATAL_ERROR "\${target} is built, but only the libraries should be")
-    endif ()
-endforeach ()
-if (NOT TARGET tactus::framework OR NOT TARGET tactus::nodes OR NOT TARGET tactus::run)
-    message (FATAL_ERROR "a library is missing")
-endif ()
-CMAKE
-echo 'int main() {}' >"$work/parent/plain.cpp"
-cmake -S "$work/parent" -B "$work/parent/build" -G Ninja >/dev/null
-echo "add_subdirectory: nothing of the parent is changed"
+tests/install/parent.sh
