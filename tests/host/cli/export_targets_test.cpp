@@ -259,8 +259,9 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
             for (const auto* file : { "/src/plate.hpp", "/src/plate.cpp", "/src/tactus_board.hpp", "/examples/Board/Board.ino" })
                 CHECK (textOf (folder + file).find ("double ") == std::string::npos);
         const auto sketch = "-DSKETCH='\"" + folder + "/examples/Board/Board.ino\"' -DOVER_SERIAL=" + (patch.is_serial ? "1" : "0");
-        REQUIRE (succeeds ("cd '" + folder + "' && c++ " + flags + "-O1 -Isrc -I'" + boards + "' " + sketch + " -o board '" + boards
-                               + "/simulated_board.cpp' $(find src -name '*.cpp')",
+        // As one file, which compiles in half the time.
+        REQUIRE (succeeds ("cd '" + folder + "' && find src -name '*.cpp' -printf '#include \"%p\"\\n' >all.cpp && c++ " + flags + "-O1 -I. -Isrc -I'" + boards
+                               + "' " + sketch + " -o board '" + boards + "/simulated_board.cpp' all.cpp",
                            patch.scratch.path ("said")));
         const auto run = [&] (const std::string& scenario, const std::string& seed) {
             auto arguments = patch.limits;
