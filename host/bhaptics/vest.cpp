@@ -57,6 +57,7 @@ public:
     std::string open (tactus_device_about& about)
     {
         if (auto why = exchange.open (address, path, nullptr); ! why.empty()) return why;
+        if (auto why = exchange.claim ({}); ! why.empty()) return why;
         about.tool = TACTUS_DEVICE_FORCE;
         about.signal_outputs = static_cast<int32_t> (dots.channels());
         about.about = "A vest of bHaptics, through bHaptics Player.";

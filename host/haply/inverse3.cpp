@@ -57,6 +57,7 @@ public:
         std::string inventory;
         if (auto why = exchange.open (address, "/", &inventory); ! why.empty()) return why;
         if (auto why = messages.readInventory (inventory); ! why.empty()) return why;
+        if (auto why = exchange.claim (messages.arm()); ! why.empty()) return why;   // the service adds up the forces of all programs
         if (auto why = hear (inventory); ! why.empty()) return why;
         about.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_FORCE | (messages.hasGrip() ? TACTUS_DEVICE_ROTATION : 0);
         about.about = "An Inverse3 of Haply, through its service.";

@@ -34,6 +34,8 @@ public:
     /// Finds the arm in the first message of a service. Returns why there is none; empty if there is.
     std::string readInventory (std::string_view message);
 
+    const std::string& arm() const noexcept { return id; }   ///< which arm that is
+
     /// Reads where the arm is, after readInventory(). Returns what is wrong with the message; empty: nothing.
     std::string read (std::string_view message, Inverse3State&) const;
 

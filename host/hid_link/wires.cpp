@@ -6,6 +6,7 @@
 #include <host/hid/hid_model.hpp>
 #include <host/platform/device_file.hpp>
 #include <host/platform/failsafe.hpp>
+#include <host/platform/peer_lock.hpp>
 #include <tactus/file/file_lock.hpp>
 
 #include <algorithm>
@@ -32,7 +33,8 @@ constexpr auto until_late = 20ms;                               // without an an
 constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
 constexpr int most_unanswered = 50, most_without_filler = 10;   // reports, after which a device that only answers counts as gone: about a second
 constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and a dead program cannot send it again
-constexpr std::size_t line_keeps = 4095;                        // bytes that Linux keeps of a serial line
+constexpr auto in_use = "another role or another instance of Tactus is using it";
+constexpr std::size_t line_keeps = 4095;   // bytes that Linux keeps of a serial line
 
 Message systemError (int error) { return transferError (std::generic_category().message (error)); }
 
@@ -270,8 +272,8 @@ private:
 class UdpTransport final : public WireTransport
 {
 public:
-    UdpTransport (WireFile f, std::string name, const Profile& p)
-        : WireTransport (std::move (f), std::move (name), p), stale (p), may_be_silent (sendsOnlyChanges (p)), heard (Clock::now()), knocked (heard)
+    UdpTransport (WireFile f, PeerLock l, std::string name, const Profile& p)
+        : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), stale (p), may_be_silent (sendsOnlyChanges (p)), heard (Clock::now()), knocked (heard)
     {
     }
 
@@ -314,6 +316,7 @@ private:
             last.insert (last.end(), once.begin(), once.end());
     }
 
+    PeerLock lock;          // so that only one driver uses the device
     StaleDatagrams stale;   // [reader]
     const bool may_be_silent;
     Clock::time_point heard, knocked;   // [reader]
@@ -330,7 +333,7 @@ Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, co
     if (std::filesystem::is_directory (device.path, unseen)) return notOpened (device, "it is a folder, not a serial line");
     auto alone = FileLock::takeExisting (device.path);
     if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-        return notOpened (device, "another role or another instance of Tactus is using it");
+        return notOpened (device, in_use);
     auto line = WireFile::openSerial (device.path, profile.wires.serial->baud);
     if (! line) return notOpened (device, line.error().text);
     if (! alone) return notOpened (device, "it cannot be locked");
@@ -343,7 +346,9 @@ Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const
 {
     auto socket = WireFile::connectUdp (device.path);
     if (! socket) return notOpened (device, socket.error().text);
-    auto udp = std::make_unique<UdpTransport> (std::move (*socket), device.path, profile);
+    auto alone = PeerLock::take (socket->descriptor());   // before anything is sent, because the device would then send its reports here
+    if (! alone) return notOpened (device, in_use);
+    auto udp = std::make_unique<UdpTransport> (std::move (*socket), std::move (*alone), device.path, profile);
     udp->knock();
     Bytes answer (longest_report + 1);
     const auto got = udp->readUntil (answer, Clock::now() + until_answer);

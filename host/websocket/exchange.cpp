@@ -28,6 +28,12 @@ std::string Exchange::open (const ServiceAddress& address, const std::string& pa
     return socket.open (address.host, address.port, path, promises.connected, first);
 }
 
+std::string Exchange::claim (std::string_view part)
+{
+    lock = PeerLock::take (socket.descriptor(), part);
+    return lock ? std::string() : "another role or another instance of Tactus is using it";
+}
+
 void Exchange::begin()
 {
     socket.post ([this] {

@@ -3,6 +3,8 @@
 
 #include "web_socket.hpp"
 
+#include <host/platform/peer_lock.hpp>
+
 #include <chrono>
 #include <functional>
 #include <mutex>
@@ -83,6 +85,9 @@ public:
     /// Connects, and waits for a message if `first` is not null. Returns why it cannot; empty if it can.
     std::string open (const ServiceAddress&, const std::string& path, std::string* first);
 
+    /// Makes sure that no other role or program drives this part of the open service. Returns why it cannot; empty if it can.
+    std::string claim (std::string_view part);
+
     /// Begins to talk. [the thread that has opened it]
     void begin();
 
@@ -120,6 +125,7 @@ private:
     const Promises promises;
     bool is_writing = false, is_asking = false;   // a message is on its way out; it waits for its answer
     Clock::time_point sent;
+    std::optional<PeerLock> lock;
     WebSocket socket;   // last: what it calls uses the other members
 };
 

@@ -228,6 +228,7 @@ std::string WebSocket::open (const std::string& host, const std::string& port, c
     return {};
 }
 
+int WebSocket::descriptor() { return inside->end.tcp().socket().native_handle(); }
 void WebSocket::post (std::function<void()> act) { asio::post (inside->end.executor(), std::move (act)); }
 void WebSocket::later (Clock::time_point due, std::function<void()> act) { inside->end.later (due, std::move (act)); }
 void WebSocket::notLater() { inside->end.notLater(); }

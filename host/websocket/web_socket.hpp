@@ -27,6 +27,8 @@ public:
     /// Connects, and waits for a message if `first` is not null. Returns why it cannot; empty if it can.
     std::string open (const std::string& host, const std::string& port, const std::string& target, Clock::duration longest, std::string* first);
 
+    int descriptor();   ///< of the connection
+
     /// Acts on the strand. [any thread]
     void post (std::function<void()> act);
 

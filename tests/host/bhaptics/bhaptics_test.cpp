@@ -313,6 +313,18 @@ TEST_CASE ("a vest that the Player has lost is not trusted", "[bhaptics][wires][
     CHECK (vest.shows());
 }
 
+TEST_CASE ("a vest is driven by one role", "[bhaptics][wires][safety]")
+{
+    Vest vest { Patience::ample };
+    const int port = vest.service->port();
+    CHECK_FALSE (test::lockOn (port));
+    vest.opened.device.reset();
+    const auto other = test::lockOn (port);
+    REQUIRE (other);
+    const auto refused = host::openPluginDevice ({ { "driver", "bhaptics" }, { "port", std::to_string (port) } });
+    CHECK (test::text (refused.messages).find ("another role or another instance of Tactus is using it") != std::string::npos);
+}
+
 TEST_CASE ("at most one message for a vest is on its way, and no more than its rate", "[bhaptics][wires]")
 {
     Vest vest { Patience::ample, { { "rate", 10 } } };

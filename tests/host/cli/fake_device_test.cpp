@@ -86,6 +86,28 @@ TEST_CASE ("a program that is killed while it pushes leaves the device on a wire
     CHECK (ran.out.find (" 0 refused") != std::string::npos);
 }
 
+TEST_CASE ("a second program cannot drive a device over UDP that a first one drives, by no name of its address", "[cli][wires][safety]")
+{
+    Fake fake { "udp" };
+    REQUIRE (fake.is_there);
+    const auto graph = fake.scratch.write ("push.json", pushing);
+    Running first { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    REQUIRE (first.says ("Ctrl-C stops"));
+    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    const auto port = fake.device.substr (fake.device.rfind (':'));
+    for (const auto* name : { "127.0.0.1", "0.0.0.0", "127.1.2.3", "[::ffff:127.0.0.1]" })
+    {
+        const auto second = runTactus ({ "play", graph, "--device", "stylus=udp:tactus_board@" + (name + port), "--session", "off", "--osc", "off", "--duration", "0.1" });
+        INFO (name << ": " << second.err);
+        CHECK (second.status != 0);
+        CHECK (second.err.find ("another role or another instance of Tactus is using it") != std::string::npos);
+    }
+    CHECK (first.stop().status == 0);
+    const auto next = runTactus ({ "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "0.1" });
+    INFO (next.err);
+    CHECK (next.status == 0);
+}
+
 TEST_CASE ("a program that is killed while it pushes an arm without a watchdog leaves it at rest", "[cli][wires][safety]")
 {
     struct Arm

@@ -123,6 +123,23 @@ TEST_CASE ("the Inverse3 is read and pushed through its service, with one messag
     CHECK (arm.service->force().isZero (0.0));
 }
 
+TEST_CASE ("an arm behind a service is driven by one role, because the service adds up the forces of all", "[haply][wires][safety]")
+{
+    auto arm = std::make_unique<Arm> (Patience::ample);
+    const int port = arm->service->port();
+    CHECK_FALSE (test::lockOn (port, "04BA"));
+    CHECK (test::lockOn (port, "1F2E"));   // another arm of the same service
+    arm->opened.device.reset();
+    auto other = test::lockOn (port, "04BA");
+    REQUIRE (other);
+    const Json description { { "driver", "haply" }, { "port", "127.0.0.1:" + std::to_string (port) } };
+    const auto refused = host::openPluginDevice (description);
+    CHECK_FALSE (refused.device);
+    CHECK (test::text (refused.messages).find ("another role or another instance of Tactus is using it") != std::string::npos);
+    other.reset();
+    CHECK (host::openPluginDevice (description).device);
+}
+
 TEST_CASE ("position, rotation and buttons of an arm and its grip are one reading", "[haply][wires]")
 {
     /// The same number moves, turns and presses.

@@ -11,6 +11,7 @@
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/stale_datagrams.hpp>
 #include <host/hid_link/wires.hpp>
+#include <host/platform/peer_lock.hpp>
 
 #include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -23,7 +24,10 @@
 
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <filesystem>
@@ -245,6 +249,43 @@ TEST_CASE ("a socket takes datagrams only from the address that it was opened fo
     CHECK (host->read (got, {}).what == WireFile::Outcome::Kind::nothing);
     CHECK (WireFile::listenUdp (other_port));
     CHECK_FALSE (WireFile::listenUdp (port));   // it is taken
+}
+
+TEST_CASE ("a UDP device is driven by one role, and not kept by the child of a fork", "[wires][hid][safety]")
+{
+    Bench bench { Wire::udp };
+    const auto refused = openWire (bench.where, *bench.profile, bench.system);
+    REQUIRE_FALSE (refused);
+    CHECK (refused.error().text == "another role or another instance of Tactus is using it");
+
+    int port = 0, other_port = 0;
+    auto one = WireFile::listenUdp (port), two = WireFile::listenUdp (other_port);
+    REQUIRE ((one && two));
+    const auto near = WireFile::connectUdp ("127.0.0.1:" + std::to_string (port)), other = WireFile::connectUdp ("127.0.0.1:" + std::to_string (other_port)),
+               by_six = WireFile::connectUdp ("[::1]:" + std::to_string (port));
+    REQUIRE ((near && other));
+    auto held = PeerLock::take (near->descriptor());
+    REQUIRE (held);
+    CHECK_FALSE (PeerLock::take (near->descriptor()));
+    if (by_six) CHECK_FALSE (PeerLock::take (by_six->descriptor()));   // not every computer has IPv6
+    CHECK (PeerLock::take (other->descriptor()));
+    CHECK (PeerLock::take (near->descriptor(), "another arm"));
+
+    std::array<int, 2> ends {};
+    REQUIRE (::pipe (ends.data()) == 0);
+    const auto child = ::fork();
+    if (child == 0)
+    {
+        char end = 0;
+        ::close (ends[1]);
+        ::_exit (::read (ends[0], &end, 1) == 0 ? 0 : 1);
+    }
+    REQUIRE (child > 0);
+    held.reset();
+    CHECK (PeerLock::take (near->descriptor()));
+    ::close (ends[1]);
+    ::close (ends[0]);
+    ::waitpid (child, nullptr, 0);
 }
 
 TEST_CASE ("a serial port is remembered by a name that it keeps", "[wires][hid]")

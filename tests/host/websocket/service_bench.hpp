@@ -7,13 +7,20 @@
 #include <host/device_plugins/device_driver.hpp>
 #include <host/device_plugins/open_plugin_device.hpp>
 #include <host/device_plugins/plugin_device.hpp>
+#include <host/platform/peer_lock.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace tactus::test
@@ -25,6 +32,20 @@ enum class Patience
     promised,   ///< as in a run: for tests of what a service costs that does not answer
     ample       ///< so long that a busy computer does not look like such a service
 };
+
+/// What another program holds that drives this part of a service; empty if the lock is taken.
+inline std::optional<host::PeerLock> lockOn (int port, std::string_view part = {})
+{
+    const int socket = ::socket (AF_INET, SOCK_STREAM, 0);
+    sockaddr_in where {};
+    where.sin_family = AF_INET;
+    where.sin_port = htons (static_cast<std::uint16_t> (port));
+    where.sin_addr.s_addr = htonl (INADDR_LOOPBACK);
+    REQUIRE (::connect (socket, reinterpret_cast<const sockaddr*> (&where), sizeof where) == 0);
+    auto lock = host::PeerLock::take (socket, part);
+    ::close (socket);
+    return lock;
+}
 
 /// A fake service, and its driver on it.
 template <typename Service>
