@@ -75,6 +75,7 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
     {
         const auto& why = opened.error();
         const auto named = device.path + " (" + device.product + ")";
+        if (! why.remedy.empty()) return Message::error (why.id, device.path, "cannot open " + named + ": " + why.text, why.remedy);
         if (device.wire == Wire::udp)
             return Message::error (why.id, device.path, named + " is not there: " + why.text, "check its address, its power and its network, and start it");
         if (why.id == "hid/not_permitted") return Message::error (why.id, device.path, "this user may not open " + named, howToPermit (device));

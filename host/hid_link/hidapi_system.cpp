@@ -190,7 +190,7 @@ public:
         auto alone = FileLock::takeExisting (device.path);
         std::error_code unseen;
         if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-            return Message::error ("hid/not_opened", device.path, "another role or another instance of Tactus is using it");
+            return inUse (device.path);
         Handle out (hid_open_path (device.path.c_str()));
         auto file = out && isReportFile (device.path) ? ReportFile::open (device.path) : std::nullopt;
         Handle in (out && ! file ? hid_open_path (device.path.c_str()) : nullptr);

@@ -2,6 +2,7 @@
 #include "open_device.hpp"
 #include "force_feedback.hpp"
 #include "hid_device.hpp"
+#include "wire_file.hpp"
 #include "wires.hpp"
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -44,6 +45,9 @@ DeviceRequest readRequest (const Json& description, Messages& messages)
         in.require ("profile", "write \"profile\": the id of the device's profile, because nothing else tells which device is at the other end");
         in.require ("port", wanted.wire == Wire::serial ? "write \"port\": \"/dev/ttyACM0\"" : "write \"port\": \"192.168.4.1:9750\"");
         wanted.port = in.text ("port");
+        if (wanted.wire == Wire::udp && ! wanted.port.empty())
+            if (const auto address = WireFile::checkUdp (wanted.port); ! address)
+                messages.push_back (Message::error ("hid/address", "/port", address.error().text, address.error().remedy));
     }
     wanted.profile = in.text ("profile");
     if (wanted.wire == Wire::hid) wanted.serial = in.text ("serial");
@@ -98,7 +102,7 @@ void checkWire (const DeviceRequest& wanted, const Profile& profile, Messages& m
 {
     if ((wanted.wire != Wire::serial || profile.wires.serial) && (wanted.wire != Wire::udp || profile.wires.udp)) return;
     const std::string name = wanted.wire == Wire::serial ? "serial" : "udp";
-    messages.push_back (Message::error ("hid/wire", "/driver", "the profile " + quote (profile.id) + " is not for this wire",
+    messages.push_back (Message::error ("hid/wire", "/driver", "the profile " + quote (profile.id) + " has no wire " + quote (name),
                                         "add \"wires\": {\"" + name + "\": …} to the profile, if the device really has this wire"));
 }
 

@@ -39,7 +39,7 @@ struct FoundDevice
 /// `{"driver": "serial", "profile": "tactus_board", "port": "/dev/ttyACM0"}`, `{"driver": "udp", "profile": "tactus_board", "port":
 /// "192.168.4.1:9750"}`. [main thread]
 ///
-/// Ids: hid/unknown_profile, hid/wire, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf,
+/// Ids: hid/unknown_profile, hid/wire, hid/address, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf,
 /// and the warnings of profiles.
 FoundDevice findDevice (const Json& description, HidSystem&, const LoadedProfiles&);
 

@@ -27,6 +27,13 @@ struct OutgoingReport
 /// A failed transfer, with the system's own message.
 inline Message transferError (std::string why) { return Message::error ("hid/transfer", {}, std::move (why)); }
 
+/// A device that another driver uses: another role, or another program.
+inline Message inUse (std::string where)
+{
+    return Message::error ("hid/not_opened", std::move (where), "another role or another instance of Tactus is using it",
+                           "end the other program, or leave the device to the other role");
+}
+
 /// An open device. One thread may read while another makes all other calls. The destructor closes it. Id: hid/transfer.
 class Transport
 {
@@ -98,7 +105,7 @@ public:
 
     virtual std::vector<ConnectedDevice> connected() = 0;
 
-    /// Ids: hid/not_permitted, hid/not_opened; the text is the reason.
+    /// Ids: hid/not_permitted, hid/not_opened; the text is the reason, and the remedy may be empty.
     virtual Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) = 0;
 
     /// Opens a device over whatever wire it has. Ids: those of open() and openWire().

@@ -9,9 +9,14 @@
 #include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <tactus/text/quote.hpp>
+
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <memory>
 #include <system_error>
@@ -40,6 +45,17 @@ bool makeRaw (int file, int baud) noexcept
     return ::ioctl (file, TCSETS2, &how) == 0;
 }
 
+/// From now on, only root can open the line: another program would take a part of its bytes. Not for a pseudo-terminal, which would stay closed to others
+/// after a crash, for as long as its far end lives.
+void excludeOthers (int file) noexcept
+{
+    constexpr unsigned first_pty = 136, last_pty = 143;   // Documentation/admin-guide/devices.txt of Linux
+    struct stat which
+    {
+    };
+    if (::fstat (file, &which) == 0 && (major (which.st_rdev) < first_pty || major (which.st_rdev) > last_pty)) static_cast<void> (::ioctl (file, TIOCEXCL));
+}
+
 /// Some adapters collect bytes for up to 16 ms, unless they are asked not to.
 void askForLowLatency (int file) noexcept
 {
@@ -55,28 +71,53 @@ Result<WireFile> WireFile::openSerial (const std::string& path, int baud)
     const int file = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (file < 0) return failure (path, errno);
     WireFile line (file, Kind::line);
-    if (! makeRaw (file, baud)) return failure (path, "it is not a serial line: " + std::generic_category().message (errno));
+    if (! makeRaw (file, baud))
+        return Message::error ("device/wire", path, "it is not a serial line: " + std::generic_category().message (errno), "name a serial port, such as /dev/ttyACM0");
+    excludeOthers (file);
     askForLowLatency (file);
     line.dropInput();
     return line;
 }
 
-Result<WireFile> WireFile::connectUdp (const std::string& address)
+namespace
 {
+using Addresses = std::unique_ptr<addrinfo, decltype (&::freeaddrinfo)>;
+
+Result<Addresses> readAddress (const std::string& address)
+{
+    const auto refuse = [&] (std::string why) {
+        return Message::error ("device/wire", address, quote (address) + " is no address: " + std::move (why),
+                               "write it in numbers, as 192.168.4.1:9750 or [fe80::1%eth0]:9750");
+    };
     const auto colon = address.rfind (':');
     auto host = address.substr (0, colon == address.npos ? 0 : colon);
     const auto port = colon == address.npos ? std::string() : address.substr (colon + 1);
     if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr (1, host.size() - 2);
-    if (host.empty() || port.empty()) return failure (address, "an address is written as 192.168.4.1:9750, or as [fe80::1]:9750");
+    if (host.empty() || port.empty()) return refuse ("it has no host, or no port");
+    int number = 0;   // getaddrinfo would take 65537 for 1
+    const auto [end, wrong] = std::from_chars (port.data(), port.data() + port.size(), number);
+    if (wrong != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535) return refuse ("its port must be a number from 1 to 65535");
 
     addrinfo wanted {};
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;   // no name is looked up, because that can take long
     addrinfo* found = nullptr;
-    if (const int error = ::getaddrinfo (host.c_str(), port.c_str(), &wanted, &found); error != 0)
-        return failure (address, "an address is written in numbers, as 192.168.4.1:9750: " + std::string (::gai_strerror (error)));
-    const std::unique_ptr<addrinfo, decltype (&::freeaddrinfo)> owned (found, ::freeaddrinfo);
+    if (const int error = ::getaddrinfo (host.c_str(), port.c_str(), &wanted, &found); error != 0) return refuse (::gai_strerror (error));
+    return Addresses (found, ::freeaddrinfo);
+}
+}   // namespace
 
+Result<> WireFile::checkUdp (const std::string& address)
+{
+    auto read = readAddress (address);
+    return read ? Result<> {} : std::move (read).error();
+}
+
+Result<WireFile> WireFile::connectUdp (const std::string& address)
+{
+    auto read = readAddress (address);
+    if (! read) return std::move (read).error();
+    const auto& found = *read;
     const int file = ::socket (found->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (file < 0) return failure (address, errno);
     WireFile socket (file, Kind::socket);
@@ -183,6 +224,7 @@ Message none() { return Message::error ("device/wire", {}, "there are no such wi
 }   // namespace
 
 Result<WireFile> WireFile::openSerial (const std::string&, int) { return none(); }
+Result<> WireFile::checkUdp (const std::string&) { return {}; }
 Result<WireFile> WireFile::connectUdp (const std::string&) { return none(); }
 Result<WireFile> WireFile::makeTerminal (std::string&) { return none(); }
 Result<WireFile> WireFile::listenUdp (int&) { return none(); }

@@ -8,6 +8,7 @@
 #include <host/platform/failsafe.hpp>
 #include <host/platform/peer_lock.hpp>
 #include <tactus/file/file_lock.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,7 +34,6 @@ constexpr auto until_late = 20ms;                               // without an an
 constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
 constexpr int most_unanswered = 50, most_without_filler = 10;   // reports, after which a device that only answers counts as gone: about a second
 constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and a dead program cannot send it again
-constexpr auto in_use = "another role or another instance of Tactus is using it";
 constexpr std::size_t line_keeps = 4095;   // bytes that Linux keeps of a serial line
 
 Message systemError (int error) { return transferError (std::generic_category().message (error)); }
@@ -322,20 +322,22 @@ private:
     Clock::time_point heard, knocked;   // [reader]
 };
 
-Message notOpened (const ConnectedDevice& device, std::string why)
+/// Without a remedy, the usual one helps.
+Message notOpened (const ConnectedDevice& device, std::string why, std::string remedy = {})
 {
-    return Message::error (device.wire == Wire::serial && isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, std::move (why));
+    return Message::error (device.wire == Wire::serial && isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, std::move (why),
+                           std::move (remedy));
 }
 
 Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
     std::error_code unseen;
-    if (std::filesystem::is_directory (device.path, unseen)) return notOpened (device, "it is a folder, not a serial line");
+    if (std::filesystem::is_directory (device.path, unseen)) return notOpened (device, "it is a folder, not a serial line", "name the port itself, such as /dev/ttyACM0");
     auto alone = FileLock::takeExisting (device.path);
     if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-        return notOpened (device, in_use);
+        return inUse (device.path);
     auto line = WireFile::openSerial (device.path, profile.wires.serial->baud);
-    if (! line) return notOpened (device, line.error().text);
+    if (! line) return notOpened (device, line.error().text, line.error().remedy);
     if (! alone) return notOpened (device, "it cannot be locked");
     if (profile.wires.serial->framing == Framing::answer)
         return std::make_unique<AskedTransport> (std::move (*line), std::move (*alone), device.path, profile, system);
@@ -345,9 +347,9 @@ Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, co
 Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const Profile& profile)
 {
     auto socket = WireFile::connectUdp (device.path);
-    if (! socket) return notOpened (device, socket.error().text);
+    if (! socket) return notOpened (device, socket.error().text, socket.error().remedy);
     auto alone = PeerLock::take (socket->descriptor());   // before anything is sent, because the device would then send its reports here
-    if (! alone) return notOpened (device, in_use);
+    if (! alone) return inUse (device.path);
     auto udp = std::make_unique<UdpTransport> (std::move (*socket), std::move (*alone), device.path, profile);
     udp->knock();
     Bytes answer (longest_report + 1);
@@ -367,7 +369,8 @@ Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice& device, cons
 {
     if (device.wire == Wire::serial && profile.wires.serial) return openSerial (device, profile, system);
     if (device.wire == Wire::udp && profile.wires.udp) return openUdp (device, profile);
-    return notOpened (device, "its profile " + profile.id + " does not know this wire");
+    const std::string wire = device.wire == Wire::serial ? "serial" : "udp";
+    return notOpened (device, "its profile " + profile.id + " has no wire " + quote (wire), "add it to \"wires\" of the profile, if the device really has it");
 }
 
 std::string lastingNameOf (const std::string& port, const std::string& by_id)

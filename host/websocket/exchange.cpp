@@ -15,6 +15,7 @@ std::optional<ServiceAddress> ServiceAddress::read (std::string_view text, std::
     if (whole.find (':') == whole.npos) whole = "localhost:" + whole;
     ServiceAddress address { whole.substr (0, whole.rfind (':')), whole.substr (whole.rfind (':') + 1) };
     if (address.host.empty() || address.port.empty() || address.port.find_first_not_of ("0123456789") != whole.npos) return std::nullopt;
+    if (address.port.size() > 5 || std::stoi (address.port) < 1 || std::stoi (address.port) > 65535) return std::nullopt;
     return address;
 }
 

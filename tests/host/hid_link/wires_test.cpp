@@ -322,8 +322,16 @@ TEST_CASE ("a program that is opened on a place where nothing is says so, and th
     CHECK (problemOf ({ { "driver", "serial" }, { "profile", "tactus_board" } }) == "device/missing");
     CHECK (problemOf ({ { "driver", "serial" }, { "port", "/dev/null" } }) == "device/missing");
     CHECK (problemOf (udp ("127.0.0.1:9")) == "hid/not_opened");
-    CHECK (problemOf (udp ("localhost:9750")) == "hid/not_opened");   // names are not looked up
-    CHECK (problemOf (udp ("127.0.0.1")) == "hid/not_opened");
+    for (const auto* wrong : { "localhost:9750", "127.0.0.1", "127.0.0.1:0", "127.0.0.1:65536", "127.0.0.1:65537", "127.0.0.1:4294967305", "127.0.0.1:-1",
+                               "127.0.0.1:9 ", "127.0.0.1:x", ":9", "[::1:9" })   // names are not looked up
+    {
+        INFO (wrong);
+        CHECK (problemOf (udp (wrong)) == "hid/address");
+        const auto told = checkDevice (udp (wrong), {}, all);
+        REQUIRE (told.size() == 1);
+        CHECK (told.front().where == "/port");
+        CHECK (told.front().text.find (wrong) != std::string::npos);
+    }
     CHECK (checkDevice (udp ("127.0.0.1:9"), {}, all).empty());   // as far as that is known without the device
     CHECK (checkDevice (serial ("woodenhaptics_usb", "/dev/null"), {}, all).front().id == "hid/wire");
 
