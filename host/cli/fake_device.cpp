@@ -223,7 +223,7 @@ void run (const FakeOptions& o)
     play (*fake, o.duration_s, log);
     const auto n = fake->counts();
     std::cout << fake->place() << ": " << n.sent << " reports sent, " << n.heard << " heard, " << n.refused << " refused, " << n.stray << " stray bytes, "
-              << "released by the watchdog " << n.released << " times\n";
+              << "released by the watchdog " << n.released << (n.released == 1 ? " time\n" : " times\n");
     if (! o.log.empty() && ! log) fail (Message::error ("output/unwritable", o.log, "the log could not be written to its end", "check the disk"));
 }
 }   // namespace

@@ -30,8 +30,8 @@ constexpr std::pair<std::string_view, FaultKind> fault_names[] {
     { "rename", FaultKind::rename },
 };
 
-constexpr double usual_rate = 1000.0, usual_watchdog = 0.02;   // Hz, s
-constexpr int pause_ms = 5, longest_wait_ms = 1000;            // that end an unfinished report: on the Tactus board, and on Haply's
+constexpr double usual_rate = 1000.0;                 // Hz
+constexpr int pause_ms = 5, longest_wait_ms = 1000;   // that end an unfinished report: on the Tactus board, and on Haply's
 
 std::vector<Bytes> stepsOf (const Profile& profile)
 {
@@ -101,8 +101,7 @@ Result<DeviceFault> readFault (std::string_view text)
 
 FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device> h, Options o)
     : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
-      watchdog (profile->limits.device_watchdog > 0.0 ? profile->limits.device_watchdog : usual_watchdog), port (options.port), side (profile),
-      framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), answers (framing == Framing::answer),
+      watchdog (profile->limits.device_watchdog), port (options.port), side (profile), framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), answers (framing == Framing::answer),
       init (answers ? stepsOf (*profile) : std::vector<Bytes> {}),
       lines (framing, heardShapes (*profile, init), std::chrono::milliseconds (answers ? longest_wait_ms : pause_ms))
 {
@@ -113,15 +112,18 @@ FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device
 FakeDevice::~FakeDevice()
 {
     std::error_code failed;
-    if (! options.link.empty() && std::filesystem::is_symlink (options.link, failed)) std::filesystem::remove (options.link, failed);
+    if (! options.link.empty() && std::filesystem::read_symlink (options.link, failed) == name) std::filesystem::remove (options.link, failed);
 }
 
 Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Profile> profile, std::unique_ptr<Device> hand, Options options)
 {
     const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp && profile->wires.udp;
     if (! knows)
-        return Message::error ("fake/wire", profile->id, "the profile " + quote (profile->id) + " does not know this wire",
+        return Message::error ("fake/wire", profile->id, "the profile " + quote (profile->id) + " has no wire " + quote (options.wire == Wire::serial ? "serial" : "udp"),
                                "add it to the \"wires\" of the profile, or choose another wire");
+    std::error_code failed;
+    if (! options.link.empty() && std::filesystem::is_symlink (options.link, failed) && std::filesystem::exists (options.link, failed))
+        return Message::error ("fake/link", options.link, "there is a link with this name, which leads to a file", "remove it, or name another one");
     std::unique_ptr<FakeDevice> fake (new FakeDevice (std::move (profile), std::move (hand), std::move (options)));
     if (auto connected = fake->connect(); ! connected) return std::move (connected).error();
     return fake;
@@ -179,7 +181,7 @@ void FakeDevice::step()
     while (hear ({}))
         ;
     ++steps;
-    if (is_driven && ! answers && static_cast<double> (steps - last_valid) > watchdog * rate_hz)
+    if (is_driven && watchdog > 0.0 && static_cast<double> (steps - last_valid) > watchdog * rate_hz)
     {
         is_driven = false;
         applied = {};

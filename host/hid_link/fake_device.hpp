@@ -52,19 +52,18 @@ Result<DeviceFault> readFault (std::string_view);
 
 /// Simulates the device of a profile at the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool and feels the
 /// force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
-/// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0.
+/// if no valid report comes for its watchdog (`device_watchdog` of the profile; without one it keeps them on), and if an enable bit is 0.
 ///
 /// It sends only reports with values or buttons: no signs of life and the like, which some devices send, too.
 ///
-/// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, has no watchdog, and
-/// until it has heard all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
+/// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, and until it has heard all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
 class FakeDevice
 {
 public:
     struct Options
     {
         Wire wire = Wire::serial;
-        std::string link;   ///< a symbolic link that always leads to the serial line; replaced if it is a link. Empty: none
+        std::string link;   ///< a symbolic link that always leads to the serial line; replaced if it leads nowhere. Empty: none
         int port = 0;       ///< of UDP; 0: any
         std::vector<DeviceFault> faults;
     };

@@ -150,7 +150,8 @@ Result<WireFile> WireFile::listenUdp (int& port)
     here.sin_addr.s_addr = htonl (INADDR_LOOPBACK);
     socklen_t size = sizeof here;
     auto* const address = reinterpret_cast<sockaddr*> (&here);
-    if (::bind (file, address, size) != 0 || ::getsockname (file, address, &size) != 0) return failure ("UDP port " + std::to_string (port), errno);
+    if (::bind (file, address, size) != 0 || ::getsockname (file, address, &size) != 0)
+        return Message::error ("device/wire", "UDP port " + std::to_string (port), std::generic_category().message (errno), "choose another port");
     port = ntohs (here.sin_port);
     return listener;
 }

@@ -214,6 +214,31 @@ TEST_CASE ("dry wood on a DualPanto: each force at its far end is that of the of
     CHECK (kept);
 }
 
+TEST_CASE ("the fake of a board without a watchdog keeps its force when the program falls silent", "[wires][hid][dualpanto]")
+{
+    const bool has_watchdog = GENERATE (false, true);
+    auto json = readJson (*readTextFile (test::profile_folder / "dualpanto.json")).root;
+    if (has_watchdog) json["limits"]["device_watchdog"] = "20 ms";
+    const auto profile = readProfile (json).profile;
+    REQUIRE (profile);
+    auto made = FakeDevice::make (profile, stillHand(), { .wire = Wire::serial, .link = {}, .faults = {} });
+    REQUIRE (made);
+    auto& fake = **made;
+    auto line = WireFile::openSerial (fake.place(), 115200);
+    REQUIRE (line);
+    auto pushing = panto_rest;
+    pushing[6] = 0x3f;   // 0.5 along x
+    Bytes frame (longestFrame (Framing::dualpanto, pushing.size()));
+    frame.resize (writeFrame (Framing::dualpanto, pushing, frame));
+    REQUIRE (line->write (frame).size == frame.size());
+    REQUIRE (eventually ([&] { return fake.hear (WireClock::now() + 10ms); }));
+    REQUIRE_FALSE (fake.effort().force.isZero (0.0));
+    for (int step = 0; step < 1000; ++step)
+        fake.step();
+    CHECK (fake.effort().force.isZero (0.0) == has_watchdog);
+    CHECK (fake.counts().released == (has_watchdog ? 1 : 0));
+}
+
 TEST_CASE ("the other handle of a DualPanto is read and pushed by name", "[wires][hid][dualpanto]")
 {
     PantoBench bench;
