@@ -120,6 +120,12 @@ std::string describe (const Workspace& w)
     return text;
 }
 
+constexpr std::string_view stateOf (std::optional<bool> connected)
+{
+    if (! connected) return "not checked until a run opens it";
+    return *connected ? "connected" : "not connected";
+}
+
 void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
     std::error_code unseen;
@@ -133,7 +139,7 @@ void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice>
     {
         const auto b = bindingOf (s, role);
         std::string state;
-        if (hid::isHid (b->description)) state = isAmong (b->description, connected, profiles) ? "connected" : "not connected";
+        if (hid::isHid (b->description)) state = stateOf (isConnected (b->description, connected, profiles));
         rows.push_back ({ role, nameOf (b->description), state, describe (b->workspace) });
     }
     printTable (rows);
@@ -281,7 +287,7 @@ void addSession (const Command& app)
         "A graph file or the name of a preset: check whether the devices of the session fit its roles");
     const auto bind = command.addOption ("--bind", options->bind,
                                          "Bind a role to a device: ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, "
-                                         "ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=DRIVER:PORT; "
+                                         "ROLE=serial:PROFILE@PORT, ROLE=udp:PROFILE@ADDRESS, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=DRIVER:PORT; "
                                          "may be given more than once");
     bind.oneValueEach();
     command.addOption ("--unbind", options->unbind, "A role to unbind; it then gets the device that each graph describes; may be given more than once")

@@ -52,9 +52,9 @@ bool namesPlugin (const Json& description)
     return ! driver.empty() && ! isBuiltInDriver (driver);
 }
 
-bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
+std::optional<bool> isConnected (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
 {
-    if (hid::wireOf (description) != hid::Wire::hid) return hid::isThere (description);
+    if (hid::wireOf (description) != hid::Wire::hid) return hid::isThere (description) ? std::nullopt : std::optional (false);
     return std::ranges::any_of (connected, [&] (const auto& device) { return profileFor (description, device, all) != nullptr; });
 }
 
@@ -114,7 +114,7 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))
         {
-            if (textAt (fit.description, "profile") != hid::pid_profile) fit.connected = isAmong (fit.description, connected, all);
+            if (textAt (fit.description, "profile") != hid::pid_profile) fit.connected = isConnected (fit.description, connected, all);
             if (! fit.there)
                 for (const auto& device : connected)
                     if (const auto profile = profileFor (fit.description, device, all)) fit.there = partsOf (*profile);

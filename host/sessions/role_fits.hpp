@@ -27,7 +27,7 @@ struct RoleFit
     Json description {};   ///< description of the device, without "workspace"
     Workspace workspace {};
     std::optional<DeviceParts> there {};   ///< parts of the device, from partsOf
-    std::optional<bool> connected {};      ///< set only for a HID device with a profile
+    std::optional<bool> connected {};      ///< set only for a HID device with a profile, and false for a serial port that does not exist
     std::vector<std::string> lacking {};   ///< missing parts, from lackingOf
     Messages messages {};                  ///< problems of the description; `where` is relative to it
 
@@ -45,8 +45,8 @@ std::string nameOf (const Json& description);
 /// True if the driver of a description is none of Tactus, so that it must be in a plugin, which may not be installed. Loads nothing.
 bool namesPlugin (const Json& description);
 
-/// True if a connected HID device matches the description.
-bool isAmong (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
+/// Whether a connected HID device matches the description. On other wires: false if the port does not exist; else empty, because only a run asks the device.
+std::optional<bool> isConnected (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
 /// Checks the description of a device with any driver, as far as that is possible without the device. Loads the driver if it is in a plugin.
 Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles&);

@@ -47,6 +47,15 @@ TEST_CASE ("a role is bound, shown with what the graph needs from it, and unboun
     const auto none = scratch.write ("none.json", R"({"format": "tactus-session", "version": 1})");
     CHECK (has (runTactus ({ "session", wood, "--file", none }).out, "sim with a hand that follows stroke (graph)"));
 
+    ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=udp:tactus_board@10.99.99.99:9755" });
+    CHECK (has (ran.out, "udp tactus_board 10.99.99.99:9755  not checked until a run opens it"));
+    CHECK_FALSE (has (ran.out, "connected"));
+    CHECK (has (runTactus ({ "session", "--file", file, "--bind", "stylus=serial:tactus_board@/dev/null" }).out, "not checked until a run opens it"));
+    CHECK (has (runTactus ({ "session", "--file", file, "--bind", "stylus=serial:tactus_board@/dev/no_such_port" }).out, "not connected"));
+    ran = runTactus ({ "session", "--file", file, "--bind", "stylus=udp:tactus_board@10.99.99.99:65537" });
+    CHECK (ran.status == 1);
+    CHECK (has (ran.err, "from 1 to 65535"));
+
     ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=hid:spacemouse", "--json" });
     REQUIRE (ran.status == 0);
     const auto json = Json::parse (ran.out);
