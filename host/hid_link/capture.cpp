@@ -127,6 +127,7 @@ public:
     }
 
     std::size_t keptBySystem() const noexcept override { return inner->keptBySystem(); }
+    std::uint64_t strayBytes() const noexcept override { return inner->strayBytes(); }
     bool awaitsAnswer() const noexcept override { return inner->awaitsAnswer(); }
 
     Result<> write (std::span<const std::uint8_t> report) override { return recorded (LineKind::out, report, inner->write (report)); }

@@ -10,6 +10,13 @@
 namespace tactus::host::hid
 {
 
+std::string describeStray (const PortCounts& port)
+{
+    if (port.stray == 0) return {};
+    if (port.reports == 0) return std::to_string (port.stray) + " bytes arrived, but no frame: check baud, framing and CRC";
+    return std::to_string (port.stray) + (port.stray == 1 ? " stray byte" : " stray bytes");
+}
+
 std::string describe (const ReadingCounts& read, const PortCounts& port)
 {
     const auto number = [] (auto n) { return std::to_string (n); };
@@ -22,6 +29,7 @@ std::string describe (const ReadingCounts& read, const PortCounts& port)
     if (read.restarts > 0) text += ", " + number (read.restarts) + " out of order";
     if (read.skipped > 0) text += ", " + number (read.skipped) + " skipped for newer ones";
     if (port.overflown > 0) text += ", " + number (port.overflown) + " dropped for lack of room";
+    if (const auto stray = describeStray (port); ! stray.empty()) text += ", " + stray;
     return text;
 }
 

@@ -35,8 +35,11 @@ struct ReadingCounts
     double age = 0.0, oldest = 0.0;                   ///< age of the reading, in s: now, and the maximum since the first reading
 };
 
-/// Describes the counts, as in "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped".
+/// Describes the counts, as in "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped, 40 stray bytes".
 std::string describe (const ReadingCounts&, const PortCounts&);
+
+/// Says how many bytes of a serial line belong to no report, and what that means if no report has come; empty: none.
+std::string describeStray (const PortCounts&);
 
 /// What nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of the signal outputs, the channels of
 /// the streams come first, then the signals that the profile turns into efforts.

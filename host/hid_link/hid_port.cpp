@@ -220,9 +220,11 @@ std::string HidPort::trouble() const
 PortCounts HidPort::counts() const noexcept
 {
     const auto n = answers_sent.load (std::memory_order_relaxed);
+    const std::lock_guard lock (opening);
     return { .reports = reports.load (std::memory_order_relaxed),
              .read_by_tick = read_by_tick.load (std::memory_order_relaxed),
              .asked_for = asked_for.load (std::memory_order_relaxed),
+             .stray = stray_before + (link ? link->strayBytes() : 0),
              .overflown = ring.lost(),
              .writes = writes.load (std::memory_order_relaxed),
              .write_errors = write_errors.load (std::memory_order_relaxed),

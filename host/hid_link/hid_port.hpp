@@ -48,6 +48,7 @@ struct PortCounts
     std::uint64_t reports = 0;                                         ///< reports received, valid or not
     std::uint64_t read_by_tick = 0;                                    ///< of these, the ones that the tick thread read itself
     std::uint64_t asked_for = 0;                                       ///< of these, the answers of a silent device that was asked for its state
+    std::uint64_t stray = 0;                                           ///< bytes of a serial line that belong to no report
     std::uint64_t overflown = 0;                                       ///< dropped because no tick had taken any reports for a long time
     std::uint64_t writes = 0;                                          ///< reports sent, including neutral ones
     std::uint64_t write_errors = 0;                                    ///< writes that the system rejected
@@ -154,7 +155,7 @@ public:
     //==========================================================================
     bool isReadByTick() const noexcept { return reads.load (std::memory_order_acquire) == Reader::tick; }   ///< [any thread]
     bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }                ///< [any thread]
-    PortCounts counts() const noexcept;                                                                     ///< [any thread]
+    PortCounts counts() const noexcept;                                                                     ///< [any thread but the tick thread]
     std::string trouble() const;                                                                            ///< the latest failure; empty: none [any thread]
 
 private:
@@ -254,8 +255,9 @@ private:
     std::atomic<bool> connected = false, stopping = false;
     std::vector<std::unique_ptr<Output>> outputs;
 
-    mutable std::mutex opening;   // protects `link` and `last_trouble`; never taken on the tick thread
+    mutable std::mutex opening;   // protects `link`, `stray_before` and `last_trouble`; never taken on the tick thread
     Opened link;
+    std::uint64_t stray_before = 0;   // stray bytes of earlier connections
     std::string last_trouble;
     std::condition_variable stopped;
 

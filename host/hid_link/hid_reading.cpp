@@ -218,6 +218,7 @@ void HidPort::lose (Transport& t, const std::string& why)
         const std::lock_guard lock (opening);
         if (link.get() != &t) return;
         departures.fetch_add (1, std::memory_order_relaxed);
+        stray_before += link->strayBytes();
         link.reset();
         connected.store (false, std::memory_order_release);
         last_trouble = why;

@@ -54,6 +54,9 @@ public:
     /// How many reports the system keeps for a reader who is late; it drops newer ones.
     virtual std::size_t keptBySystem() const noexcept { return 63; }   // Linux, of HID: HIDRAW_BUFFER_SIZE is 64
 
+    /// Bytes that have come so far and belong to no report. [any thread]
+    virtual std::uint64_t strayBytes() const noexcept { return 0; }
+
     /// True while the device has not answered the last report: one that pushes waits, and then the newest is sent. [any thread]
     virtual bool awaitsAnswer() const noexcept { return false; }
 

@@ -11,6 +11,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <mutex>
@@ -34,7 +35,7 @@ constexpr auto until_late = 20ms;                               // without an an
 constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
 constexpr int most_unanswered = 50, most_without_filler = 10;   // reports, after which a device that only answers counts as gone: about a second
 constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and a dead program cannot send it again
-constexpr std::size_t line_keeps = 4095;   // bytes that Linux keeps of a serial line
+constexpr std::size_t line_keeps = 4095;                        // bytes that Linux keeps of a serial line
 
 Message systemError (int error) { return transferError (std::generic_category().message (error)); }
 
@@ -106,8 +107,12 @@ public:
 
     Outcome readUntil (std::span<std::uint8_t> into, Clock::time_point until) noexcept override
     {
-        return lines.read (file, into, until);
+        const auto got = lines.read (file, into, until);
+        stray.store (lines.counts().bytes, std::memory_order_relaxed);
+        return got;
     }
+
+    std::uint64_t strayBytes() const noexcept override { return stray.load (std::memory_order_relaxed); }
 
 protected:
     int put (std::span<const std::uint8_t> report) override
@@ -141,7 +146,8 @@ protected:
 private:
     FileLock lock;   // so that only one driver uses the line
     const Framing framing;
-    LineReader lines;   // [reader]
+    LineReader lines;                       // [reader]
+    std::atomic<std::uint64_t> stray = 0;   // bytes, as the lines count them
     const std::size_t kept;
     Bytes room, unsent;   // [writer]
 };

@@ -47,6 +47,7 @@ struct WithoutFailsafe final : Transport
     Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override { return to->read (into, timeout); }
     bool canReadUntil() const noexcept override { return to->canReadUntil(); }
     std::size_t keptBySystem() const noexcept override { return to->keptBySystem(); }
+    std::uint64_t strayBytes() const noexcept override { return to->strayBytes(); }
     bool awaitsAnswer() const noexcept override { return to->awaitsAnswer(); }
     ReportFile::Outcome readUntil (std::span<std::uint8_t> into, ReportFile::Clock::time_point until) noexcept override { return to->readUntil (into, until); }
     Result<> write (std::span<const std::uint8_t> report) override { return to->write (report); }
