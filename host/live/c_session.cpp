@@ -105,6 +105,7 @@ struct tactus_session
     std::atomic<bool> has_started { false };       // the run is live   [any thread]
     double rate = 0.0;                             // in Hz; fixed when the caller has the session, as is the clock
     std::map<std::string, std::string> troubles;   // of devices, by role, that the caller was told about
+    std::map<std::string, std::string> warned;     // ids of warnings, by role, likewise
     Messages events;
     std::map<std::string, tactus::Guard::Stop> told;   // by role: the stop that the caller was told about
     bool is_over = false;
@@ -140,6 +141,9 @@ void tactus_session::attendOnce()
     for (const auto& h : live->health())
         if (auto& told_trouble = troubles[h.role]; std::exchange (told_trouble, h.trouble) != h.trouble && ! h.trouble.empty())
             events.push_back (Message::warning ("device/trouble", "/devices/" + h.role, h.trouble));
+    for (const auto& h : live->health())
+        if (auto& told_id = warned[h.role]; h.warning && std::exchange (told_id, h.warning->id) != h.warning->id)
+            events.push_back (Message::warning (h.warning->id, "/devices/" + h.role, h.warning->text, h.warning->remedy));
     probes.drain();
     if (events.size() > most_events) events.erase (events.begin(), events.end() - most_events);
 }

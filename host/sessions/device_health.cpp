@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "device_health.hpp"
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -33,6 +36,11 @@ std::optional<LatestReport> latestOf (const hid::HidDevice& d)
     }
     return std::nullopt;
 }
+
+/// True if the rate of the profile is that of all reports that come.
+bool hasOneRate (const hid::Profile& p) { return hasClock (p) && p.inputs.size() == 1; }
+
+constexpr double most_off = 0.02;   // of the nominal rate; the crystals of boards are off by less than 0.0001
 
 template <typename... T>
 std::string printed (const char* format, T... values)
@@ -66,6 +74,7 @@ std::string describe (const DeviceHealth& h)
     if (h.ticks) text += h.read_by_tick ? ", ticks the run directly" : ", ticks the run through a reading thread";
     if (h.drift_ppm) text += printed (", clock %+.0f ppm", *h.drift_ppm);
     if (h.lost > 0) text += ", " + std::to_string (h.lost) + " lost";
+    if (h.warning) text += ", " + h.warning->text;
     return text;
 }
 
@@ -73,6 +82,23 @@ HealthWatch::Meter& HealthWatch::meterOf (const std::string& role)
 {
     const auto at = std::ranges::find (meters, role, &Meter::role);
     return at != meters.end() ? *at : meters.emplace_back (Meter { role, {} });
+}
+
+void HealthWatch::judgeRate (Meter& meter, DeviceHealth& h, double nominal_hz) const
+{
+    if (meter.recent.span() >= shortest_span)
+        if (const auto rate = std::exchange (meter.recent, {}).rate())
+        {
+            const double off = rate->hz / nominal_hz - 1.0;
+            const int way = std::abs (off) <= most_off + 3.0 * rate->error / nominal_hz ? 0 : (off < 0.0 ? -1 : 1);
+            meter.wrong = way == 0 || way * meter.wrong < 0 ? way : meter.wrong + way;
+            meter.wrong_hz = rate->hz;
+        }
+    if (std::abs (meter.wrong) < 2) return;
+    const auto sent = numberText (std::round (meter.wrong_hz));
+    auto text = "the board sends " + sent + " reports/s, its profile says " + numberText (nominal_hz);
+    if (h.ticks) text += ": the graph runs at " + numberText (std::round (100.0 * meter.wrong_hz / nominal_hz)) + " % of its speed";
+    h.warning = Message::warning ("device/rate", h.role, std::move (text), "set \"rate\" to " + sent + " in the profile " + h.profile + ", or correct the firmware");
 }
 
 void HealthWatch::poll (const PluginRole& plugin)
@@ -127,9 +153,13 @@ void HealthWatch::poll (std::span<const RealDevice> devices, std::span<const Plu
         h.trouble = device->port().trouble();
 
         auto& meter = meterOf (real.role);
-        if (std::exchange (meter.departures, port.departures) != port.departures) meter.rate.reset();
-        if (const auto latest = latestOf (*device); latest && h.connected) meter.rate.add (latest->at_s, latest->reports + read.lost);
+        if (std::exchange (meter.departures, port.departures) != port.departures) meter = { .role = real.role, .departures = port.departures };
+        if (const auto latest = latestOf (*device); latest && h.connected)
+            for (auto* each : { &meter.rate, &meter.recent })
+                each->add (latest->at_s, latest->reports + read.lost);
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
+        if (hasOneRate (real.profile())) judgeRate (meter, h, real.profile().rate);
+        if (port.reports == 0 && port.stray > 0) h.warning = Message::warning ("device/no_frame", h.role, hid::describeStray (port), "compare them with \"wires\" of the profile " + h.profile);
     }
 
     for (const auto& plugin : plugins)

@@ -52,6 +52,7 @@ struct DeviceHealth
     double reached_hz = 0.0;              ///< how many new efforts per second reach it, if its driver measures that; else 0
     std::optional<double> drift_ppm {};   ///< drift of its clock relative to the clock of the run; empty for the device that is that clock
     double drift_error_ppm = 0.0;         ///< standard error of the drift
+    std::optional<Message> warning {};    ///< what is wrong with its wire or its profile. Ids: device/rate, device/no_frame
     std::string trouble;                  ///< the latest failure
 };
 
@@ -61,7 +62,8 @@ std::string describe (const DeviceHealth&);
 /// Monitors the devices of a run, from a thread that looks now and then. Reports are timed on arrival (HidPort), so the
 /// tick thread is not involved. The reference is the device that ticks the run, or else the computer's clock, which also
 /// drives the timer. Lost reports, known from sequence numbers, are counted too, so they do not look like a slow clock. When
-/// a device that was disconnected is back, the measurement of its rate starts again. [one thread]
+/// a device that was disconnected is back, the measurement of its rate starts again. A rate that is off by more than 2 % in two spans in a row is reported:
+/// one span can contain a pause of the computer, in which reports were lost. [one thread]
 class HealthWatch
 {
 public:
@@ -79,12 +81,15 @@ private:
     struct Meter
     {
         std::string role;
-        RateMeter rate;
+        RateMeter rate {}, recent {};   // `recent`: begins again after each `shortest_span`
         std::uint64_t departures = 0;
+        int wrong = 0;           // how many spans in a row were too slow (< 0) or too fast
+        double wrong_hz = 0.0;   // the rate in the last one of them
     };
 
     Meter& meterOf (const std::string& role);
     void poll (const PluginRole&);
+    void judgeRate (Meter&, DeviceHealth&, double nominal_hz) const;
 
     std::string clock;
     double shortest_span;

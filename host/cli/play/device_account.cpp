@@ -13,6 +13,8 @@ namespace tactus::host
 {
 namespace
 {
+std::string times (std::uint64_t n) { return n == 1 ? "once" : std::to_string (n) + " times"; }
+
 std::string milliseconds (double s)
 {
     char text[32];
@@ -63,9 +65,9 @@ std::string accountOf (const PluginRole& plugin, std::span<const DeviceHealth> h
         text += "\n";
     }
     if (counts.silences > 0)
-        text += "    the run paused " + std::to_string (counts.silences) + " times for longer than the watchdog allows, so the force was released\n";
+        text += "    the run paused " + times (counts.silences) + " for longer than the watchdog allows, so the force was released\n";
     if (counts.departures > 0)
-        text += "    the device was gone " + std::to_string (counts.departures) + " times" + (device.isConnected() ? "\n" : ", and is still gone\n");
+        text += "    the device was gone " + times (counts.departures) + (device.isConnected() ? "\n" : ", and is still gone\n");
     if (const auto trouble = device.trouble(); ! trouble.empty()) text += "    last problem: " + printableName (trouble) + "\n";
     return text;
 }
@@ -108,12 +110,14 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Plug
             text += " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";
         }
         if (port.silences > 0)
-            text += "    the run paused " + std::to_string (port.silences) + " times for longer than the device's watchdog allows, so the force was released\n";
+            text += "    the run paused " + times (port.silences) + " for longer than the device's watchdog allows, so the force was released\n";
         if (port.departures > 0)
         {
-            text += "    the device was unplugged " + std::to_string (port.departures) + " times";
+            text += "    the device was unplugged " + times (port.departures);
             text += device->port().isConnected() ? "\n" : ", and is still unplugged\n";
         }
+        if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end() && h->warning)
+            text += "    " + printableName (h->warning->text) + "; " + printableName (h->warning->remedy) + "\n";
         if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last problem: " + printableName (trouble) + "\n";
     }
     for (const auto& plugin : plugins)

@@ -26,6 +26,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 
 namespace tactus::host
@@ -173,6 +175,14 @@ private:
         }
     }
 
+    /// Says once what is wrong with the wire or the profile of a device.
+    void tellDevices()
+    {
+        for (const auto& h : session.health())
+            if (h.warning && told.insert (h.role + " " + h.warning->id).second)
+                print (printableName (h.role) + ": warning: " + inOneLine (h.warning->text) + "\n    " + printable (h.warning->remedy) + " [" + h.warning->id + "]\n");
+    }
+
     /// The work that is done every 20 ms.
     void poll (int i)
     {
@@ -180,6 +190,7 @@ private:
         if (emergency.takeClutch()) turnClutch();
         if (recording) recording->drain();
         tell (session.poll());
+        tellDevices();
         if (options.watch && i % 10 == 0 && file_watch.poll()) reload();
         if (i % 2 == 0)
             if (auto news = live.poll()) takeOver (*news);
@@ -296,6 +307,7 @@ private:
     const bool terminal = stderrIsTerminal();
 
     std::uint64_t last_ticks = 0;
+    std::set<std::string> told;   // roles and ids of warnings about devices
     int looks_without_tick = 0;   // counted in checks and not in seconds, so that a suspended program does not count
 };
 

@@ -314,6 +314,63 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
     CHECK (describe (thumb).find ("ppm") != std::string::npos);
 }
 
+TEST_CASE ("a board whose rate is not that of its profile is reported, and a pause of the computer is not", "[sessions][hid]")
+{
+    FakeBoard board;
+    board.virtual_ns = 1'000'000'000;
+    const auto device = test::openBoard (board);   // 1000 Hz
+    const std::vector<RealDevice> devices { { "stylus", device.get(), nullptr } };
+    HealthWatch watch { "stylus" };
+    std::uint16_t number = 0;
+    std::uint64_t all = 0;
+    const auto look = [&] (double seconds, int reports) {
+        for (int k = 0; k < reports; ++k)
+            board.send (boardReport (++number));
+        board.virtual_ns += static_cast<std::int64_t> (1e9 * seconds);
+        all += static_cast<std::uint64_t> (reports);
+        REQUIRE (board.until ([&] { return device->port().counts().reports == all; }));
+        device->read();
+        watch.poll (devices);
+    };
+    const auto isWarned = [&] { return watch.health().front().warning.has_value(); };
+
+    bool was_warned = false;
+    for (int k = 0; k < 200; ++k)   // 10 s, 1 % too fast, and now and then a report late
+    {
+        look (0.05, k % 2 == 0 ? 52 : 49);
+        was_warned = was_warned || isWarned();
+    }
+    look (0.7, 0);   // the computer stands still, and the system drops what comes: the numbers show it
+    number += 700;
+    for (int k = 0; k < 100; ++k)
+    {
+        look (0.05, 50);
+        was_warned = was_warned || isWarned();
+    }
+    look (0.5, 0);   // the board stands still
+    for (int k = 0; k < 100; ++k)
+    {
+        look (0.05, 50);
+        was_warned = was_warned || isWarned();
+    }
+    CHECK_FALSE (was_warned);
+
+    double after = 0.0;
+    while (! isWarned() && after < 10.0)
+    {
+        look (0.05, 25);
+        after += 0.05;
+    }
+    CHECK (after < 6.5);
+    REQUIRE (isWarned());
+    CHECK (watch.health().front().warning->id == "device/rate");
+    CHECK (watch.health().front().warning->text == "the board sends 500 reports/s, its profile says 1000: the graph runs at 50 % of its speed");
+    CHECK (describe (watch.health().front()).find ("50 % of its speed") != std::string::npos);
+    for (int k = 0; k < 100; ++k)
+        look (0.05, 50);
+    CHECK_FALSE (isWarned());
+}
+
 TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer that stands in, and before it is there", "[sessions][hid][clocks]")
 {
 #if defined(__linux__)
