@@ -172,6 +172,12 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         return found;
     };
 
+    const auto warnOf = [&] (const Profile& profile) {
+        for (const auto& m : all.messages)
+            if (! profile.file.empty() && m.file == profile.file && m.severity == Message::Severity::warning)
+                found.messages.push_back (Message::warning (m.id, "", m.file + m.where + ": " + m.text, m.remedy));
+    };
+
     if (named && isNumbersOnly (*named))
         return refuse ("hid/numbers_only", "Tactus cannot open a " + named->name + ": its profile holds only numbers",
                        "to simulate the device, write --device ROLE=" + named->id);
@@ -186,6 +192,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         found.device.path = wanted.wire == Wire::serial ? lastingNameOf (wanted.port) : wanted.port;
         found.device.product = named->name;
         found.profile = named;
+        warnOf (*named);
         return found;
     }
 
@@ -227,9 +234,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         return refuse ("hid/calibration", "the profile " + profile->id + " already specifies how strong " + found.device.product + " is",
                        "leave the calibration out, or write \"profile\": \"pid\"");
     found.profile = profile ? profile : profileOf (system, found.device, wanted.calibration, found.messages);
-    for (const auto& m : all.messages)
-        if (profile && ! profile->file.empty() && m.file == profile->file && m.severity == Message::Severity::warning)
-            found.messages.push_back (Message::warning (m.id, "", m.file + m.where + ": " + m.text, m.remedy));
+    if (profile) warnOf (*profile);
     return found;
 }
 

@@ -59,17 +59,19 @@ std::vector<SerialPort> serialPorts (const fs::path& system, const fs::path& fil
     return all;
 }
 
+bool isOf (const SerialPort& port, const Profile& profile)
+{
+    const auto is = [] (const std::vector<std::uint16_t>& ids, const std::string& hex) {
+        return ! hex.empty() && std::ranges::count (ids, std::strtoul (hex.c_str(), nullptr, 16)) > 0;
+    };
+    return std::ranges::any_of (profile.match, [&] (const auto& m) { return is (m.vid, port.vid) && is (m.pid, port.pid); });
+}
+
 std::vector<std::shared_ptr<const Profile>> profilesFor (const SerialPort& port, std::span<const std::shared_ptr<const Profile>> profiles)
 {
     std::vector<std::shared_ptr<const Profile>> all;
     std::ranges::copy_if (profiles, std::back_inserter (all), [] (const auto& p) { return p->wires.serial.has_value(); });
-    const auto is = [] (const std::vector<std::uint16_t>& ids, const std::string& hex) {
-        return ! hex.empty() && std::ranges::count (ids, std::strtoul (hex.c_str(), nullptr, 16)) > 0;
-    };
-    const auto isOfIt = [&] (const auto& p) {
-        return std::ranges::any_of (p->match, [&] (const auto& m) { return is (m.vid, port.vid) && is (m.pid, port.pid); });
-    };
-    std::stable_partition (all.begin(), all.end(), isOfIt);
+    std::stable_partition (all.begin(), all.end(), [&] (const auto& p) { return isOf (port, *p); });
     return all;
 }
 

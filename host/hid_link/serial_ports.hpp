@@ -24,6 +24,9 @@ struct SerialPort
 /// The serial ports of this computer, sorted by name; empty on systems other than Linux. Nothing is opened. [main thread]
 std::vector<SerialPort> serialPorts (const std::filesystem::path& system = "/sys/class/tty", const std::filesystem::path& files = "/dev");
 
+/// True if the profile fits the USB device of this port, by vendor and product. [any thread]
+bool isOf (const SerialPort&, const Profile&);
+
 /// The profiles with which a device at this port could be driven: all that name a serial line, because nothing on the line says which device it is.
 /// Those of this very USB device come first, else in the order in which they are given. [any thread]
 std::vector<std::shared_ptr<const Profile>> profilesFor (const SerialPort&, std::span<const std::shared_ptr<const Profile>>);

@@ -9,6 +9,7 @@
 #include <host/hid_link/profile_library.hpp>
 #include <host/hid_link/udev_rule.hpp>
 #include <host/hid_link/wire_file.hpp>
+#include <host/platform/device_file.hpp>
 #include <host/platform/signals.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -31,12 +33,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look = 5ms;   // how often reports are taken, and whether the command must end
 
-struct Chosen
-{
-    ConnectedDevice device;
-    std::shared_ptr<const Profile> profile;   // null: none fits
-};
-
 [[noreturn]] void failWithoutDevice (const std::string& text)
 {
     fail ("capture/device", text, "name it: --device hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, haply:HOST:PORT, bhaptics:HOST:PORT, or its path; "
@@ -48,40 +44,12 @@ FoundDevice deviceNamed (const std::string& text, const LoadedProfiles& profiles
 {
     const std::vector<std::pair<std::string, Json>> no_graph;
     auto parsed = tactus::parseDeviceOption ("device=" + text, no_graph, {});
-    if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
+    if (! parsed) failWithoutDevice (quote (text) + ": there is no such device");
     if (! isHid (parsed->description)) failWithoutDevice (quote (text) + " is no device with reports");
     auto found = findDevice (parsed->description, thisComputer(), profiles);
     for (const auto& m : found.messages)
         if (m.severity == Message::Severity::error) fail (Message::error (m.id, "--device " + text + m.where, m.text, m.remedy));
     return found;
-}
-
-Chosen choose (const std::string& text, const LoadedProfiles& profiles)
-{
-    const auto profileFor = [&] (const ConnectedDevice& device) {
-        const auto fitting = matching (profiles.profiles, device);
-        return fitting.empty() ? nullptr : fitting.front();
-    };
-    const auto connected = eachOnce (thisComputer().connected(), profiles);
-    if (text.find ('/') != text.npos && text.find ('@') == text.npos)
-    {
-        const auto at = std::ranges::find (connected, text, &ConnectedDevice::path);
-        if (at != connected.end()) return { *at, profileFor (*at) };
-        Chosen port;
-        port.device.wire = Wire::serial;
-        port.device.path = text;
-        return port;
-    }
-    if (! text.empty())
-    {
-        auto found = deviceNamed (text, profiles);
-        return { std::move (found.device), std::move (found.profile) };
-    }
-    std::vector<Chosen> known;
-    for (const auto& device : connected)
-        if (auto profile = profileFor (device)) known.push_back ({ device, std::move (profile) });
-    if (known.size() != 1) failWithoutDevice (known.empty() ? "no HID device with a profile is connected" : "several HID devices with a profile are connected");
-    return std::move (known.front());
 }
 
 bool goesOn (Clock::time_point begin, double duration_s)
@@ -90,7 +58,7 @@ bool goesOn (Clock::time_point begin, double duration_s)
 }
 
 /// Opens the device with its profile, and reads it.
-std::string recordDescribed (const Chosen& chosen, CaptureFile& file, double duration_s)
+std::string recordDescribed (const ChosenDevice& chosen, CaptureFile& file, double duration_s)
 {
     CapturingSystem system { thisComputer(), file };
     HidDevice device { orFail (HidPort::open (system, chosen.device, chosen.profile)) };
@@ -117,7 +85,9 @@ void recordReports (const ConnectedDevice& device, CaptureFile& file, double dur
 void recordBytes (const ConnectedDevice& device, int baud, CaptureFile& file, double duration_s)
 {
     auto line = WireFile::openSerial (device.path, baud);
-    if (! line) fail (Message::error (line.error().id, device.path, "cannot open it: " + line.error().text, "name a serial port that no other program uses"));
+    if (! line)
+        fail (Message::error (line.error().id, device.path, "cannot open it: " + line.error().text,
+                              isForbidden (device.path) ? howToPermit (device) : "name a serial port that no other program uses, such as /dev/ttyACM0"));
     std::array<std::uint8_t, 64> bytes {};
     for (const auto begin = Clock::now(); file.isGood() && goesOn (begin, duration_s);)
     {
@@ -128,12 +98,42 @@ void recordBytes (const ConnectedDevice& device, int baud, CaptureFile& file, do
 }
 }   // namespace
 
+ChosenDevice chooseDevice (const std::string& text, const hid::LoadedProfiles& profiles)
+{
+    const auto profileFor = [&] (const ConnectedDevice& device) {
+        const auto fitting = matching (profiles.profiles, device);
+        return fitting.empty() ? nullptr : fitting.front();
+    };
+    const auto connected = eachOnce (thisComputer().connected(), profiles);
+    std::error_code unseen;
+    if (text.find ('@') == text.npos && (text.find ('/') != text.npos || std::filesystem::exists (text, unseen)))
+    {
+        const auto at = std::ranges::find (connected, text, &ConnectedDevice::path);
+        if (at != connected.end()) return { *at, profileFor (*at) };
+        if (! std::filesystem::exists (text, unseen)) failWithoutDevice (quote (text) + ": there is no such device");
+        ChosenDevice port;
+        port.device.wire = Wire::serial;
+        port.device.path = text;
+        return port;
+    }
+    if (! text.empty())
+    {
+        auto found = deviceNamed (text, profiles);
+        return { std::move (found.device), std::move (found.profile) };
+    }
+    std::vector<ChosenDevice> known;
+    for (const auto& device : connected)
+        if (auto profile = profileFor (device)) known.push_back ({ device, std::move (profile) });
+    if (known.size() != 1) failWithoutDevice (known.empty() ? "no HID device with a profile is connected" : "several HID devices with a profile are connected");
+    return std::move (known.front());
+}
+
 void captureDevice (const DeviceCapture& options)
 {
     watchForStop();
     if (captureService (options)) return;
     const auto profiles = loadProfileLibrary();
-    const auto chosen = choose (options.device, profiles);
+    const auto chosen = chooseDevice (options.device, profiles);
     const auto descriptor = chosen.device.wire == Wire::hid ? thisComputer().reportDescriptor (chosen.device) : Bytes {};
     const auto file = orFail (CaptureFile::create (options.file, chosen.device, chosen.profile ? chosen.profile->id : std::string(), descriptor));
     const auto place = printableName (chosen.device.path);

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/hid_link/open_device.hpp>
+
+#include <memory>
 #include <string>
 
 namespace tactus::host
 {
+
+/// A connected device and the profile that describes it; null: none fits.
+struct ChosenDevice
+{
+    hid::ConnectedDevice device;
+    std::shared_ptr<const hid::Profile> profile;
+};
+
+/// The device that --device names: "hid:PROFILE", "serial:PROFILE@PORT", "udp:PROFILE@ADDRESS", or the path of a device. Without a name, the only HID
+/// device with a profile. Ends the command if there is none. [main thread]
+ChosenDevice chooseDevice (const std::string& text, const hid::LoadedProfiles&);
 
 /// What `tactus devices --capture` records, and where.
 struct DeviceCapture

@@ -97,6 +97,12 @@ std::vector<Listed> listAll (const LoadedProfiles& profiles)
     return all;
 }
 
+Listed listedAs (ChosenDevice chosen)
+{
+    if (! chosen.profile) fail ("hid/no_profile", printableName (chosen.device.path) + ": no profile says what its bytes mean", "name it: serial:PROFILE@PORT");
+    return { std::move (chosen.device), { std::move (chosen.profile) }, true, {} };
+}
+
 //==============================================================================
 Json jsonOf (const Listed& l)
 {
@@ -188,9 +194,9 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     for (const auto& profile : fitting)
         ids += (ids.empty() ? "" : ", ") + printableName (profile->id) + " (" + printableName (profile->name) + ")";
     if (fitting.empty()) return text + "no profile names a serial line: docs/devices.md says how to write one\n";
-    const auto device = "serial:" + printableName (fitting.front()->id) + "@" + printableName (p.path);
-    return text + "nothing on the line says which device it is. With a serial line: " + ids + "\n    to count its reports, without driving it: "
-           + "tactus devices --capture FILE --duration 2 --device " + device + "\n    to play: --device ROLE=" + device + "\n";
+    const auto device = "serial:" + (isOf (p, *fitting.front()) ? printableName (fitting.front()->id) : "PROFILE") + "@" + printableName (p.path);
+    return text + "nothing on the line says which device it is. With a serial line: " + ids + "\n    to see and count its reports, without driving it: "
+           + "tactus devices --probe --device " + device + "\n    to play: --device ROLE=" + device + "\n";
 }
 
 Json jsonOf (const SerialPort& p, const LoadedProfiles& profiles)
@@ -386,6 +392,7 @@ void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& eve
 
 void run (const DevicesOptions& options)
 {
+    if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty()) throw UsageError ("--device requires --probe or --capture");
     if (options.duration_s > 0.0 && ! options.probe && options.capture.file.empty()) throw UsageError ("--duration requires --probe or --capture");
     if (! options.capture.file.empty())
     {
@@ -397,7 +404,7 @@ void run (const DevicesOptions& options)
     for (const auto& m : profiles.messages)
         std::cerr << printableName (m.file + m.where) << ": warning: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
 
-    const auto all = listAll (profiles);
+    const auto all = options.capture.device.empty() ? listAll (profiles) : std::vector { listedAs (chooseDevice (options.capture.device, profiles)) };
     Json json = Json::array();
     for (const auto& l : all)
         json.push_back (jsonOf (l));
@@ -405,7 +412,7 @@ void run (const DevicesOptions& options)
     const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
     for (const auto& port : ports)
         json.push_back (jsonOf (port, profiles));
-    const auto event_devices = listEventDevices();
+    const auto event_devices = options.capture.device.empty() ? listEventDevices() : std::vector<ListedEvents> {};
     for (const auto& l : event_devices)
         json.push_back (l.json);
     const auto cards = options.probe ? std::vector<audio::ListedCard> {} : audio::soundCards().list();
@@ -455,9 +462,8 @@ void addDevices (const Command& app)
                              .type ("FILE")
                              .excludes (probe);
     command.addOption ("--device", options->capture.device,
-                       "What to record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, the service of haply:HOST:PORT or bhaptics:HOST:PORT, or the "
-                       "path of a device, which need not have a profile; default: the only HID device with a profile")
-        .needs (capture);
+                       "What to probe or record: hid:PROFILE, serial:PROFILE@PORT or udp:PROFILE@ADDRESS; or to record, the service of haply:HOST:PORT or "
+                       "bhaptics:HOST:PORT, or the path of a device, which need not have a profile; default: the only HID device with a profile");
     command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
         .check (within (300, 20000000))
         .needs (capture);
@@ -467,6 +473,7 @@ void addDevices (const Command& app)
                     "  tactus devices\n"
                     "  tactus devices --probe\n"
                     "  tactus devices --probe --duration 2 --json\n"
+                    "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });

@@ -7,11 +7,14 @@
 #include <host/hid/hex.hpp>
 #include <host/hid_link/capture.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -186,6 +189,51 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     CHECK (waited.err.find ("stylus: warning: the guard withheld the force: ") != std::string::npos);
 }
 
+TEST_CASE ("a line that carries only garbage is told from one that carries nothing", "[cli][wires]")
+{
+    const test::Scratch scratch;
+    const auto link = scratch.path ("board"), device = "serial:tactus_board@" + link;
+    Running fake { { "fake-device", "tactus_board", "--link", link, "--fault", "garbage" } };
+    REQUIRE (eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
+    const std::string told = " bytes arrived, but no frame: check baud, framing and CRC";
+    const auto captured = runTactus ({ "devices", "--capture", scratch.path ("board.jsonl"), "--device", device, "--duration", "1" });
+    INFO (captured.out + captured.err);
+    CHECK (captured.out.find (told) != std::string::npos);
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=" + device, "--session", "off", "--osc", "off", "--duration", "1" });
+    INFO (ran.err);
+    CHECK (ran.err.find ("stylus: warning: ") != std::string::npos);
+    CHECK (ran.err.find ("[device/no_frame]") != std::string::npos);
+    CHECK (ran.err.find ("0 refused, ") != std::string::npos);   // the account at the end
+    const auto probed = runTactus ({ "devices", "--probe", "--device", device, "--duration", "1" });
+    INFO (probed.out + probed.err);
+    CHECK (probed.out.find (told) != std::string::npos);
+}
+
+TEST_CASE ("a board whose rate is not that of its profile is told, with the speed of the graph", "[cli][wires]")
+{
+    const test::Scratch scratch;
+    auto slow = *readTextFile (TACTUS_SOURCE_DIR "/host/profiles/tactus_board.json");
+    const auto change = [&] (const std::string& from, const std::string& to) {
+        REQUIRE (slow.find (from) != std::string::npos);
+        slow.replace (slow.find (from), from.size(), to);
+    };
+    change (R"("id": "tactus_board")", R"("id": "slow_board")");
+    change (R"("rate": 1000,)", R"("rate": 500,)");
+    change (R"("vid": "0x16c0")", R"("vid": "0x1234")");
+    scratch.write ("slow_board.json", slow);
+    setenv ("TACTUS_PROFILES", scratch.path ("").c_str(), 1);
+    const auto link = scratch.path ("board");
+    Running fake { { "fake-device", "slow_board", "--link", link } };
+    const bool is_there = eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; });
+    unsetenv ("TACTUS_PROFILES");
+    INFO (fake.err());
+    REQUIRE (is_there);
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=serial:tactus_board@" + link, "--session", "off", "--osc", "off", "--duration", "6" });
+    INFO (ran.err);
+    CHECK (ran.err.find (" reports/s, its profile says 1000: the graph runs at ") != std::string::npos);
+    CHECK (ran.err.find ("[device/rate]") != std::string::npos);
+}
+
 TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires]")
 {
     const auto refused = [] (const std::vector<std::string>& more, const std::string& id) {
@@ -203,7 +251,14 @@ TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires
     CHECK (refused ({ "tactus_board", "--hand", "hid:auto" }, "device/real"));
     CHECK (refused ({ "tactus_board", "--wire", "udp", "--link", "board" }, "--link"));
     const test::Scratch scratch;
-    CHECK (refused ({ "tactus_board", "--link", scratch.write ("file", "mine") }, "fake/link"));
+    const auto file = scratch.write ("file", "mine"), link = scratch.path ("link");
+    CHECK (refused ({ "tactus_board", "--link", file }, "fake/link"));
+    std::filesystem::create_symlink (file, link);
+    CHECK (refused ({ "tactus_board", "--link", link }, "fake/link"));
+    CHECK (std::filesystem::read_symlink (link) == file);
+    const Fake taken { "udp" };
+    REQUIRE (taken.is_there);
+    CHECK (refused ({ "tactus_board", "--wire", "udp", "--port", taken.device.substr (taken.device.rfind (':') + 1) }, "choose another port"));
 }
 
 TEST_CASE ("tactus devices --capture records what a device on a wire has sent, byte for byte", "[cli][wires][capture]")
@@ -240,6 +295,24 @@ TEST_CASE ("tactus devices --capture records what a device on a wire has sent, b
     fake.program.stop();
 }
 
+TEST_CASE ("tactus devices --probe shows the readings of a board on a wire", "[cli][wires]")
+{
+    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    Fake fake { wire };
+    REQUIRE (fake.is_there);
+    const auto ran = runTactus ({ "devices", "--probe", "--device", fake.device, "--duration", "1" });
+    INFO (ran.out + ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.out.find ("(tactus_board): ") != std::string::npos);
+    CHECK (ran.out.find ("position ") != std::string::npos);
+    CHECK (ran.out.find (" 0 refused") != std::string::npos);
+    CHECK (ran.out.find ("No HID device") == std::string::npos);
+    const auto json = runTactus ({ "devices", "--probe", "--json", "--device", fake.device, "--duration", "0.5" });
+    INFO (json.out + json.err);
+    CHECK (Json::parse (json.out)[0]["probe"]["taken"].get<int>() > 10);
+    CHECK (linesOf (fake.log, drives).empty());   // nothing was driven
+}
+
 TEST_CASE ("tactus devices --capture records a serial port without a profile, and says why it cannot record", "[cli][wires][capture]")
 {
     Fake fake { "serial" };
@@ -263,7 +336,10 @@ TEST_CASE ("tactus devices --capture records a serial port without a profile, an
     };
     CHECK (refused ({ "--device", "sim" }, "capture/device"));
     CHECK (refused ({ "--device", "serial:tactus_bord@/dev/null" }, "did you mean 'tactus_board'?"));
-    CHECK (refused ({ "--device", fake.scratch.path ("nothing") }, "cannot open it"));
+    CHECK (refused ({ "--device", fake.scratch.path ("nothing") }, "there is no such device"));
+    CHECK_FALSE (refused ({ "--device", "nothing" }, "ROLE"));
+    CHECK (refused ({ "--device", "nothing" }, "there is no such device"));
+    CHECK (refused ({ "--device", "/dev/null" }, "name a serial port"));
     CHECK (refused ({ "--probe" }, "--probe"));
     CHECK (runTactus ({ "devices", "--duration", "1" }).status == 2);
     CHECK (runTactus ({ "devices", "--device", fake.device }).status == 2);
