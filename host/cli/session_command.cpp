@@ -155,7 +155,8 @@ std::string verdict (const RoleFit& fit)
         text += (text.empty() ? "" : "; ") + l;
     if (! text.empty()) return "no: " + text;
     if (! fit.there) return "unknown until it is connected";
-    return fit.connected == false ? "yes, once it is connected" : "yes";
+    text = fit.connected == false ? "yes, once it is connected" : "yes";
+    return fit.along.empty() ? text : text + "; it moves only along " + fit.along;
 }
 
 constexpr std::string_view whose (RoleFit::From from)

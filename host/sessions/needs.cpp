@@ -123,6 +123,22 @@ DeviceParts partsOf (const hid::Profile& p)
              .others = hid::layoutOf (hid::HidModel (std::make_shared<const hid::Profile> (p))) };
 }
 
+std::string movesAlong (const hid::Profile& p, const Mat3& axes)
+{
+    Vec3 has;   // of the device's own directions: 0 for those in which nothing is measured
+    for (int i = 0; i < 3; ++i)
+        has[i] = p.position[static_cast<std::size_t> (i)].empty() ? 0.0 : 1.0;
+    Mat3 moves = has.asDiagonal();
+    if (const auto* linear = std::get_if<hid::LinearMap> (&p.kinematics)) moves = linear->matrix * moves;
+    if (std::holds_alternative<hid::SerialArm> (p.kinematics)) moves.setIdentity();   // of the five bars, the two fields lead to x and y
+    moves = axes * p.axes * moves;
+    std::string names;
+    int count = 0;
+    for (int i = 0; i < 3; ++i)
+        if (moves.row (i).cwiseAbs().maxCoeff() > 1e-9) names += (count++ == 0 ? "" : " and ") + std::string (1, static_cast<char> ('x' + i));
+    return count == 3 ? std::string() : names;
+}
+
 DeviceParts partsOf (const DriverAbout& a)
 {
     return { .position = a.position, .rotation = a.rotation, .pressure = a.pressure, .force = a.force, .torque = a.torque, .others = a.layout };

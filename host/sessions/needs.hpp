@@ -43,6 +43,9 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
 DeviceParts partsOf (const hid::Profile&);
 DeviceParts partsOf (const DriverAbout&);
 
+/// The directions in which a device can move the tool, if these are not all: "y", or "x and y". `axes`: those of its workspace.
+std::string movesAlong (const hid::Profile&, const Mat3& axes);
+
 /// Describes parts, as in "position, force, axis 'trigger', signal output 2", or "nothing".
 std::string describe (const DeviceParts&);
 

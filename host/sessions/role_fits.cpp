@@ -114,6 +114,8 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))
         {
+            if (const auto profile = hid::profileNamed (all, textAt (fit.description, "profile")); profile && fit.needs.position)
+                fit.along = movesAlong (*profile, fit.workspace.axes);
             if (textAt (fit.description, "profile") != hid::pid_profile) fit.connected = isConnected (fit.description, connected, all);
             if (! fit.there)
                 for (const auto& device : connected)

@@ -47,6 +47,12 @@ TEST_CASE ("a role is bound, shown with what the graph needs from it, and unboun
     const auto none = scratch.write ("none.json", R"({"format": "tactus-session", "version": 1})");
     CHECK (has (runTactus ({ "session", wood, "--file", none }).out, "sim with a hand that follows stroke (graph)"));
 
+    CHECK_FALSE (has (ran.out, "moves only"));
+    ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=serial:dualpanto@/dev/null" });
+    CHECK (has (ran.out, "yes; it moves only along x and y"));
+    const auto turned = scratch.write ("turned.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus":
+        {"driver": "serial", "profile": "haply_2diy", "port": "/dev/null", "workspace": {"axes": ["x", "-z", "y"]}}}})");
+    CHECK (has (runTactus ({ "session", wood, "--file", turned }).out, "yes; it moves only along x and z"));
     ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=udp:tactus_board@10.99.99.99:9755" });
     CHECK (has (ran.out, "udp tactus_board 10.99.99.99:9755  not checked until a run opens it"));
     CHECK_FALSE (has (ran.out, "connected"));

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "hid.hpp"
 
+#include "host/hid_link/wire_bench.hpp"
+
 #include <host/hid/match.hpp>
+#include <host/sessions/workspace.hpp>
 #include <support/temporary_folder.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,11 +61,11 @@ HidEffort asked (const HidModel& model, const GoldenSample& sample)
     return effort;
 }
 
-/// The example profile in docs/devices.md.
-std::string exampleOfTheManual()
+/// The example profile in a page of docs.
+std::string exampleOfTheManual (const char* page = "devices.md")
 {
     std::ostringstream manual;
-    manual << std::ifstream (std::filesystem::path (TACTUS_SOURCE_DIR) / "docs" / "devices.md").rdbuf();
+    manual << std::ifstream (std::filesystem::path (TACTUS_SOURCE_DIR) / "docs" / page).rdbuf();
     const auto text = manual.str();
     const std::string_view begin = "```json\n";
     const auto at = text.find (begin);
@@ -286,4 +292,59 @@ TEST_CASE ("a new device needs only a JSON file")
     CHECK (hexOf (model.neutral (0)) == "00 80 00");
 
     CHECK (loadProfiles (folder / "none").messages.front().id == "profile/unreadable");
+}
+
+TEST_CASE ("the smallest profile of the manual is one for a slider on a serial line, and each key that it calls required is")
+{
+    const auto text = exampleOfTheManual ("profiles.md");
+    const auto loaded = readProfileText (text);
+    INFO (test::text (loaded.messages));
+    CHECK (loaded.messages.empty());
+    REQUIRE (loaded.profile);
+    REQUIRE (loaded.profile->wires.serial);
+    HidModel model { loaded.profile };
+    CHECK (model.decode (bytesOf ("40 42 0f 00").value()).refusal == Refusal::none);
+    CHECK (model.reading().position.x() == Approx (1e-3));
+    HidEffort effort { {}, {}, model.restEfforts() };
+    effort.force.x() = 0.25;
+    CHECK (hexOf (model.encode (0, effort)) == "00 90 d0 03 00");
+
+    for (const auto* key : { "format", "id", "name", "sources", "wires", "inputs/0/length", "inputs/0/fields", "inputs/0/verified", "inputs/0/why_not",
+                             "outputs/0/name", "outputs/0/neutral", "outputs/0/verified", "outputs/0/why_not", "limits/max_force" })
+    {
+        auto json = readJson (text).root;
+        const std::string path = key;
+        const auto slash = path.rfind ('/');
+        auto& object = slash == path.npos ? json : json.at (JsonPointer ("/" + path.substr (0, slash)));
+        object.erase (path.substr (slash == path.npos ? 0 : slash + 1));
+        INFO (key);
+        CHECK (hasErrors (readProfile (json).messages));
+    }
+}
+
+TEST_CASE ("soft pad presses the paddle of the manual once the session turns its workspace")
+{
+    const auto graph = loadGraph (TACTUS_SOURCE_DIR "/graphs/soft_pad.json").graph;
+    const auto compiled = compile (graph, catalogue(), { .rate_hz = 1000.0 });
+    REQUIRE (compiled.plan);
+    const auto paddle = readProfileText (exampleOfTheManual()).profile;
+    REQUIRE (paddle);
+    std::vector<Bytes> reports;   // 7.5 mm towards the person
+    for (int count = 0; count <= 500; ++count)
+        reports.push_back ({ static_cast<std::uint8_t> (count >> 8), static_cast<std::uint8_t> (count), static_cast<std::uint8_t> (count), 0 });
+    const bool is_turned = GENERATE (false, true);
+    Messages messages;
+    const auto workspace = is_turned ? host::readWorkspace ({ { "axes", { "x", "-z", "y" } } }, "", messages) : host::Workspace {};
+    CHECK (messages.empty());
+    auto made = std::make_unique<test::wires::OffTheWire> (paddle, reports);
+    const auto& answers = made->answers;
+    const auto limits = limitsOf (*paddle, {});
+    host::WorkspaceDevice device { std::move (made), workspace, limits };
+    Engine engine { compiled.plan };
+    engine.attach ("finger", device, limits);
+    for (std::size_t k = 0; k < reports.size(); ++k)
+        engine.tick();
+    const auto pushes = std::ranges::count_if (answers, [] (const Bytes& report) { return report.front() < 0x80; });   // a torque that moves it away
+    CHECK (std::ranges::count_if (answers, [] (const Bytes& report) { return report.front() > 0x80; }) == 0);
+    CHECK ((pushes > 100) == is_turned);
 }
