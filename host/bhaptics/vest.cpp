@@ -41,7 +41,7 @@ public:
     static Result<Settings> read (const std::string& port, const Json& description)
     {
         const auto address = ServiceAddress::read (port, usual_player);
-        if (! address) return Message::error ("bhaptics/wrong", {}, "\"port\" is written as 15881 or localhost:15881");
+        if (! address) return Message::error ("bhaptics/wrong", {}, "\"port\" is written as 15881 or localhost:15881, with a port from 1 to 65535");
         auto vest = VestSettings::read (description);
         if (! vest) return std::move (vest).error();
         return Settings { *address, std::move (*vest) };

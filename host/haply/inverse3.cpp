@@ -41,7 +41,7 @@ public:
         Settings settings;
         const auto address = ServiceAddress::read (port, usual_inverse3_service);
         auto wrong = settings.messages.configure (description);
-        if (! address) wrong = "\"port\" is written as 10001 or localhost:10001";
+        if (! address) wrong = "\"port\" is written as 10001 or localhost:10001, with a port from 1 to 65535";
         if (! wrong.empty()) return Message::error ("haply/wrong", {}, wrong);
         settings.address = *address;
         return settings;

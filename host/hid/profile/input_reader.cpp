@@ -56,7 +56,7 @@ InputReport readInput (ProfileFields& in)
                  if (report.fields.back().bits.end() > 8 * report.length)
                      f.error ("at", "profile/beyond",
                               "the field ends at byte " + std::to_string ((report.fields.back().bits.end() + 7) / 8) + " of a report of "
-                                  + std::to_string (report.length) + " bytes",
+                                  + std::to_string (report.length) + (report.length == 1 ? " byte" : " bytes"),
                               "make the report longer, or start the field earlier");
              });
     if (in.has ("timestamp")) report.timestamp = in.name ("timestamp");

@@ -75,6 +75,12 @@ TEST_CASE ("the messages about a user's profile are reported when it opens a dev
     CHECK (found.messages[0].id == "profile/replaces");
     CHECK (found.messages[0].text == "own/board.json/replaces: the profile replaces the shipped one");
     CHECK_FALSE (hasErrors (found.messages));
+
+    profile.wires.serial.emplace();
+    all.profiles = { std::make_shared<const Profile> (profile) };
+    const auto on_a_line = findDevice ({ { "driver", "serial" }, { "profile", "board" }, { "port", "/dev/null" } }, one, all);
+    REQUIRE (on_a_line.messages.size() == 1);
+    CHECK (on_a_line.messages[0].text == "own/board.json/replaces: the profile replaces the shipped one");
 }
 
 TEST_CASE ("a profile with efforts but without a ramp and watchdog gets the defaults", "[hid]")
