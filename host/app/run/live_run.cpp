@@ -63,6 +63,7 @@ void LiveRun::start (Hand who)
     tellOfRestart();
     moved_by = std::move (who);
     held = false;
+    resting.reset();
     kept_limits.clear();
     beginSoon (true);
 }
@@ -71,6 +72,7 @@ void LiveRun::startOther (Hand who)
 {
     moved_by = std::move (who);
     held = held || isLatched();
+    resting.reset();
     kept_limits.clear();
     beginSoon (false);
 }
@@ -103,6 +105,7 @@ void LiveRun::restart()
     tellOfRestart();
     held = held || isLatched();
     if (session) kept_limits = session->run().askedLimits();
+    if (! begins) resting = pointer ? tool() : std::nullopt;   // before its force fades
     beginSoon (false);
 }
 
@@ -222,6 +225,9 @@ void LiveRun::begin()
 {
     if (stops->isAhead()) return stop();
     if (! std::exchange (ends_stops, false)) held = held || isLatched();   // also a stop that latched while the forces fell
+    const auto held_before = std::exchange (resting, {});
+    const auto hand_before = run_of == document.identity() && held_before ? pointer : nullptr;
+    const auto role_before = hand_role;
     end();
     begins = false;
     const auto& graph = document.graph();
@@ -246,6 +252,8 @@ void LiveRun::begin()
 
     note (session->engine().newest());
     setHandRole();
+    held_at.reset();
+    if (hand_before && hand_role == role_before) held_at = HeldAt { held_before->position, hand_before->place() };
     probes.clear();
     std::ranges::move (session->openDevices(), std::back_inserter (said));
     if (lacksPluginDevice())

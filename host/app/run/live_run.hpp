@@ -78,7 +78,8 @@ public:
     /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.
     void moveTool (std::string role);
 
-    void startAgain();   ///< after something else ran; no limit becomes looser
+    /// After something else ran, or in order to record it. No limit becomes looser, and a tool that the mouse holds stays where it is.
+    void startAgain();
 
     void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
 
@@ -219,6 +220,12 @@ public:
     void poll();
 
 private:
+    /// Where a tool that the mouse holds begins, and the hand that holds it, in m.
+    struct HeldAt
+    {
+        Vec3 tool, hand;
+    };
+
     void tell (LiveSession::Events);
     void documentChanged() override;
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
@@ -270,6 +277,8 @@ private:
     StopSwitch own_stops;      // until obey()
     StopSwitch* stops = &own_stops;
     bool begins = false;                                     // starts once the previous run is over
+    std::optional<Tool> resting;                             // the tool when this run was asked to begin again, if it stays where it is
+    std::optional<HeldAt> held_at;                           // where the next tool begins, if not above the origin
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
     const DeviceSetup* setup = nullptr;

@@ -164,6 +164,7 @@ void LiveRun::adoptHand (Run::RoleDevice& opened, const Workspace& in, Messages&
     hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;
     if (const auto real = realDevice (role, driver)) hand_damping = real->profile().limits.device_damping / in.scale;
     if (const auto plugin = pluginRole (role, driver)) hand_damping = plugin->device->about().layout.mechanics.damping / in.scale;
+    if (held_at && (! in.isPlain() || ! isFinite (held_at->tool))) held_at->tool = held_at->hand;   // the hand is in the coordinates of the device
     auto hand = chosenHand (simulated, hand_damping, messages);
     if (! hand) return;
     opened.driver = hand.get();
@@ -185,10 +186,10 @@ std::unique_ptr<Device> LiveRun::chosenHand (const SimulatedDevice* described, d
         what.hand.path = transported = std::make_shared<TransportPath> (what.hand.path);
         break;
     case Hand::Kind::pointer:
-        what.position = Vec3 (0.0, 0.0, hover);
+        what.position = held_at ? held_at->tool : Vec3 (0.0, 0.0, hover);
         what.velocity.setZero();
         what.hand_force.setZero();
-        what.hand.path = pointer = std::make_shared<PointerPath> (what.position);
+        what.hand.path = pointer = std::make_shared<PointerPath> (held_at ? held_at->hand : what.position);
         break;
     case Hand::Kind::path:
     {

@@ -20,7 +20,10 @@ public:
     /// torn away: the guards of presets stop a tool at 2 m/s.
     static constexpr double top_speed = 1.0;   // m/s
 
+    /// Starts at rest.
     explicit PointerPath (const Vec3& start) : target (Target { { start.x(), start.y(), start.z() } }), goal (start), now { start, Vec3::Zero() } {}
+
+    Vec3 place() const noexcept { return now.position; }   ///< of the hand; call when the run is over   [main thread]
 
     void moveTo (const Vec3& p) noexcept { target.store ({ { p.x(), p.y(), p.z() } }); }   ///< [main thread]
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -76,6 +77,53 @@ TEST_CASE ("a take shows its curve while it records, Stop ends the take and not 
     CHECK ((named.isEmpty() ? gain == "1 N" : named.startsWith (juce::String (gain).dropLastCharacters (2))));
     run.letGo();
     unsetenv ("TACTUS_GRAPHS");
+}
+
+TEST_CASE ("a take that begins while the tool is held in a surface gives no knock: the tool stays where it is, and its force fades over", "[app][take]")
+{
+    const auto* graph = GENERATE ("templates/press.json", "dry_wood.json", "granite_wall.json");
+    CAPTURE (graph);
+    WindowRig w (graph, 1280, 720, false);
+    auto& run = w.view->run();
+    REQUIRE (waitFor ([&] { return run.tool().has_value(); }));
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    w.stage->move (w.middleOf (*surface));
+    w.stage->press();
+    REQUIRE (waitFor ([&] { return run.hand() == LiveRun::Hand::pointer() && run.tool() && run.tool()->force.norm() > 0.02; }));
+    w.key ("h");
+    w.stage->release();
+    w.click ("Take");
+    WindowRig::settle (2500);   // until the guard has let all of the force through
+    REQUIRE (run.tool());
+    const auto before = *run.tool();
+    REQUIRE (before.force.norm() > 0.02);
+    const auto ticks = [&] { return run.status() ? run.status()->ticks : 0; };
+    const auto ticks_before = ticks();
+    w.click ("Record");
+    double most = 0.0, least = 1e3, farthest = 0.0;
+    bool has_begun_again = false;
+    for (int i = 0; i < 1500; ++i)
+    {
+        WindowRig::settle (1);
+        has_begun_again = has_begun_again || ticks() < ticks_before;
+        if (const auto tool = run.tool())
+        {
+            most = std::max (most, tool->force.norm());
+            least = std::min (least, tool->force.norm());
+            farthest = std::max (farthest, (tool->position - before.position).norm());
+        }
+    }
+    const auto after = *run.tool();
+    std::cout << graph << ": " << before.force.norm() << " N, at least " << least << " N, at most " << most << " N, then "
+              << after.force.norm() << " N; farthest " << farthest * 1e3
+              << " mm\n";
+    CHECK (has_begun_again);
+    CHECK (run.isLogged());
+    CHECK (most < 1.1 * before.force.norm());
+    CHECK (farthest < 2e-3);
+    CHECK (after.force.norm() == Approx (before.force.norm()).epsilon (0.1));
+    w.view->run().letGo();
 }
 
 namespace
