@@ -4,6 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/fitting/recording_file.hpp>
 #include <tactus/text/quote.hpp>
@@ -62,7 +63,7 @@ bool isRecorded (FitKind kind, const Table& table, const ColumnChoice& choice)
 juce::String setTyped (const Amount& wanted, const juce::String& text, FitSettings& settings)
 {
     if (text.isEmpty()) return {};
-    const auto typed = parseMeasure (text.toStdString()), unit = parseMeasure (std::string ("1 ") + wanted.unit);
+    const auto typed = parseMeasure (unitWritten (text.toStdString())), unit = parseMeasure (std::string ("1 ") + wanted.unit);
     const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
     if (! fits || (wanted.is_above_0 && ! (typed->value > 0.0)) || ! std::isfinite (typed->value))
         return filled (wanted.is_above_0 ? TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3.")

@@ -69,8 +69,31 @@ std::string unitShown (const std::string& unit)
     return with_prefix.contains (unit) ? "µ" + shown.substr (1) : shown;
 }
 
-Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)
+std::string unitWritten (std::string text)
 {
+    constexpr std::string_view dot = "·";
+    for (auto at = text.find (dot); at != text.npos; at = text.find (dot, at))
+        text.replace (at, dot.size(), "*");
+    return text;
+}
+
+namespace
+{
+/// Files have decibels as bare numbers.
+Json asFilesHaveIt (const std::string& typed, const PortSheet& sheet)
+{
+    auto text = unitWritten (typed);
+    const bool is_decibels = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol == "dB" && text.ends_with ("dB");
+    if (! is_decibels) return text;
+    text.resize (text.find_last_not_of (' ', text.size() - 3) + 1);
+    const auto number = wholeNumber (text);
+    return number ? Json (*number) : Json (typed);
+}
+}   // namespace
+
+Result<QuantityText> readQuantity (const Json& typed, const PortSheet& sheet)
+{
+    const auto value = typed.is_string() ? asFilesHaveIt (typed.get<std::string>(), sheet) : typed;
     const auto read = plan::readNumber (value);
     if (! read) return read.error();
     const auto& n = *read;

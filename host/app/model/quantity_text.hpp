@@ -36,6 +36,9 @@ QuantityText withBestPrefix (QuantityText, const PortSheet&);
 /// A unit as people read it: "µm" for the "um" of files, and "N·s/m" for "N*s/m".
 std::string unitShown (const std::string& unit);
 
+/// A text as files have it: with "*" for each "·", so that what is shown can be typed.
+std::string unitWritten (std::string text);
+
 /// A value in SI units as people read it: "100 µm", "2.5 N". For the units "1" and "", only the number.
 std::string shownQuantity (double si, std::string_view symbol);
 

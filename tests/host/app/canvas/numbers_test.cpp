@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers on a node.
+#include "host/app/support/window_rig.hpp"
+
 #include "host/app/support/canvas_rig.hpp"
+
+#include <host/app/model/quantity_text.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <catch2/catch.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using host::test::WindowRig;
 
 TEST_CASE ("a node shows six digits of a long number, and an edit of it that changes nothing keeps them all", "[app][canvas]")
 {
@@ -30,4 +36,53 @@ TEST_CASE ("a node shows six digits of a long number, and an edit of it that cha
     editor->onReturnKey();
     CHECK (rig.graph().root.find ("grain")->params["amplitude"] == written);
     CHECK (rig.document.history().position() == position);
+}
+
+TEST_CASE ("every unit that is shown can be typed: what a node shows of a parameter reads back as the same value", "[app][canvas][units]")
+{
+    int seen = 0;
+    for (const auto& type : catalogue())
+        for (const auto& sheet : type.params)
+        {
+            if (! sheet.choices.empty() || sheet.width != 1) continue;
+            FacePort port;
+            port.sheet = &sheet;
+            port.unit = sheet.unit;
+            const auto& hard = sheet.limits.hard;
+            for (const double v : { sheet.initial[0], sheet.limits.usual.min, sheet.limits.usual.max, 0.03, 3.0 })
+            {
+                if (! std::isfinite (v) || ! hard.contains (v)) continue;
+                const auto shown = valueText (Json (v), port);
+                const auto read = readQuantity (readValue (shown), sheet);
+                INFO (type.info.id << "." << sheet.id << ": " << shown << (read ? std::string() : " | " + read.error().text));
+                REQUIRE (read);
+                CHECK (read->si() == Approx (v).epsilon (1e-5));
+                CHECK (valueText (read->toJson(), port) == shown);
+                CHECK (read->toText().find ("\xc2\xb7") == std::string::npos);   // files have "*"
+                ++seen;
+            }
+        }
+    CHECK (seen > 500);
+}
+
+TEST_CASE ("a damping on a node can be dragged, and typed with the unit that it shows", "[app][canvas][units]")
+{
+    CanvasRig rig { CanvasRig::preset ("templates/stroke") };
+    const auto damping = [&] { return rig.graph().root.find ("wall")->params.at ("damping").asString(); };
+    const auto at = rig.value ("wall", "damping");
+    const auto place = rig.node ("wall").at;
+    REQUIRE (damping() == "0.3 N*s/m");
+    rig.hand().drag (at, at.translated (40.0f, 0.0f));
+    CHECK (rig.node ("wall").at == place);
+    CHECK (damping() != "0.3 N*s/m");
+
+    rig.hand().doubleClick (rig.value ("wall", "damping"));
+    auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+    REQUIRE (editor != nullptr);
+    const auto unit = editor->getText().fromFirstOccurrenceOf (" ", true, false);
+    CHECK (unit == juce::String::fromUTF8 (" N\xc2\xb7s/m"));
+    editor->setText ("0.45" + unit);
+    editor->onReturnKey();
+    CHECK (rig.hint == "");
+    CHECK (damping() == "0.45 N*s/m");
 }
