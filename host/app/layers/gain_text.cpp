@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gain_text.hpp"
 
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <tactus/text/quote.hpp>
@@ -27,7 +28,7 @@ std::string squeezed (const std::string& text)
 
 Result<double> levelToGain (const std::string& text, const UnityLevel& level)
 {
-    const auto wanted = parseMeasure (text);
+    const auto wanted = parseMeasure (unitWritten (text));
     if (! wanted || ! std::isfinite (wanted->value))
         return Message::error ("gain/syntax", {}, filled (TRANS ("cannot read %1 as a gain"), quote (text)).toStdString(),
                                TRANS ("write -6 dB, x0.5, 50 % or a level such as 0.3 N").toStdString());
@@ -36,6 +37,9 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
         return Message::error ("gain/unit", {},
                                filled (TRANS ("%1 is not a gain, and the level of this layer is in %2"), quote (text), level.unit).toStdString(),
                                filled (TRANS ("write -6 dB or a level in %1"), level.unit).toStdString());
+    if (level.unit.empty())
+        return Message::error ("gain/no_level", {}, TRANS ("the level of this layer has not been measured").toStdString(),
+                               TRANS ("run the graph first, or write a gain such as -6 dB").toStdString());
     if (! unit || ! (level.peak > 0.0))
         return Message::error ("gain/no_level", {}, TRANS ("the layer has been silent, so its level is not known").toStdString(),
                                TRANS ("let it sound first, or write a gain such as -6 dB").toStdString());

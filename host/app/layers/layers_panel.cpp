@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int most_probes = 18;     // components; all panels share the 32 of the run. Layers beyond that have a meter, but no spectrum
+constexpr int most_probes = 18;     // components. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
 constexpr int introduction_height = 132, short_introduction_height = 88, button_line = 28;
 constexpr int least_width_for_introduction = 440;   // a narrower panel says less, and its buttons are in several lines
@@ -120,6 +120,7 @@ void LayersPanel::rebuildStrips (std::size_t layers)
 {
     strips.clear();
     total.reset();
+    probes = most_probes;
     if (! all.empty())
     {
         const auto hint = [this] (const juce::String& text) {
@@ -131,7 +132,10 @@ void LayersPanel::rebuildStrips (std::size_t layers)
         const auto dragged = [this] (int layer, int x, bool let_go) { drag (layer, x, let_go); };
         const auto context = std::make_shared<const MixerContext> (MixerContext { document, catalogue, chosen, hint, select, dragged });
         for (std::size_t i = 0; i < layers; ++i)
+        {
             row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));
+            strips.back()->refresh (traces, 1e-3, false);   // what the trace of its port holds so far is of another layer
+        }
         addAndMakeVisible (*(total = std::make_unique<MixStrip> (context)));
     }
     requestTraces();
@@ -147,7 +151,7 @@ void LayersPanel::requestTraces()
         int used = each + 1;
         for (std::size_t i = 0; i < strips.size(); ++i)
         {
-            const bool whole = used + each <= most_probes;
+            const bool whole = used + each <= probes;
             used += whole ? each : 1;
             ports.push_back (chosen.path + (whole ? ".in[" : ".level[") + std::to_string (i) + ']');
         }
@@ -155,7 +159,21 @@ void LayersPanel::requestTraces()
     traces.want (std::move (ports));
 }
 
-void LayersPanel::visibilityChanged() { requestTraces(); }
+/// All panels share what a run can record. If that is too little, one more layer has a meter and no spectrum.
+void LayersPanel::attendLeftOut()
+{
+    if (all.empty() || probes <= 0) return;
+    const auto isOurs = [stem = chosen.path + '.'] (const std::string& component) { return component.starts_with (stem); };
+    if (std::ranges::none_of (traces.leftOut(), isOurs)) return;
+    --probes;
+    requestTraces();
+}
+
+void LayersPanel::visibilityChanged()
+{
+    probes = most_probes;
+    requestTraces();
+}
 
 void LayersPanel::refresh()
 {
@@ -163,6 +181,7 @@ void LayersPanel::refresh()
     const double dt = std::clamp ((now - refreshed_ms) * 1e-3, 1e-3, 1.0);
     if (! isVisible()) return;
     refreshed_ms = now;
+    attendLeftOut();
     const bool with_spectrum = ++refreshes % spectrum_every == 0;
     for (auto& s : strips)
         s->refresh (traces, dt, with_spectrum);

@@ -54,6 +54,7 @@ private:
     void rebuildNames();
     void rebuildStrips (std::size_t layers);
     void requestTraces();
+    void attendLeftOut();
     void openMenu();
     void layOutHead (juce::Rectangle<int>);
     void layOutIntroduction();
@@ -74,7 +75,7 @@ private:
     std::vector<std::unique_ptr<LayerStrip>> strips;
     std::unique_ptr<MixStrip> total;
     double refreshed_ms = 0.0;
-    int refreshes = 0, drop_at = -1;
+    int refreshes = 0, drop_at = -1, probes = 0;
     bool file_over = false;   // a clip file is being dragged over the desk
 };
 

@@ -80,6 +80,7 @@ Bands bandsOfPort (const PortTraces& traces, double factor)
 
 bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
 {
+    const bool is_first = ! std::exchange (has_begun, true);
     latest.clear();
     std::size_t fresh = 0;
     if (! traces.empty())
@@ -87,6 +88,7 @@ bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
         const auto& trace = *traces.front();
         unit = trace.unit();
         quantity = trace.quantity();
+        if (is_first) seen = trace.end();
         fresh = trace.end() > seen ? static_cast<std::size_t> (trace.end() - seen) : 0;
         // Without new samples, the level is zero.
         if (fresh > 0 || trace.end() < seen) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), factor, latest);

@@ -25,6 +25,7 @@ struct MeterFeed
 
 private:
     std::uint64_t seen = 0;
+    bool has_begun = false;   // what a trace held before was of another layer, or of an earlier run
     std::vector<double> latest;
 };
 

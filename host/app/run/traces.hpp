@@ -79,6 +79,9 @@ public:
         /// The components of a port, in order. Empty if the port does not exist, or if nothing has run yet.
         std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const { return traces.of (port); }
 
+        /// Of all clients: see Traces.
+        const std::vector<std::string>& leftOut() const noexcept { return traces.leftOut(); }
+
         std::uint64_t changes() const noexcept { return traces.changes; }   ///< counts what has changed any trace
 
     private:

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/layers/fader.hpp>
+#include <host/app/layers/layers_panel.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+
+#include <set>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -167,4 +171,34 @@ TEST_CASE ("a gain that a wire sets is dimmed on the desk, names the wire, and i
         }
     WindowRig::settle();
     CHECK (w.view->document().version() == version);
+}
+
+TEST_CASE ("each of six layers of forces has a meter, and knows the level that a gain in newtons asks for", "[layers]")
+{
+    WindowRig w ("templates/stroke.json", 1280, 720, false);
+    w.click ("Layers");
+    for (int i = 0; i < 3; ++i)
+        w.click ("+ Texture");
+    auto* found = dynamic_cast<LayersPanel*> (w.titled ("Layers"));
+    REQUIRE (found != nullptr);
+    auto& panel = *found;
+    REQUIRE (panel.layers() == 6);
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+        INFO ("strip " << i + 1);
+        auto& strip = panel.layer (i);
+        const double before = strip.shownGain();
+        const auto isTaken = [&] {
+            strip.typeGain ("7 mN");
+            return strip.shownGain() != before;
+        };
+        bool is_taken = false;
+        for (int k = 0; k < 200 && ! is_taken; ++k)
+        {
+            WindowRig::settle (20);
+            is_taken = isTaken();
+        }
+        CHECK (is_taken);
+    }
+    w.view->run().letGo();
 }
