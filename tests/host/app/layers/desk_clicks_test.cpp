@@ -202,3 +202,22 @@ TEST_CASE ("each of six layers of forces has a meter, and knows the level that a
     }
     w.view->run().letGo();
 }
+
+TEST_CASE ("a layer that was added while nothing runs shows no level of another one", "[layers]")
+{
+    WindowRig w ("templates/stroke.json", 1280, 720, false);
+    w.click ("Layers");
+    for (int i = 0; i < 2; ++i)
+        w.click ("+ Texture");
+    WindowRig::settle (1500);
+    w.click ("STOP");
+    WindowRig::settle (1500);
+    w.click ("+ Texture");
+    WindowRig::settle (300);
+    auto* panel = dynamic_cast<LayersPanel*> (w.titled ("Layers"));
+    REQUIRE (panel != nullptr);
+    REQUIRE (panel->layers() == 6);
+    const std::set<juce::String> marks { "10 N", "1 N", "0.1 N", "10 mN", "1 mN" };   // of the scale
+    for (const auto& seen : host::test::readTexts (*panel))
+        if (seen.text.endsWith (" mN") || seen.text.endsWith (" N")) CHECK (marks.contains (seen.text));
+}
