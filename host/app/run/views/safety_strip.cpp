@@ -186,8 +186,9 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
         if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
         {
             const auto event = role.latestEvent();
+            const bool is_over = Guard::latches (role.latest) && ! role.is_latched;   // somebody has seen it, and rearmed
             const bool is_stopped = role.stop != Guard::Stop::none, is_meant = event.why == Guard::Stop::stale && event.fault == ReadingFault::moved;
-            if (is_meant && ! is_stopped) continue;
+            if (is_over || (is_meant && ! is_stopped)) continue;
             now.guard = juce::String (std::string (role.name)) + ": " + fromUtf8 (describe (event));
             (is_meant ? now.warned : now.alarmed) |= is_stopped;
         }
@@ -254,11 +255,17 @@ void SafetyStrip::paint (juce::Graphics& g)
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
     state_place = area.withWidth (look.font (13.0f, true).getStringWidthFloat (shown.state) + 4.0f).toNearestInt();
-    const bool is_narrow = area.getWidth() < 420.0f;   // the force is worth more than a guard that has done nothing
-    add (shown.state, is_narrow ? 0.0f : 140.0f, theme.text, TRANS ("Whether the graph runs, at how many ticks per second, and what ticks it"), true);
+    // The force is worth more than a guard that has done nothing, and the reason of a stop more than the rate.
+    const bool is_narrow = area.getWidth() < 420.0f;
+    const bool has_reason = is_narrow && shown.running && ! shown.has_errors && (shown.alarmed || shown.warned);
+    if (has_reason)
+        state_place = {};
+    else
+        add (shown.state, is_narrow ? 0.0f : 140.0f, theme.text, TRANS ("Whether the graph runs, at how many ticks per second, and what ticks it"), true);
     if (shown.has_errors) g.fillRect (state_place.withTop (state_place.getCentreY() + 8).withHeight (1).withTrimmedRight (4));   // a link
     if (! is_narrow || shown.warned || shown.alarmed)
-        add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim),
+        add (has_reason && shown.guard.contains (": ") ? shown.guard.fromFirstOccurrenceOf (": ", false, false) : shown.guard, 80.0f,
+             colourFor (shown.warned ? theme.warning : theme.dim),
              TRANS ("The guard stands between the graph and the motors. It limits force, and stops the motors if speed, impulse or energy exceed the "
                     "limits of the device. Ready: it has not had to stop anything."));
     const float force_width = is_narrow ? 60.0f : 200.0f;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/seen_text.hpp"
 
 #include <host/app/run/views/safety_strip.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -53,6 +54,12 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
 
     run.emergencyStop();
     REQUIRE (until ([&] { return buttonCalled (strip, "REARM") != nullptr; }));
+    strip.setSize (512, SafetyStrip::height);   // as at 1024 pixels and 200 %: the reason comes before the rate
+    const auto texts = readTexts (strip);
+    const auto isSeen = [&] (const juce::String& text) { return std::ranges::any_of (texts, [&] (const SeenText& t) { return t.text.contains (text); }); };
+    CHECK (isSeen ("emergency"));
+    CHECK_FALSE (isSeen ("running"));
+    strip.setSize (1280, SafetyStrip::height);
     REQUIRE (buttonCalled (strip, "STOP"));
     CHECK (buttonCalled (strip, "STOP")->getBounds() == place);
     CHECK_FALSE (buttonCalled (strip, "REARM")->getBounds().intersects (place));
@@ -63,6 +70,13 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     REQUIRE (until ([&] { return buttonCalled (strip, "REARM")->isEnabled(); }));
     buttonCalled (strip, "REARM")->onClick();
     CHECK (until ([&] { return buttonCalled (strip, "REARM") == nullptr && run.isRunning(); }));
+    CHECK (until ([&] { return strip.guardText() == "guard ready" && ! strip.isAlarmed(); }));
+    playback.stop();
+    CHECK (until ([&] { return ! run.isRunning() && strip.text() == "stopped"; }));
+    CHECK (strip.guardText() == "");
+    CHECK_FALSE (strip.isAlarmed());
+    playback.restart();
+    REQUIRE (until ([&] { return run.isRunning() && run.status() && run.status()->ticks > 100; }));
     run.emergencyStop();
     buttonCalled (strip, "STOP")->onClick();
     CHECK (until ([&] { return ! run.isRunning(); }));
