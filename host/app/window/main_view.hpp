@@ -130,7 +130,11 @@ private:
     void rest();   ///< call many times while nothing runs and there was no input for a while
     void mouseMove (const juce::MouseEvent&) override { wake(); }
     void mouseDown (const juce::MouseEvent&) override;
-    void mouseDrag (const juce::MouseEvent&) override { wake(); }
+    void mouseDrag (const juce::MouseEvent&) override
+    {
+        wake();
+        status.endRefusal();   // a drag says what it does
+    }
     void mouseUp (const juce::MouseEvent&) override { wake(); }
     void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& d) override
     {

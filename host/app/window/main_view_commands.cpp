@@ -122,6 +122,7 @@ void MainView::stopBy (const juce::KeyPress& key) { key.getModifiers().isShiftDo
 
 void MainView::escape (const juce::KeyPress& key)
 {
+    status.clearNotice();
     if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops())) return stopBy (key);
     if (question.isOpen()) return question.cancel();
     if (fitting.isOpen()) return fitting.close();

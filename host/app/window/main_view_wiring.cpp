@@ -36,7 +36,7 @@ void MainView::connect()
 void MainView::connectCanvas()
 {
     patching.onHint = [this] (const juce::String& text) { status.hint (text); };
-    patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
+    patching.onNotice = [this] (const juce::String& text) { status.refuse (text); };
     patching.onBreadcrumbs = [this] { documentChanged(); };
     patching.onSelection = [this] { inspector.inspect (patching.seen(), patching.selection()); };
     patching.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };

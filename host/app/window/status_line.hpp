@@ -8,20 +8,36 @@
 namespace tactus::host
 {
 
-/// The line at the bottom of the window. Shows a hint about what is under the pointer, or the latest notice if there is no hint. A text that
-/// is too long is shown in full in the tooltip.
+/// The line at the bottom of the window. Shows a hint about what is under the pointer, or the latest notice if there is no hint. The reason of a refusal
+/// comes before hints for some seconds, because the pointer is still over what was refused. A text that is too long is shown in full in the tooltip.
 class StatusLine final : public juce::Component, public juce::TooltipClient
 {
 public:
     static constexpr int height = 26;
 
     void hint (const juce::String& text) { show (text, notice); }   ///< empty: no hint
-    void notify (const juce::String& text) { show ({}, text); }     ///< empty: like clearNotice(), and also removes the hint
-    void clearNotice() { show (hinted, {}); }
+    void notify (const juce::String& text)                          ///< empty: like clearNotice(), and also removes the hint
+    {
+        refused = {};
+        show ({}, text);
+    }
+    void refuse (const juce::String& why)
+    {
+        notify (why);
+        refused = juce::Time::getCurrentTime();
+    }
+    void clearNotice()
+    {
+        refused = {};
+        show (hinted, {});
+    }
+    void endRefusal() { refused = {}; }   ///< from now on, hints come first again
 
     juce::String text() const
     {
-        if (hinted.isNotEmpty()) return hinted;
+        constexpr double refusal_s = 8.0;
+        const bool is_refused = notice.isNotEmpty() && juce::Time::getCurrentTime() < refused + juce::RelativeTime (refusal_s);
+        if (hinted.isNotEmpty() && ! is_refused) return hinted;
         return notice.isNotEmpty() ? notice : TRANS ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   Ctrl+K: find anything   F1: help");
     }
 
@@ -50,6 +66,7 @@ private:
     }
 
     juce::String hinted, notice;
+    juce::Time refused;   // when the notice came, if it says why something was refused
 };
 
 }   // namespace tactus::host
