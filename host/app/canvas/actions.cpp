@@ -68,7 +68,7 @@ std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, 
         const auto* to = end == scene.nodes().end() ? nullptr : end->face->endOf (w->to);
         if (to == nullptr) continue;
         const auto carried = start->quantityOf (*from), taken = end->quantityOf (*to);
-        if (carried != taken || ! checkWire ({ from, carried }, { to, taken })) continue;
+        if ((carried != taken && taken != Quantity::any) || ! checkWire ({ from, carried }, { to, taken })) continue;
         graph::Wire through;
         through.from = in[0]->from;
         through.to = w->to;

@@ -4,6 +4,8 @@
 #include <tactus/graph/inside.hpp>
 #include <tactus/kit/at.hpp>
 
+#include <algorithm>
+
 namespace tactus::host
 {
 
@@ -29,6 +31,9 @@ Quantities::Quantities (const graph::Graph& graph, const Catalogue& c) : catalog
     visit (graph, graph.root);
     for (const auto& [name, patch] : graph.graphs)
         visit (graph, patch);
+    while (joinProducts())
+    {
+    }
     for (auto& port : parent)
         port = root (port);
 }
@@ -71,6 +76,43 @@ void Quantities::joinPortsOf (const NodePorts& node_ports)
             if (follows_it || both_open) join (numberOf (node_ports, &port), numberOf (node_ports, &other));
         });
     });
+}
+
+/// A product with a gain, or with an input that nothing drives, carries what its other factor does. Returns true if that joined anything.
+bool Quantities::joinProducts()
+{
+    bool has_joined = false;
+    for (const auto& [patch, ports] : patches)
+        for (const auto& node_ports : ports.nodes)
+            for (const auto& port : node_ports.face.outputs)
+            {
+                if (port.unit.kind != UnitRule::Kind::product || port.unit.b.empty()) continue;
+                const auto *a = node_ports.face.find (Role::input, port.unit.a), *b = node_ports.face.find (Role::input, port.unit.b);
+                if (a == nullptr || b == nullptr) continue;
+                const int product = numberOf (node_ports, &port);
+                const auto joinIf = [&, patch = patch] (const FacePort* factor, const FacePort* other) {
+                    const int x = root (product), y = root (numberOf (node_ports, other));
+                    const bool is_open = known[at (x)] == Quantity::any || known[at (y)] == Quantity::any;   // else, the graph has an error
+                    if (x == y || ! is_open || ! isPlainFactor (*patch, node_ports, *factor)) return;
+                    join (x, y);
+                    has_joined = true;
+                };
+                joinIf (b, a);
+                joinIf (a, b);
+            }
+    return has_joined;
+}
+
+bool Quantities::isPlainFactor (const graph::Patch& patch, const NodePorts& node_ports, const FacePort& port)
+{
+    const auto quantity = known[at (root (numberOf (node_ports, &port)))];
+    if (quantity != Quantity::any) return quantity == Quantity::gain || quantity == Quantity::state;
+    const auto isHere = [&] (const graph::Endpoint& end) {
+        const auto* to = portsOf (patch, end.node);
+        return to == &node_ports && to->face.endOf (end) == &port;
+    };
+    return std::ranges::none_of (patch.wires, [&] (const graph::Wire& w) { return isHere (w.to); })
+           && std::ranges::none_of (patch.expose.inputs, [&] (const auto& exposed) { return isHere (exposed.second); });
 }
 
 void Quantities::joinAlongWires (const graph::Patch& patch)

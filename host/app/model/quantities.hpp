@@ -33,6 +33,8 @@ private:
 
     void visit (const graph::Graph& owner, const graph::Patch&);
     void joinPortsOf (const NodePorts&);
+    bool joinProducts();
+    bool isPlainFactor (const graph::Patch&, const NodePorts&, const FacePort&);   ///< it has no unit, or nothing drives it
     void joinAlongWires (const graph::Patch&);
     void joinWithInside (const graph::Graph& owner, const graph::Patch&);
 

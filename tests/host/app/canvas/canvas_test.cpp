@@ -163,6 +163,32 @@ TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
     CHECK (rig.hasWire ("touch.gain -> grain_felt.gain"));
 }
 
+TEST_CASE ("a Scale that is inserted before another one carries newtons, and deleting it joins the wire again", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto* wire = "grain.force -> grain_felt.in";
+    SECTION ("by double-clicking the wire")
+    {
+        rig.hand().doubleClick (rig.middleOf (wire));
+        REQUIRE (rig.request);
+        rig.canvas->commands().addNodeAt ("vector.scale", *rig.request);
+    }
+    SECTION ("by dropping a node on the wire")
+    {
+        rig.canvas->commands().addNodeAt ("vector.scale", { rig.canvas->view().toCanvas (rig.nowhere()) });
+        rig.hand().drag (rig.title ("scale"), rig.middleOf (wire));
+    }
+    REQUIRE (rig.hasWire ("scale.out -> grain_felt.in"));
+    for (const auto& w : rig.canvas->scene().wires())
+        if (w.text == "scale.out -> grain_felt.in") CHECK (w.quantity == Quantity::force);
+    const auto& scale = rig.node ("scale");
+    CHECK (scale.quantityOf (scale.face->outputs.front()) == Quantity::force);
+    rig.hand().click (rig.title ("scale"));
+    rig.hand().key ("delete");
+    CHECK (rig.hasWire (wire));
+    CHECK_FALSE (hasErrors (compile (rig.graph(), catalogue()).messages));
+}
+
 TEST_CASE ("shift-dragging moves a wire to another input or removes it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

@@ -33,6 +33,22 @@ TEST_CASE ("the quantity of a generic port propagates into and out of a subgraph
     CHECK (quantities.of (sketch.graph.root, 0, Role::output, "no such port") == Quantity::any);
 }
 
+TEST_CASE ("a Scale carries what it scales, as long as its factor has no unit", "[quantities]")
+{
+    Sketch sketch;
+    sketch.node ("hand", "device.position").node ("plane", "deform.plane").node ("touch", "contact.window");
+    sketch.node ("a", "vector.scale").node ("b", "vector.scale");
+    sketch.wire ("plane.force -> a.in").wire ("a.out -> b.in");
+    const auto outputOf = [&] (std::size_t node) { return Quantities (sketch.graph, catalogue()).of (sketch.graph.root, node, Role::output, "out"); };
+    CHECK (outputOf (3) == Quantity::force);
+    CHECK (outputOf (4) == Quantity::force);
+    sketch.wire ("touch.gain -> a.gain");
+    CHECK (outputOf (4) == Quantity::force);
+    sketch.wire ("plane.depth -> b.gain");   // N m
+    CHECK (outputOf (3) == Quantity::force);
+    CHECK (outputOf (4) == Quantity::any);
+}
+
 TEST_CASE ("a subgraph that contains itself does not hang the propagation", "[quantities]")
 {
     Sketch sketch;
