@@ -71,7 +71,17 @@ void HistoryPanel::paintListBoxItem (int row, juce::Graphics& g, int w, int h, b
     }
     g.setColour (row > now ? theme.dim : theme.text);
     g.setFont (look.font (13.0f, row == now));
-    g.drawText (nameOfRow (row), area.withTrimmedLeft (24).withTrimmedRight (4), juce::Justification::centredLeft, true);
+    // If there is no room for all of it, the new value is what must be seen.
+    const auto place = area.withTrimmedLeft (24).withTrimmedRight (4);
+    const auto font = g.getCurrentFont();
+    const auto text = nameOfRow (row), end = text.fromLastOccurrenceOf (" -> ", true, false);
+    const auto room = place.toFloat().getWidth(), end_width = font.getStringWidthFloat (end) + 1.0f;
+    if (end.isEmpty() || font.getStringWidthFloat (text) <= room || end_width > 0.7f * room)
+        return g.drawText (text, place, juce::Justification::centredLeft, true);
+    auto begin = text.dropLastCharacters (end.length());
+    while (begin.isNotEmpty() && font.getStringWidthFloat (begin + "...") + end_width > room)
+        begin = begin.dropLastCharacters (1);
+    g.drawText (begin + "..." + end, place, juce::Justification::centredLeft, true);
 }
 
 }   // namespace tactus::host

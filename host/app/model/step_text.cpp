@@ -115,20 +115,55 @@ std::optional<std::string> textOf (const graph::ChangeControl& back, const graph
     return (to.to.name.empty() ? to.control : to.to.name) + text;
 }
 
+std::optional<std::string> textOf (const graph::SetHeader& back, const graph::SetHeader& to)
+{
+    if (to.name && back.name) return TRANS ("rename the graph").toStdString() + ": " + *back.name + value_arrow + *to.name;
+    if (to.about) return TRANS ("describe the graph").toStdString();
+    if (to.tags) return TRANS ("change the tags").toStdString();
+    if (to.rate_hz && back.rate_hz)
+        return TRANS ("change the rate").toStdString() + ": " + shownQuantity (*back.rate_hz, "Hz") + value_arrow + shownQuantity (*to.rate_hz, "Hz");
+    return {};
+}
+
+std::string textOf (const graph::CollapseNodes& to)
+{
+    std::string text = TRANS ("group").toStdString();
+    if (to.nodes.size() > 3) return text + ' ' + std::to_string (to.nodes.size()) + ' ' + TRANS ("nodes").toStdString();
+    for (std::size_t i = 0; i < to.nodes.size(); ++i)
+        text += (i == 0 ? " " : ", ") + to.nodes[i];
+    return text;
+}
+
+/// The canvas stores where it shows the nodes together with the first edit, which is not what the step is about: returns the edit alone.
+const graph::Command& withoutPlaces (const graph::Command& command)
+{
+    const auto* batch = std::get_if<graph::Batch> (&command.edit);
+    if (batch == nullptr || batch->commands.size() != 2) return command;
+    for (const std::size_t places : { 0U, 1U })   // or after it, with where a new node goes
+    {
+        const auto* moves = std::get_if<graph::Batch> (&batch->commands[places].edit);
+        if (moves != nullptr && moves->name != batch->name && moves->name.starts_with ("move node")) return withoutPlaces (batch->commands[1 - places]);
+    }
+    return command;
+}
+
 /// Empty if the step is more than a change of one value.
 std::optional<std::string> textOf (const graph::History& history, std::size_t step, const Catalogue& catalogue)
 {
     const auto commands = history.commandsOf (step), inverses = history.inversesOf (step);
     if (commands.empty() || inverses.empty()) return {};
-    const auto& first = commands.front().edit;
-    if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return c.edit.index() != first.index(); })) return {};
-    const auto &back = inverses.front().edit, &to = commands.back().edit;
+    const auto& first = withoutPlaces (commands.front()).edit;
+    if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return withoutPlaces (c).edit.index() != first.index(); })) return {};
+    const auto &back = withoutPlaces (inverses.front()).edit, &to = withoutPlaces (commands.back()).edit;
     if (const auto* a = std::get_if<graph::SetParam> (&back), *b = std::get_if<graph::SetParam> (&to); a != nullptr && b != nullptr)
         return textOf (*a, *b, graphOf (history, step), catalogue);
     if (const auto* a = std::get_if<graph::ChangeControl> (&back), *b = std::get_if<graph::ChangeControl> (&to); a != nullptr && b != nullptr)
         return textOf (*a, *b);
+    if (const auto* a = std::get_if<graph::SetHeader> (&back), *b = std::get_if<graph::SetHeader> (&to); a != nullptr && b != nullptr) return textOf (*a, *b);
+    if (const auto* groups = std::get_if<graph::CollapseNodes> (&to); groups != nullptr && commands.size() == 1) return textOf (*groups);
     return {};
 }
+
 /// What a step is about: the nodes and wires that its commands name. If there are more than a name can list, the first ones and the last one.
 struct Objects
 {
@@ -147,11 +182,9 @@ struct Objects
     {
         if (const auto* batch = std::get_if<graph::Batch> (&command.edit))
         {
-            // The canvas stores where it shows the nodes together with the first edit, which is not what the step is about.
-            const auto* first = batch->commands.size() == 2 ? std::get_if<graph::Batch> (&batch->commands.front().edit) : nullptr;
-            const bool places_all = first != nullptr && batch->name != first->name && first->name.starts_with ("move node");
-            for (std::size_t i = places_all ? 1 : 0; i < batch->commands.size(); ++i)
-                collect (batch->commands[i]);
+            if (const auto& edit = withoutPlaces (command); &edit != &command) return collect (edit);
+            for (const auto& c : batch->commands)
+                collect (c);
         }
         else if (const auto* added = std::get_if<graph::AddNode> (&command.edit))
             add (nodes, added->node.name);

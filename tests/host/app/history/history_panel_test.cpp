@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/canvas_rig.hpp"
+
 #include <host/app/history/history_panel.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -55,4 +57,34 @@ TEST_CASE ("the steps of a graph keep their names when another graph is opened, 
         INFO (position);
         CHECK (names() == before);
     }
+}
+
+TEST_CASE ("the first change of a value also stores where the nodes are, and is named with both values", "[app][history]")
+{
+    host::test::CanvasRig rig { host::test::CanvasRig::preset ("templates/stroke") };
+    const auto latest = [&] { return rig.document.stepName (rig.document.history().size() - 1); };
+    const auto& node = rig.node ("wall");
+    rig.canvas->commands().setParam (node, *node.box.find (Role::param, "damping")->port, Json ("0.4 N*s/m"), graph::Step::own);
+    CHECK (latest() == "wall: Damping 0.3 -> 0.4 N\xc2\xb7s/m");
+    rig.document.undo();
+    CHECK (latest() == "wall: Damping 0.3 -> 0.4 N\xc2\xb7s/m");
+
+    const auto at = rig.value ("drag", "mu");   // a drag joins many changes
+    rig.hand().drag (at, at.translated (30.0f, 0.0f));
+    CHECK (latest().find (" -> ") != std::string::npos);
+}
+
+TEST_CASE ("the history says in plain words that nodes were grouped and that the graph was renamed", "[app][history]")
+{
+    host::test::CanvasRig rig { host::test::CanvasRig::preset ("templates/stroke") };
+    const auto latest = [&] { return rig.document.stepName (rig.document.history().size() - 1); };
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().click (rig.title ("touch"), host::test::Hand::left (juce::ModifierKeys::shiftModifier));
+    rig.hand().key ("g");
+    CHECK (latest().starts_with ("group "));
+    CHECK (latest().find ("touch") != std::string::npos);
+    REQUIRE (rig.document.perform (graph::SetHeader { .name = "Bark" }));
+    CHECK (latest() == "rename the graph: Stroke -> Bark");
+    REQUIRE (rig.document.perform (graph::SetHeader { .about = "Rough." }));
+    CHECK (latest() == "describe the graph");
 }
