@@ -106,6 +106,9 @@ public:
     juce::String getTooltip() override;                        ///< tooltipAt the pointer
     juce::String tooltipAt (juce::Point<float> pixel) const;   ///< about the limit light, or, while nothing runs, the port at this pixel; else empty
 
+    /// Ends the drag that is going on as if it had not begun. Returns false if there is none.
+    bool cancelDrag();
+
     std::function<void()> onSelection, onBreadcrumbs;
     /// Fills the menu of a param, which the user has clicked with the right button.
     std::function<void (juce::PopupMenu&, const std::string& node, const std::string& port)> onParamMenu;
@@ -214,6 +217,7 @@ private:
     std::map<std::string, int> chosen_instances;   // by the path of a subgraph node, without numbers
     PointedPort pointed_at;
     std::unique_ptr<Drag> drag;
+    std::size_t drag_begins_at = 0;   // position in the history
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas

@@ -90,7 +90,19 @@ void Canvas::mouseDown (const juce::MouseEvent& e)
     closeEditor (true);
     takeFocus (*this);
     point ({});
+    drag_begins_at = document.history().position();
     drag = dragFor (e);
+}
+
+bool Canvas::cancelDrag()
+{
+    if (! drag) return false;
+    drag.reset();
+    hint ({});
+    while (document.history().position() > drag_begins_at)   // a copy that is dragged makes two steps
+        document.undo();
+    repaint();
+    return true;
 }
 
 void Canvas::mouseDrag (const juce::MouseEvent& e)

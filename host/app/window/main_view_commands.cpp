@@ -108,11 +108,9 @@ void MainView::mouseDown (const juce::MouseEvent& e)
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
     if (key.getKeyCode() != juce::KeyPress::escapeKey) return false;
-    if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops()))
-    {
-        stopBy (key);
-        return true;   // the next Esc closes what is open
-    }
+    const bool stops = playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops());
+    if (stops) stopBy (key);
+    if (patching.cancelDrag() || stops) return true;   // the next Esc closes what is open
     if (! help.isOpen() || question.isOpen() || fitting.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0) return false;
     help.close();   // even while a field has the keyboard, which would keep the key
     return true;

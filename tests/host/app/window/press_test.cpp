@@ -3,6 +3,8 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <tactus/file/graph_file.hpp>
+
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::WindowRig;
@@ -105,4 +107,30 @@ TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspect
     REQUIRE (w.view->document().perform (graph::RemoveWire { {}, other.id }));
     WindowRig::settle();
     CHECK (showsText (w.view->inspected(), wires (between)));
+}
+
+TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][mouse][safety]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto& run = w.view->run();
+    REQUIRE (run.isWanted());
+    auto& canvas = w.view->canvas();
+    const auto node = [&]() -> const SceneNode& { return *std::ranges::find (canvas.scene().nodes(), "grain", &SceneNode::name); };
+    const auto place = node().at;
+    const auto steps = w.view->document().history().position();
+    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (place + juce::Point<float> (40.0f, 14.0f)));
+    w.stage->hold();
+    w.stage->move (at);
+    w.stage->press();
+    w.stage->move (at.translated (30.0f, 20.0f));
+    w.stage->move (at.translated (60.0f, 40.0f));
+    REQUIRE (node().at != place);
+    w.key ("escape");
+    CHECK (node().at == place);
+    CHECK (w.view->document().history().position() == steps);
+    CHECK_FALSE (run.isWanted());
+    w.stage->move (at.translated (90.0f, 60.0f));
+    w.stage->release();
+    CHECK (node().at == place);
+    run.letGo();
 }
