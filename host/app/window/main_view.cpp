@@ -293,6 +293,7 @@ void MainView::documentChanged()
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();
+        hand.view().letGo();   // it held the tool of the graph before
         patching.leaveTo (0);
         patching.select ({});
         patching.frameStart();

@@ -26,6 +26,10 @@ public:
     /// Holds the tool pressed where it is, so that the pointer is free to turn a knob; or releases the tool.
     void hold();
     bool isHeld() const noexcept { return held; }
+    void letGo()
+    {
+        if (held) hold();
+    }
 
     /// Moves the tool as the pointer on this view does, to a place in m. A press takes the tool from its device, gesture or recording.
     void steer (double x, double y, bool presses);

@@ -134,3 +134,21 @@ TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][
     CHECK (node().at == place);
     run.letGo();
 }
+
+TEST_CASE ("a tool that H holds is let go when another graph opens", "[app][mouse]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    w.stage->move (w.middleOf (*surface));
+    w.stage->press();
+    WindowRig::settle (200);
+    w.key ("h");
+    w.stage->release();
+    WindowRig::settle (100);
+    REQUIRE (w.view->handPanel().view().isHeld());
+    w.view->document().open (loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph, {}, "open Bronze bell");
+    WindowRig::settle (100);
+    CHECK_FALSE (w.view->handPanel().view().isHeld());
+    w.view->run().letGo();
+}
