@@ -215,6 +215,7 @@ void MainView::timerCallback()
     else if (awake_for == 0 || --awake_for == 0)
         rest();
     playback.poll();
+    if (std::exchange (was_trying, playback.isTrying()) && ! was_trying) status.hint ({});   // what the test of a device said
     attendClutch();
     keepKeyboard();
     shade.follow();

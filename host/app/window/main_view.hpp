@@ -283,6 +283,7 @@ private:
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> begun;     // the dialog for a new folder, once its name has the keyboard
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
+    bool was_trying = false;                                 // a device was being tested
     bool holds_clutch = false, clutch_ends = false;          // the key of the clutch is down; some key has come up since it was pressed
     Messages missing;                                        // what the graph needs before it can be felt
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
