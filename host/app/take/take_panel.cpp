@@ -430,8 +430,13 @@ void TakePanel::refresh()
         b->setEnabled (is_ready);
     gesture.setEnabled (is_ready && ! recording.role().empty());
     for (auto* f : { &from, &until })
-        f->setEnabled (curve.length() > 0.0);
+        f->setEnabled (! records && curve.length() > 0.0);
     showLatest();
+    if (records)   // the curve shows only the last seconds
+    {
+        from.show (juce::String (0.0, 3));
+        until.show (juce::String (recording.seconds(), 3));
+    }
     const bool has_curve = curve.length() > 0.0;
     const auto waiting = records ? TRANS ("Recording. Move, and press Stop when you are done.") : juce::translate (how_to);
     if (! has_curve) curve.setText (now == Take::State::reading ? TRANS ("Playing the recording again ...") : waiting);
