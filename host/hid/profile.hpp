@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -339,6 +340,9 @@ struct SerialWire
     int baud = 115200;
     Framing framing = Framing::cobs;
     std::optional<std::uint8_t> filler {};   ///< a byte that only completes a message of which the device has missed a part; else it ignores the byte
+
+    /// Ends an unfinished report; longer than a USB adapter holds back the rest of one. No key of a profile: tests set it, as a busy computer pauses, too.
+    std::chrono::milliseconds pause { 5 };
 
     bool operator== (const SerialWire&) const = default;
 };

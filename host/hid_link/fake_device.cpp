@@ -31,7 +31,7 @@ constexpr std::pair<std::string_view, FaultKind> fault_names[] {
 };
 
 constexpr double usual_rate = 1000.0;                 // Hz
-constexpr int pause_ms = 5, longest_wait_ms = 1000;   // that end an unfinished report: on the Tactus board, and on Haply's
+constexpr auto longest_wait = std::chrono::seconds (1);   // that ends an unfinished report on Haply's board
 
 std::vector<Bytes> stepsOf (const Profile& profile)
 {
@@ -103,7 +103,7 @@ FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device
     : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
       watchdog (profile->limits.device_watchdog), port (options.port), side (profile), framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), answers (framing == Framing::answer),
       init (answers ? stepsOf (*profile) : std::vector<Bytes> {}),
-      lines (framing, heardShapes (*profile, init), std::chrono::milliseconds (answers ? longest_wait_ms : pause_ms))
+      lines (framing, heardShapes (*profile, init), answers ? longest_wait : profile->wires.serial.value_or (SerialWire {}).pause)
 {
     hand->prepare (1.0 / rate_hz);
     if (answers) hand_reading = hand->read();   // it may be asked before the first step

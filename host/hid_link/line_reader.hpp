@@ -21,8 +21,8 @@ public:
     using Clock = WireFile::Clock;
     using Outcome = WireFile::Outcome;
 
-    /// A pause longer than `pause` ends a report; the default is longer than a USB adapter holds back the rest of one.
-    LineReader (Framing framing, std::vector<FrameReader::Shape> shapes, std::chrono::milliseconds pause = std::chrono::milliseconds (5))
+    /// A pause longer than `pause` ends a report.
+    LineReader (Framing framing, std::vector<FrameReader::Shape> shapes, std::chrono::milliseconds pause = SerialWire().pause)
         : frames (framing, std::move (shapes)), pause_within (pause)
     {
     }

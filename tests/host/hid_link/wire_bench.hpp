@@ -73,8 +73,8 @@ struct NoHid final : host::hid::HidSystem
     std::atomic<std::int64_t> ns = 1'000'000'000;
 };
 
-/// The board's profile, with a framing, and with a watchdog that a busy machine does not trigger.
-inline std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const std::string& watchdog = "10 s")
+/// The board's profile, with a framing, and with a watchdog and a pause within a report that a busy machine does not trigger.
+inline std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const std::string& watchdog = "10 s", std::chrono::milliseconds pause = 1s)
 {
     auto json = readJson (*readTextFile (test::profile_folder / "tactus_board.json")).root;
     json["wires"]["serial"]["framing"] = framing;
@@ -83,7 +83,9 @@ inline std::shared_ptr<const Profile> board (const std::string& framing = "cobs"
     auto loaded = readProfile (json);
     INFO (test::text (loaded.messages));
     REQUIRE (loaded.profile);
-    return loaded.profile;
+    auto profile = *loaded.profile;
+    profile.wires.serial->pause = pause;
+    return std::make_shared<const Profile> (std::move (profile));
 }
 
 inline std::unique_ptr<Device> stillHand()

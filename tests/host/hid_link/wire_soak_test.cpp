@@ -118,7 +118,7 @@ struct Soak
 /// Each report is answered once and in order, and nothing pushes after a stop.
 void soakOver (Wire wire, const char* framing)
 {
-    Bench bench { wire, board (framing, "600 s") };   // a disk may hold up a program for longer than any watchdog
+    Bench bench { wire, board (framing, "600 s", 5ms) };   // a disk may hold up a program for longer than any watchdog
     Soak soak { bench };
     REQUIRE (soak.tick());   // with what came while the device was opened
     const auto before = bench.device->counts();
