@@ -101,7 +101,9 @@ Result<DeviceFault> readFault (std::string_view text)
 
 FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device> h, Options o)
     : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
-      watchdog (profile->limits.device_watchdog), port (options.port), side (profile), framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), answers (framing == Framing::answer),
+      watchdog (profile->limits.device_watchdog), port (options.port), side (profile),
+      framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none),
+      answers (framing == Framing::answer),
       init (answers ? stepsOf (*profile) : std::vector<Bytes> {}),
       lines (framing, heardShapes (*profile, init), answers ? longest_wait : profile->wires.serial.value_or (SerialWire {}).pause)
 {
@@ -119,7 +121,8 @@ Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Prof
 {
     const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp && profile->wires.udp;
     if (! knows)
-        return Message::error ("fake/wire", profile->id, "the profile " + quote (profile->id) + " has no wire " + quote (options.wire == Wire::serial ? "serial" : "udp"),
+        return Message::error ("fake/wire", profile->id,
+                               "the profile " + quote (profile->id) + " has no wire " + quote (options.wire == Wire::serial ? "serial" : "udp"),
                                "add it to the \"wires\" of the profile, or choose another wire");
     std::error_code failed;
     if (! options.link.empty() && std::filesystem::is_symlink (options.link, failed) && std::filesystem::exists (options.link, failed))

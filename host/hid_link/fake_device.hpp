@@ -56,7 +56,8 @@ Result<DeviceFault> readFault (std::string_view);
 ///
 /// It sends only reports with values or buttons: no signs of life and the like, which some devices send, too.
 ///
-/// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, and until it has heard all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
+/// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, and until it has heard
+/// all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
 class FakeDevice
 {
 public:

@@ -72,7 +72,8 @@ Result<WireFile> WireFile::openSerial (const std::string& path, int baud)
     if (file < 0) return failure (path, errno);
     WireFile line (file, Kind::line);
     if (! makeRaw (file, baud))
-        return Message::error ("device/wire", path, "it is not a serial line: " + std::generic_category().message (errno), "name a serial port, such as /dev/ttyACM0");
+        return Message::error ("device/wire", path, "it is not a serial line: " + std::generic_category().message (errno),
+                               "name a serial port, such as /dev/ttyACM0");
     excludeOthers (file);
     askForLowLatency (file);
     line.dropInput();

@@ -279,7 +279,8 @@ class UdpTransport final : public WireTransport
 {
 public:
     UdpTransport (WireFile f, PeerLock l, std::string name, const Profile& p)
-        : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), stale (p), may_be_silent (sendsOnlyChanges (p)), heard (Clock::now()), knocked (heard)
+        : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), stale (p), may_be_silent (sendsOnlyChanges (p)),
+          heard (Clock::now()), knocked (heard)
     {
     }
 
@@ -338,7 +339,8 @@ Message notOpened (const ConnectedDevice& device, std::string why, std::string r
 Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
     std::error_code unseen;
-    if (std::filesystem::is_directory (device.path, unseen)) return notOpened (device, "it is a folder, not a serial line", "name the port itself, such as /dev/ttyACM0");
+    if (std::filesystem::is_directory (device.path, unseen))
+        return notOpened (device, "it is a folder, not a serial line", "name the port itself, such as /dev/ttyACM0");
     auto alone = FileLock::takeExisting (device.path);
     if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
         return inUse (device.path);

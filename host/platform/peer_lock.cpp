@@ -52,7 +52,7 @@ std::string nameOf (int socket)
         || ::getsockopt (socket, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || (there.ss_family != AF_INET && there.ss_family != AF_INET6))
         return {};
     auto address = addressIn (there);
-    if (address == addressIn (here) || address.starts_with ("127.")) address = "here";   // a packet to this computer also comes from the address that it goes to
+    if (address == addressIn (here) || address.starts_with ("127.")) address = "here";   // what goes to this computer comes from the same address
     const auto port = reinterpret_cast<const sockaddr_in&> (there).sin_port;             // it is at the same place for IPv6
     return std::to_string (type) + " " + address + " " + std::to_string (ntohs (port));
 }

@@ -98,7 +98,8 @@ void HealthWatch::judgeRate (Meter& meter, DeviceHealth& h, double nominal_hz) c
     const auto sent = numberText (std::round (meter.wrong_hz));
     auto text = "the board sends " + sent + " reports/s, its profile says " + numberText (nominal_hz);
     if (h.ticks) text += ": the graph runs at " + numberText (std::round (100.0 * meter.wrong_hz / nominal_hz)) + " % of its speed";
-    h.warning = Message::warning ("device/rate", h.role, std::move (text), "set \"rate\" to " + sent + " in the profile " + h.profile + ", or correct the firmware");
+    h.warning = Message::warning ("device/rate", h.role, std::move (text),
+                                  "set \"rate\" to " + sent + " in the profile " + h.profile + ", or correct the firmware");
 }
 
 void HealthWatch::poll (const PluginRole& plugin)
@@ -159,7 +160,9 @@ void HealthWatch::poll (std::span<const RealDevice> devices, std::span<const Plu
                 each->add (latest->at_s, latest->reports + read.lost);
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
         if (hasOneRate (real.profile())) judgeRate (meter, h, real.profile().rate);
-        if (port.reports == 0 && port.stray > 0) h.warning = Message::warning ("device/no_frame", h.role, hid::describeStray (port), "compare them with \"wires\" of the profile " + h.profile);
+        if (port.reports == 0 && port.stray > 0)
+            h.warning = Message::warning ("device/no_frame", h.role, hid::describeStray (port),
+                                          "compare \"wires\" of the profile " + h.profile + " with the firmware");
     }
 
     for (const auto& plugin : plugins)

@@ -32,8 +32,8 @@ std::string Exchange::open (const ServiceAddress& address, const std::string& pa
 
 std::string Exchange::claim (std::string_view part)
 {
-    lock = PeerLock::take (socket.descriptor(), part);
-    return lock ? std::string() : "another role or another instance of Tactus is using it";
+    claimed = PeerLock::take (socket.descriptor(), part);
+    return claimed ? std::string() : "another role or another instance of Tactus is using it";
 }
 
 void Exchange::begin()

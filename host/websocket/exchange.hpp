@@ -125,7 +125,7 @@ private:
     const Promises promises;
     bool is_writing = false, is_asking = false;   // a message is on its way out; it waits for its answer
     Clock::time_point sent;
-    std::optional<PeerLock> lock;
+    std::optional<PeerLock> claimed;
     WebSocket socket;   // last: what it calls uses the other members
 };
 

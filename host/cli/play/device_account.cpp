@@ -123,7 +123,8 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Plug
     for (const auto& plugin : plugins)
         text += accountOf (plugin, health);
     if (clock != nullptr && clock->ticksByTimer() > 0)
-        text += "    " + std::to_string (clock->ticksByTimer()) + (clock->ticksByTimer() == 1 ? " tick" : " ticks") + " came from the timer because no reports arrived\n";
+        text += "    " + std::to_string (clock->ticksByTimer()) + (clock->ticksByTimer() == 1 ? " tick" : " ticks")
+                + " came from the timer because no reports arrived\n";
     return text;
 }
 

@@ -180,7 +180,8 @@ private:
     {
         for (const auto& h : session.health())
             if (h.warning && told.insert (h.role + " " + h.warning->id).second)
-                print (printableName (h.role) + ": warning: " + inOneLine (h.warning->text) + "\n    " + printable (h.warning->remedy) + " [" + h.warning->id + "]\n");
+                print (printableName (h.role) + ": warning: " + inOneLine (h.warning->text) + "\n    " + printable (h.warning->remedy) + " ["
+                       + h.warning->id + "]\n");
     }
 
     /// The work that is done every 20 ms.

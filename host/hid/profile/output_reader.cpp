@@ -100,7 +100,8 @@ public:
         if (at + size > taken.size())
         {
             report.error ("fields", "profile/beyond",
-                          by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8) + (taken.size() == 8 ? " byte" : " bytes"),
+                          by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8)
+                              + (taken.size() == 8 ? " byte" : " bytes"),
                           "make the report longer, or start the field earlier");
             return;
         }

@@ -100,7 +100,8 @@ TEST_CASE ("a second program cannot drive a device over UDP that a first one dri
     const auto port = fake.device.substr (fake.device.rfind (':'));
     for (const auto* name : { "127.0.0.1", "0.0.0.0", "127.1.2.3", "[::ffff:127.0.0.1]" })
     {
-        const auto second = runTactus ({ "play", graph, "--device", "stylus=udp:tactus_board@" + (name + port), "--session", "off", "--osc", "off", "--duration", "0.1" });
+        const auto second =
+            runTactus ({ "play", graph, "--device", "stylus=udp:tactus_board@" + (name + port), "--session", "off", "--osc", "off", "--duration", "0.1" });
         INFO (name << ": " << second.err);
         CHECK (second.status != 0);
         CHECK (second.err.find ("another role or another instance of Tactus is using it") != std::string::npos);
@@ -228,7 +229,8 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     unsetenv ("TACTUS_PROFILES");
     INFO (fake.err());
     REQUIRE (is_there);
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=serial:tactus_board@" + link, "--session", "off", "--osc", "off", "--duration", "6" });
+    const auto device = "stylus=serial:tactus_board@" + link;
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "3" });   // it takes 6 s
     INFO (ran.err);
     CHECK (ran.err.find (" reports/s, its profile says 1000: the graph runs at ") != std::string::npos);
     CHECK (ran.err.find ("[device/rate]") != std::string::npos);
