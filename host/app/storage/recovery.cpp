@@ -26,13 +26,17 @@ fs::path lockIn (const fs::path& session) { return session / "lock"; }
 fs::path autosaveIn (const fs::path& session) { return session / "kept.json"; }
 fs::path trialIn (const fs::path& session) { return session / "trial"; }
 
-/// The takes that a session has recorded, each in a folder of its own.
+/// The takes that a session has recorded and that nothing was made of, each in a folder of its own.
 std::vector<fs::path> takesIn (const fs::path& session)
 {
     std::vector<fs::path> all;
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (session, failed))
-        if (const auto log = entry.path() / "take.jsonl"; fs::is_regular_file (log, failed) && fs::file_size (log, failed) > 0) all.push_back (log);
+    {
+        const auto log = entry.path() / "take.jsonl";
+        const bool is_there = fs::is_regular_file (log, failed) && fs::file_size (log, failed) > 0;
+        if (is_there && ! fs::exists (entry.path() / "used", failed)) all.push_back (log);
+    }
     std::ranges::sort (all, {}, [] (const fs::path& log) { return std::pair (log.native().size(), log); });   // take-10 comes after take-9
     return all;
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 namespace tactus::host
@@ -26,6 +27,13 @@ double secondsIn (const juce::String& text, double before)
 {
     const auto number = text.trim().upToFirstOccurrenceOf ("s", false, true).trim();
     return number.containsOnly ("0123456789.,") ? wholeNumber (number.replaceCharacter (',', '.').toStdString()).value_or (before) : before;
+}
+
+/// Something was made of the take: nobody has to be asked about it, even after a crash, which finds this file in its folder.
+void markAsUsed (Take::Recording& take)
+{
+    take.is_saved = true;
+    if (! take.stays && ! take.file.empty()) std::ofstream (take.file.parent_path() / "used");
 }
 
 /// The gain with which signal.clip plays the recorded values again: clipOfStretch() divides by it.
@@ -293,7 +301,7 @@ void TakePanel::makeClip()
         const auto gain = read->unit == "N" ? std::optional (gainOf (*read)) : std::nullopt;
         if (! onChoose || ! onClip) return;
         onChoose ("take.wav", [this, made, notes, gain, of = recording.recorded()] (const std::filesystem::path& to) {
-            of->is_saved |= onClip (made, notes, gain, to);
+            if (onClip (made, notes, gain, to)) markAsUsed (*of);
         });
     });
 }
@@ -307,7 +315,7 @@ void TakePanel::makeGesture()
         if (! onChoose) return;
         onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
             if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
-            of->is_saved = true;
+            markAsUsed (*of);
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
                         TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."),
@@ -336,7 +344,7 @@ void TakePanel::makeTest()
         if (! onChoose) return;
         onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
             if (const auto saved = writeRunTest (of->file.string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
-            of->is_saved = true;
+            markAsUsed (*of);
             const auto name = juce::String (printableName (to.filename().string()));
             auto text = filled (TRANS ("`tactus test %1` plays the run again and compares %2 ticks, bit for bit."), name, stretch->ticks());
             if (stretch->from > 0)
@@ -372,7 +380,7 @@ void TakePanel::saveAs (const std::shared_ptr<Take::Recording>& take, const std:
     const auto name = number == 1 ? std::string ("take.jsonl") : "take_" + std::to_string (number) + ".jsonl";
     onChoose (name, [this, then, of = take] (const std::filesystem::path& to) {
         if (const auto saved = copyRunLog (of->file.string(), to); ! saved) return refuse (saved.error());
-        of->is_saved = true;
+        markAsUsed (*of);
         if (then) then();
     });
 }

@@ -367,6 +367,28 @@ TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app]
     REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
 }
 
+TEST_CASE ("after a crash, nobody is asked about a take that a gesture was made of", "[app][take][recovery]")
+{
+    Recorder r;
+    r.w.click ("Stop");
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    r.w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
+        chosen (r.w.home / "gesture.csv");
+    };
+    r.w.click ("Make a gesture...");
+    REQUIRE (waitFor ([&] { return r.w.view->asked().isOpen(); }));
+    const auto sessions = r.w.home / "sessions";
+    const auto own = std::filesystem::directory_iterator (sessions)->path();
+    std::filesystem::copy (own, sessions / "crashed", std::filesystem::copy_options::recursive);
+    r.w.view.reset();
+    std::filesystem::remove_all (own);
+    r.w.view = std::make_unique<MainView> (catalogue());
+    r.w.stage->fill (*r.w.view);
+    r.w.view->begin ({ .home = r.w.home.path() });
+    WindowRig::settle();
+    CHECK_FALSE (r.w.view->asked().getDescription().contains ("take"));
+}
+
 TEST_CASE ("a take is saved from the list, and opened again, also with another graph", "[app][take]")
 {
     Recorder r;
