@@ -16,7 +16,7 @@ namespace tactus::host
 namespace
 {
 constexpr int columns = 3;   // of cards
-constexpr std::size_t most_cards = 6, most_files = 4;
+constexpr std::size_t most_cards = 6;
 constexpr int margin = 32, gap = 12, line_height = 15, low = 420, lowest = 224;   // of the page, in pixels
 
 /// The first sentence.
@@ -92,24 +92,6 @@ private:
     PictureStore& pictures;
 };
 
-class WelcomePage::RecentFile final : public juce::Button
-{
-public:
-    explicit RecentFile (std::filesystem::path f) : Button (f.stem().string()), file (std::move (f)) { setTooltip (file.string()); }
-
-    const std::filesystem::path file;
-
-    int widthFor() const { return juce::roundToInt (lookOf (*this).font (13.0f).getStringWidthFloat (getButtonText())) + 16; }
-
-    void paintButton (juce::Graphics& g, bool over, bool) override
-    {
-        const auto& look = lookOf (*this);
-        g.setColour (over || hasKeyboardFocus (false) ? look.theme().text : look.theme().accent);
-        g.setFont (look.font (13.0f));
-        g.drawText (getButtonText(), getLocalBounds(), juce::Justification::centred, true);
-    }
-};
-
 WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
 {
     setTitle (TRANS ("Welcome"));
@@ -130,7 +112,7 @@ WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
 
 WelcomePage::~WelcomePage() = default;
 
-void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent, bool offers_tour)
+void WelcomePage::show (const std::vector<Preset>& presets, bool offers_tour)
 {
     tour.setVisible (offers_tour && ! presets.empty());
     chosen = firstOnes (presets, most_cards);
@@ -145,17 +127,6 @@ void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<st
             if (onFeel) onFeel (file, false);
         };
         addAndMakeVisible (card);
-    }
-    files.clear();
-    std::error_code failed;
-    for (const auto& file : recent)
-    {
-        if (files.size() == most_files || ! std::filesystem::is_regular_file (file, failed)) continue;
-        auto& f = *files.emplace_back (std::make_unique<RecentFile> (file));
-        f.onClick = [this, file] {
-            if (onOpenFile) onOpenFile (file);
-        };
-        addAndMakeVisible (f);
     }
     resized();
     repaint();
@@ -192,14 +163,6 @@ void WelcomePage::resized()
     {
         low_row.removeFromLeft (8);
         tour.setBounds (low_row.removeFromLeft (tour.widthFor()));
-    }
-    low_row.removeFromLeft (24);
-    recent_title = files.empty() ? juce::Rectangle<int>() : low_row.removeFromLeft (52);
-    for (auto& f : files)
-    {
-        const int w = std::min (200, f->widthFor());
-        f->setVisible (w <= low_row.getWidth());
-        f->setBounds (low_row.removeFromLeft (w));
     }
     if (! is_lowest) area.removeFromBottom (is_low ? gap : 24);
     const int rows = std::max (1, (static_cast<int> (all.size()) + columns - 1) / columns);
@@ -244,8 +207,6 @@ void WelcomePage::paint (juce::Graphics& g)
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
     g.drawText (invitation(), lines.removeFromTop (20), juce::Justification::centredLeft, true);
-    if (recent_title.isEmpty()) return;
-    g.drawText (TRANS ("Recent"), recent_title, juce::Justification::centredLeft, false);
 }
 
 }   // namespace tactus::host

@@ -18,13 +18,12 @@ public:
     explicit WelcomePage (PictureStore&);
     ~WelcomePage() override;
 
-    /// Shows a few of the presets as cards, and the recent files.
-    void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent, bool offers_tour = false);
+    /// Shows a few of the presets as cards. The list of presets beside it has the recent files.
+    void show (const std::vector<Preset>& presets, bool offers_tour = false);
     void refresh (bool has_device);   ///< call many times a second; true if a device of the user moves tools
 
     /// A preset is chosen: by the mouse, which is then the hand, or by a key.
     std::function<void (const std::filesystem::path&, bool by_pointer)> onFeel;
-    std::function<void (const std::filesystem::path&)> onOpenFile;
     std::function<void()> onNew, onOpen, onTour;
 
     const std::vector<Preset>& cards() const noexcept { return chosen; }
@@ -37,15 +36,13 @@ private:
     juce::String invitation() const;
 
     class Card;
-    class RecentFile;
 
     PictureStore& pictures;
     int pictures_done = 0;
     bool is_by_device = false;
     std::vector<Preset> chosen;
     std::vector<std::unique_ptr<Card>> all;
-    std::vector<std::unique_ptr<RecentFile>> files;
-    juce::Rectangle<int> title, recent_title;
+    juce::Rectangle<int> title;
     PlainButton create { TRANS ("New empty graph") }, open { TRANS ("Open ...") }, tour { TRANS ("Show me around") };
 };
 

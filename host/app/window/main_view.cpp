@@ -95,7 +95,7 @@ void MainView::begin (const StartOptions& how)
     if (is_asked) playback.current().letGo();   // no forces while a question is open
     if (how.files.empty())
     {
-        welcome.show (presets.shipped(), settings.recent, ! settings.toured);
+        welcome.show (presets.shipped(), ! settings.toured);
         welcome.setVisible (true);
         if (how.safe && ! is_asked) status.notify (TRANS ("Safe mode: nothing runs until you press START."));
     }

@@ -135,7 +135,6 @@ void MainView::connectRun()
 void MainView::connectPages()
 {
     welcome.onFeel = [this] (const std::filesystem::path& preset, bool by_pointer) { feel (preset, by_pointer); };
-    welcome.onOpenFile = [this] (const std::filesystem::path& file) { files.open (file); };
     welcome.onNew = [this] { files.create(); };
     welcome.onOpen = [this] { files.open(); };
     welcome.onTour = [this] { beginTour(); };
