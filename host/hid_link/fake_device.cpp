@@ -30,7 +30,7 @@ constexpr std::pair<std::string_view, FaultKind> fault_names[] {
     { "rename", FaultKind::rename },
 };
 
-constexpr double usual_rate = 1000.0;                 // Hz
+constexpr double usual_rate = 1000.0;                     // Hz
 constexpr auto longest_wait = std::chrono::seconds (1);   // that ends an unfinished report on Haply's board
 
 std::vector<Bytes> stepsOf (const Profile& profile)

@@ -97,7 +97,8 @@ class SerialTransport : public WireTransport
 {
 public:
     SerialTransport (WireFile f, FileLock l, std::string name, const Profile& p)
-        : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), framing (p.wires.serial->framing), lines (framing, inputShapes (p), p.wires.serial->pause),
+        : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), framing (p.wires.serial->framing),
+          lines (framing, inputShapes (p), p.wires.serial->pause),
           kept (line_keeps / longestFrame (framing, longestInput (p))), room (longestFrame (framing, longest_report))
     {
         unsent.reserve (room.size());
