@@ -52,7 +52,8 @@ def counted(name):
     return {"reports": number(r"tactus_board\): (\d+) reports"), "taken": number(r"reports, (\d+) taken"), "lost": number(r"taken, (\d+) lost"),
             "refused": number(r"lost, (\d+) refused"),
             "short": number(r"(\d+) too short"), "long": number(r"(\d+) too long"), "mark": number(r"(\d+) wrong mark"),
-            "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) replaced by newer"), "departures": number(r"unplugged (\d+) times"),
+            "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) replaced by newer"),
+            "departures": 1 if "unplugged once" in said else number(r"unplugged (\d+) times"),
             "no room": number(r"(\d+) dropped for lack of room")}
 
 
