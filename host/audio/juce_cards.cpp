@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "card.hpp"
+#include "jack_messages.hpp"
 
-#include <host/platform/jack_messages.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/object_reader.hpp>

@@ -271,20 +271,22 @@ TEST_CASE ("a UDP device is driven by one role, and not kept by the child of a f
     CHECK (PeerLock::take (other->descriptor()));
     CHECK (PeerLock::take (near->descriptor(), "another arm"));
 
-    std::array<int, 2> ends {};
-    REQUIRE (::pipe (ends.data()) == 0);
+    std::array<int, 2> ready {}, ends {};
+    REQUIRE ((::pipe (ready.data()) == 0 && ::pipe (ends.data()) == 0));
     const auto child = ::fork();
     if (child == 0)
     {
         char end = 0;
         ::close (ends[1]);
-        ::_exit (::read (ends[0], &end, 1) == 0 ? 0 : 1);
+        ::_exit (::write (ready[1], &end, 1) == 1 && ::read (ends[0], &end, 1) == 0 ? 0 : 1);
     }
     REQUIRE (child > 0);
+    char told = 0;
+    REQUIRE (::read (ready[0], &told, 1) == 1);   // the child has given up what it got
     held.reset();
     CHECK (PeerLock::take (near->descriptor()));
-    ::close (ends[1]);
-    ::close (ends[0]);
+    for (const int end : { ends[1], ends[0], ready[1], ready[0] })
+        ::close (end);
     ::waitpid (child, nullptr, 0);
 }
 
