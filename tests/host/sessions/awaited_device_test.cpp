@@ -324,9 +324,9 @@ TEST_CASE ("a board whose rate is not that of its profile is reported, and a pau
     std::uint16_t number = 0;
     std::uint64_t all = 0;
     const auto look = [&] (double seconds, int reports) {
+        board.virtual_ns += static_cast<std::int64_t> (1e9 * seconds);   // first: the reading thread notes when each report arrives
         for (int k = 0; k < reports; ++k)
             board.send (boardReport (++number));
-        board.virtual_ns += static_cast<std::int64_t> (1e9 * seconds);
         all += static_cast<std::uint64_t> (reports);
         REQUIRE (board.until ([&] { return device->port().counts().reports == all; }));
         device->read();
