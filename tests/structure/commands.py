@@ -49,7 +49,7 @@ def read(build):
     written = [f for f in files if f.name.startswith("joined_")]
     for batch in (f for f in files if f.parent.name == "Unity"):
         made = [pathlib.Path(f) for f, _ in INCLUDED.findall(batch.read_text(encoding="utf-8")) if f.startswith(str(build))]
-        written += [f for f in made if not f.exists()]
+        written += [f for f in made if not f.exists() and "exported" not in f.parts]
     # Ninja itself would first build all libraries that the batch links.
     for file in sorted({f.relative_to(build) for f in written}):
         write = subprocess.run(["ninja", "-C", build, "-t", "commands", "-s", file], capture_output=True, text=True, check=True).stdout
