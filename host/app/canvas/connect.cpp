@@ -184,9 +184,8 @@ void CanvasCommands::exposeFromSelection()
 /// Wires run from left to right, so what is not wired yet gets into a row, as far as the view shows it: a hand at the left.
 juce::Point<float> CanvasCommands::placeFor (const std::string& type, const NodeRequest& request) const
 {
-    if (request.wire != 0) return request.at;
     const auto below = freePlace (canvas.scene(), request.at);
-    if (request.start) return below;
+    if (request.start || request.wire != 0) return below;
     const auto beside = placeInRow (canvas.scene(), request.at, type == "device.position");
     return canvas.isFitted() || canvas.getLocalBounds().toFloat().contains (canvas.view().toPixels (beside)) ? beside : below;
 }

@@ -19,6 +19,31 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// A value as it is shown on a node: a quantity, or a vector such as "(0, 0, 1)", with or without its parentheses and commas.
+Result<Json> readTyped (const std::string& text, const FacePort& port)
+{
+    const auto read = [&] (const std::string& part) -> Result<Json> {
+        const auto quantity = readQuantity (readValue (part), *port.sheet);
+        if (! quantity) return quantity.error();
+        return quantity->toJson();
+    };
+    if (port.width == 1) return read (text);
+    auto all = Json::array();
+    for (const auto& part : juce::StringArray::fromTokens (fromUtf8 (text).removeCharacters ("()"), text.find (',') == text.npos ? " " : ",", {}))
+    {
+        if (part.trim().isEmpty()) continue;
+        auto component = read (part.trim().toStdString());
+        if (! component) return component;
+        all.push_back (std::move (*component));
+    }
+    if (static_cast<int> (all.size()) != port.width)
+        return Message::error ("param/components", {}, filled (TRANS ("a vector has %1 components, such as (0, 0, 1)"), std::to_string (port.width)).toStdString());
+    return all;
+}
+}   // namespace
+
 const graph::Patch& CanvasCommands::patchShown() const
 {
     const auto* in = findPatch (document.graph(), canvas.patch());
@@ -309,16 +334,16 @@ void CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port
 void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
-    if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
+    if (sheet == nullptr || socket.port->isChoice()) return;
     if (! socket.driver.empty()) return canvas.notice (drivenText (socket.driver));
     const PortId id { node.id, Role::param, socket.port->id };
     const juce::String before (socket.value);
     canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, [this, id, before] (const juce::String& text) {
         const auto param = canvas.scene().findPort (id);
         if (text == before || ! param || param.port->sheet == nullptr) return;   // what is shown may be rounded
-        const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
-        if (! read) return canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (read.error().text));
-        setParam (*param.node, *param.port, read->toJson());
+        const auto value = readTyped (text.trim().toStdString(), *param.port);
+        if (! value) return canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (value.error().text));
+        setParam (*param.node, *param.port, *value);
     });
 }
 

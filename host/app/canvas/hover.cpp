@@ -55,6 +55,8 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at, const SceneWire* wire) con
         const auto* socket = node->paramAt (at);
         if (socket != nullptr && ! socket->driver.empty())
             return { node->id, filled (TRANS ("%1: %2. A wire from %3 sets it"), nameOf (*socket->port), socket->port->about, socket->driver) };
+        if (socket != nullptr && ! socket->port->isChoice() && socket->port->width != 1)
+            return { node->id, filled (TRANS ("%1: %2. Double-click to type it"), nameOf (*socket->port), socket->port->about) };
         if (socket != nullptr && ! socket->port->isChoice())
             return { node->id, filled (TRANS ("%1: %2. Drag to the right or up; hold Shift for fine steps"), nameOf (*socket->port), socket->port->about),
                      juce::MouseCursor::UpDownLeftRightResizeCursor };

@@ -139,8 +139,10 @@ TEST_CASE ("a node that is dropped from a position or a resistance gets its othe
 TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    bool is_new = false;   // a new node covers no other one; a dragged one stays where it is dropped
     SECTION ("by double-clicking the wire")
     {
+        is_new = true;
         rig.hand().doubleClick (rig.middleOf ("touch.gain -> grain_felt.gain"));
         REQUIRE (rig.request);
         REQUIRE (rig.request->wire != 0);
@@ -152,6 +154,9 @@ TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
         rig.hand().drag (rig.title ("slew"), rig.middleOf ("touch.gain -> grain_felt.gain"));
     }
     const auto& slew = rig.node ("slew");
+    const auto place = [] (const SceneNode& node) { return juce::Rectangle<float> (node.at.x, node.at.y, node.box.width, node.box.height); };
+    for (const auto& other : rig.canvas->scene().nodes())
+        if (is_new && other.name != "slew") CHECK_FALSE (place (other).intersects (place (slew)));
     const auto in = slew.face->inputs.front().id, out = slew.face->outputs.front().id;
     CHECK (rig.hasWire ("touch.gain -> slew." + in));
     CHECK (rig.hasWire ("slew." + out + " -> grain_felt.gain"));

@@ -123,3 +123,28 @@ TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, anot
     w.key ("ctrl + z");
     CHECK_FALSE (w.view->statusText().contains ("kg"));
 }
+
+TEST_CASE ("a vector is typed on its node, with or without parentheses and commas", "[app][canvas]")
+{
+    const auto text = GENERATE (as<std::string> {}, "(0, 1, 0.5)", "0 1 0.5", "0, 1, 0.5");
+    CAPTURE (text);
+    CanvasRig rig { CanvasRig::preset ("templates/stroke") };
+    const auto type = [&] (const std::string& typed) {
+        rig.hand().doubleClick (rig.value ("wall", "normal"));
+        auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+        REQUIRE (editor != nullptr);
+        CHECK (editor->getText().startsWith ("("));
+        editor->setText (typed);
+        editor->onReturnKey();
+    };
+    const auto normal = [&] {
+        const auto& params = rig.graph().root.find ("wall")->params;
+        return params.contains ("normal") ? params.at ("normal").dump() : std::string();
+    };
+    const auto before = normal();
+    type ("(0, 1)");
+    CHECK (normal() == before);
+    CHECK (rig.hint.contains ("a vector has 3 components"));
+    type (text);
+    CHECK (Json::parse (normal()) == Json::array ({ 0.0, 1.0, 0.5 }));
+}
