@@ -100,7 +100,9 @@ void LayerStrip::show()
 
     const auto held = controlOf (graph, pathOf ("gain"));
     held_by = held ? juce::String (held->name) : juce::String();
-    gain = held ? held->value : numberOf (*node, "gain");
+    const double now = held ? held->value : numberOf (*node, "gain");
+    if (now == 0.0 && gain != 0.0) unity_peak = feed.meter.peak() / std::abs (gain);
+    gain = now;
     driver = driverAt (graph, pathOf ("gain"));
     gain_field.setDriver (driver);
     gain_field.show (Json (decibelsOf (gain)));
@@ -182,7 +184,7 @@ void LayerStrip::nameControls (const juce::String& label)
     priority.setTitle (filled (TRANS ("Priority of %1"), label));
 }
 
-UnityLevel LayerStrip::unityLevel() const { return { gain == 0.0 ? 0.0 : feed.meter.peak() / std::abs (gain), feed.unit }; }
+UnityLevel LayerStrip::unityLevel() const { return { gain == 0.0 ? unity_peak : feed.meter.peak() / std::abs (gain), feed.unit }; }
 
 void LayerStrip::typeGain (const juce::String& text) { gain_field.type (text); }
 

@@ -323,9 +323,10 @@ void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juc
     }
     g.setFont (look.font (12.0f, bold));
     g.setColour (colour);
-    // A number that is too long is shown with fewer digits. The editor shows them all.
+    // A number that is too long is shown with fewer digits, but without an exponent: -120, not -1e+02. The editor shows them all.
     auto number = plainText (value.number);
-    for (int digits = 6; digits > 1 && g.getCurrentFont().getStringWidthFloat (number) > text.getWidth(); --digits)
+    const int least = 1 + static_cast<int> (std::clamp (std::log10 (std::max (1.0, std::abs (value.number))), 1.0, 5.0));
+    for (int digits = 6; digits >= least && g.getCurrentFont().getStringWidthFloat (number) > text.getWidth(); --digits)
     {
         char shorter[40];
         std::snprintf (shorter, sizeof shorter, "%.*g", digits, value.number);

@@ -200,6 +200,12 @@ TEST_CASE ("each of six layers of forces has a meter, and knows the level that a
         }
         CHECK (is_taken);
     }
+    auto& first = panel.layer (0);   // its level is known, also while it is off
+    first.typeGain ("off");
+    CHECK (first.shownGain() == 0.0);
+    WindowRig::settle (300);
+    first.typeGain ("7 mN");
+    CHECK (first.shownGain() != 0.0);
     w.view->run().letGo();
 }
 
