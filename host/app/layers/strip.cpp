@@ -72,7 +72,7 @@ void LayerStrip::connectFields()
     };
     send_gain.read = [] (const std::string& text) { return readGain (text, {}); };
     send_gain.onChange = [this] (const std::optional<Json>& db, bool goes_on) { setSendGain (db ? siOf (*db, decibelSheet()) : 0.0, goes_on); };
-    priority.onChange = [this] (std::optional<Json> to, bool goes_on) { setValue ("priority", std::move (to), goes_on); };
+    priority.onChange = [this] (const std::optional<Json>& to, bool goes_on) { setValue ("priority", to, goes_on); };
     priority.setCaption (TRANS ("P"));
     gain_field.onRefused = priority.onRefused = send_gain.onRefused = context->hint;
     priority.setTooltip (TRANS ("Priority") + ". " + tooltipOf (mixerSheet (context->catalogue, "priority")));
@@ -228,7 +228,7 @@ void LayerStrip::openSends()
     });
 }
 
-void LayerStrip::setGain (std::optional<Json> to, bool goes_on)
+void LayerStrip::setGain (const std::optional<Json>& to, bool goes_on)
 {
     if (! driver.empty())
     {
@@ -246,10 +246,10 @@ void LayerStrip::setGain (std::optional<Json> to, bool goes_on)
             show();
         return;
     }
-    setValue ("gain", std::move (to), goes_on);
+    setValue ("gain", to, goes_on);
 }
 
-void LayerStrip::setValue (const std::string& param, std::optional<Json> to, bool goes_on)
+void LayerStrip::setValue (const std::string& param, const std::optional<Json>& to, bool goes_on)
 {
     if (const auto* node = context->node()) context->perform (setLayerValue (*node, context->place, context->catalogue, param, layer, to), goes_on);
 }

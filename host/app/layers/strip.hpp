@@ -51,8 +51,8 @@ public:
     void refresh (const Traces::Client&, double dt_s, bool with_spectrum);
 
     // What the user does.
-    void setGain (std::optional<Json>, bool goes_on);
-    void setValue (const std::string& param, std::optional<Json>, bool goes_on);
+    void setGain (const std::optional<Json>&, bool goes_on);
+    void setValue (const std::string& param, const std::optional<Json>&, bool goes_on);
     void typeGain (const juce::String&);   ///< sets the gain, as if the user typed it: "-6 dB", "0.3 N"
     void setGate (bool on);
     void sendTo (const std::string& sink);   ///< turns the send to an output on or off; "" adds a vibration motor
