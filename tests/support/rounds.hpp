@@ -13,6 +13,6 @@ template <typename Number>
 Number rounds (Number usual)
 {
     const auto* percent = std::getenv ("TACTUS_ROUNDS");
-    return percent ? std::max<Number> (1, static_cast<Number> (static_cast<double> (usual) * std::atof (percent) / 100.0)) : usual;
+    return percent ? std::max<Number> (1, static_cast<Number> (static_cast<double> (usual) * std::strtod (percent, nullptr) / 100.0)) : usual;
 }
 }   // namespace tactus::test

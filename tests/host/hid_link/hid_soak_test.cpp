@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 std::uint64_t soakTicks()
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
-    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::atof (wanted))) : test::rounds (60'000ull);
+    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::strtod (wanted, nullptr))) : test::rounds (60'000ull);
 }
 
 /// A guard ticks on the device, with a push that turns round. Each answer is checked as it comes.

@@ -28,7 +28,7 @@ namespace
 std::uint64_t soakTicks()
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
-    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::atof (wanted))) : test::rounds (60'000ull);
+    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::strtod (wanted, nullptr))) : test::rounds (60'000ull);
 }
 
 bool pushes (const Bytes& report) { return numberAt (report, 8) != 0 || numberAt (report, 12) != 0 || numberAt (report, 16) != 0; }
