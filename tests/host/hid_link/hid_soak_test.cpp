@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same as wire_soak_test for HID: a device at the far end of a pair of sockets, which stands for the system's file of reports, is pushed for a while.
-// The port, its threads and the reading by the tick are those of a real device; hidapi and the kernel are tested in the guest (tests/guest).
+// The same as wire_soak_test, over HID. A pair of sockets takes the place of the system's file of reports. The port, its threads and the reading by the
+// tick are those of a real device. The guest (tests/guest) tests hidapi and the kernel.
 
 #include "fake_board.hpp"
 #include "socket_board.hpp"
@@ -12,8 +12,6 @@
 #include <catch2/catch.hpp>
 
 #if defined(__linux__)
-
-#include <poll.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -28,12 +26,6 @@ using namespace std::chrono_literals;
 namespace
 {
 using Clock = std::chrono::steady_clock;
-
-std::uint64_t soakTicks()
-{
-    const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
-    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::strtod (wanted, nullptr))) : test::rounds (60'000ull);
-}
 
 /// A guard ticks on the device, with a push that turns round. Each answer is checked as it comes.
 struct HidSoak
@@ -59,15 +51,7 @@ struct HidSoak
         device.reset();
     }
 
-    /// The next report that the board gets. Empty: none within this time.
-    test::Told hear (std::chrono::milliseconds longest) const
-    {
-        pollfd polled { .fd = board.end, .events = POLLIN, .revents = 0 };
-        Bytes bytes (65);
-        if (::poll (&polled, 1, static_cast<int> (longest.count())) <= 0) return {};
-        bytes.resize (static_cast<std::size_t> (std::max<ssize_t> (0, ::read (board.end, bytes.data(), bytes.size()))));
-        return { bytes, test::Told::How::output, {} };
-    }
+    test::Told hear (std::chrono::milliseconds longest) const { return { board.hear (longest), test::Told::How::output, {} }; }
 
     /// One report, whose sequence number wraps after 65 536, and its answer. False if the report is not read, or an answer is not that to this report.
     bool tick()
@@ -100,7 +84,7 @@ struct HidSoak
 TEST_CASE ("a long run over HID: each report is answered once and in order, and nothing pushes after a stop", "[hid][wires][soak]")
 {
     HidSoak soak;
-    const auto all = soakTicks();
+    const auto all = test::soakReports();
     while (soak.ticks < all)
     {
         const bool answered = soak.tick();

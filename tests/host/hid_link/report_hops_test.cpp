@@ -14,7 +14,6 @@
 
 #if defined(__linux__)
 
-#include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -52,14 +51,7 @@ struct FarEnd
 struct SocketEnd final : FarEnd
 {
     bool send (const Bytes& report) override { return sockets.send (report); }
-    Bytes hear() override
-    {
-        pollfd polled { .fd = sockets.end, .events = POLLIN, .revents = 0 };
-        Bytes bytes (65);
-        if (::poll (&polled, 1, 20000) <= 0) return {};
-        bytes.resize (static_cast<std::size_t> (std::max<ssize_t> (0, ::read (sockets.end, bytes.data(), bytes.size()))));
-        return bytes;
-    }
+    Bytes hear() override { return sockets.hear (20s); }
 
     test::SocketBoard sockets;
 };

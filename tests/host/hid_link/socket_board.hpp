@@ -3,6 +3,7 @@
 
 #include <host/hid_link/transport.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #if defined(__linux__)
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -32,6 +34,16 @@ public:
     bool send (std::span<const std::uint8_t> report) const
     {
         return ::send (end, report.data(), report.size(), MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t> (report.size());
+    }
+
+    /// The next report that the device gets. Empty: none within this time.
+    std::vector<std::uint8_t> hear (std::chrono::milliseconds longest) const
+    {
+        pollfd polled { .fd = end, .events = POLLIN, .revents = 0 };
+        std::vector<std::uint8_t> bytes (65);
+        if (::poll (&polled, 1, static_cast<int> (longest.count())) <= 0) return {};
+        bytes.resize (static_cast<std::size_t> (std::max<ssize_t> (0, ::read (end, bytes.data(), bytes.size()))));
+        return bytes;
     }
 
     std::vector<host::hid::ConnectedDevice> connected() override { return {}; }

@@ -25,12 +25,6 @@ using namespace tactus::test::wires;
 
 namespace
 {
-std::uint64_t soakTicks()
-{
-    const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
-    return wanted != nullptr ? static_cast<std::uint64_t> (1000.0 * std::max (1.0, std::strtod (wanted, nullptr))) : test::rounds (60'000ull);
-}
-
 bool pushes (const Bytes& report) { return numberAt (report, 8) != 0 || numberAt (report, 12) != 0 || numberAt (report, 16) != 0; }
 
 /// Ticks a guard on the bench, with a push that turns round, and checks each answer as it comes. Keeps no list, so that a long run needs no more memory.
@@ -122,7 +116,7 @@ void soakOver (Wire wire, const char* framing)
     Soak soak { bench };
     REQUIRE (soak.tick());   // with what came while the device was opened
     const auto before = bench.device->counts();
-    const auto all = soakTicks();
+    const auto all = test::soakReports();
     while (soak.ticks < all)
         if (! soak.tick())
         {
