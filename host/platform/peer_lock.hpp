@@ -9,9 +9,9 @@
 namespace tactus::host
 {
 
-/// The far end of a connected socket, which only one holder may drive, in this process or in another one of this computer, whoever has started it. The system
-/// releases it when the process ends, for whatever reason. All addresses of this computer count as one. Two addresses of another computer count as two,
-/// because nothing here tells that they lead to the same device. Works only on Linux; elsewhere, each call gets a lock. [any thread]
+/// A lock on the device at the far end of a connected socket. Only one role of one process on this computer can hold it, whichever user runs the process. The
+/// system releases it when the process ends, even after a crash. All addresses of this computer count as one. Two addresses of another computer count as
+/// two, because nothing shows that they lead to the same device. Works only on Linux; elsewhere, every call succeeds. [any thread]
 class PeerLock
 {
 public:

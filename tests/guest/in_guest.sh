@@ -50,7 +50,8 @@ recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
 say "programs and libraries are read into memory"
 programs=(build/release/bin/* build/release/lib/tactus/plugins/* plugins/* /usr/bin/python3)
 for tool in bash cat chmod cp grep head ls mkdir mv pgrep pkill rm sed seq setpriv sleep sort tail wc; do programs+=("$(type -P $tool)"); done
-[ -d build/release/python ] && readarray -t -O ${#programs[@]} programs < <(find build/release/python/ /usr/lib/python3/dist-packages/numpy /usr/lib/python3.*/lib-dynload -name '*.so'
+[ -d build/release/python ] && readarray -t -O ${#programs[@]} programs < <(
+    find build/release/python/ /usr/lib/python3/dist-packages/numpy /usr/lib/python3.*/lib-dynload -name '*.so'
     find /usr/lib/python3.*/ -maxdepth 3 -path '*__pycache__*' -o -maxdepth 1 -name '*.py')
 cat "${programs[@]}" $(ldd "${programs[@]}" 2>/dev/null | grep -o '/[^ :]*' | sort -u) >/dev/null 2>&1
 

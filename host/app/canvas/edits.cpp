@@ -39,7 +39,7 @@ Result<Json> readTyped (const std::string& text, const FacePort& port)
         all.push_back (std::move (*component));
     }
     if (static_cast<int> (all.size()) != port.width)
-        return Message::error ("param/components", {}, filled (TRANS ("a vector has %1 components, such as (0, 0, 1)"), std::to_string (port.width)).toStdString());
+        return Message::error ("param/components", {}, TRANS ("a vector has three components, such as (0, 0, 1)").toStdString());
     return all;
 }
 }   // namespace

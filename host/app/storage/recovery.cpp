@@ -26,7 +26,7 @@ fs::path lockIn (const fs::path& session) { return session / "lock"; }
 fs::path autosaveIn (const fs::path& session) { return session / "kept.json"; }
 fs::path trialIn (const fs::path& session) { return session / "trial"; }
 
-/// The takes that a session has recorded and that nothing was made of, each in a folder of its own.
+/// The takes of a session that the user has made nothing from yet, each in its own folder.
 std::vector<fs::path> takesIn (const fs::path& session)
 {
     std::vector<fs::path> all;

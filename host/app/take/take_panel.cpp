@@ -29,7 +29,7 @@ double secondsIn (const juce::String& text, double before)
     return number.containsOnly ("0123456789.,") ? wholeNumber (number.replaceCharacter (',', '.').toStdString()).value_or (before) : before;
 }
 
-/// Something was made of the take: nobody has to be asked about it, even after a crash, which finds this file in its folder.
+/// The user has made something from the take, so closing need not ask about it. Neither must the next start after a crash: the file tells it.
 void markAsUsed (Take::Recording& take)
 {
     take.is_saved = true;

@@ -144,7 +144,7 @@ TEST_CASE ("a vector is typed on its node, with or without parentheses and comma
     const auto before = normal();
     type ("(0, 1)");
     CHECK (normal() == before);
-    CHECK (rig.hint.contains ("a vector has 3 components"));
+    CHECK (rig.hint.contains ("a vector has three components"));
     type (text);
     CHECK (Json::parse (normal()) == Json::array ({ 0.0, 1.0, 0.5 }));
 }
