@@ -146,6 +146,7 @@ TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
         rig.hand().doubleClick (rig.middleOf ("touch.gain -> grain_felt.gain"));
         REQUIRE (rig.request);
         REQUIRE (rig.request->wire != 0);
+        rig.request->at = rig.node ("grain_felt").at;   // as on a short wire
         rig.canvas->commands().addNodeAt ("signal.slew", *rig.request);
     }
     SECTION ("by dropping a node on the wire")
