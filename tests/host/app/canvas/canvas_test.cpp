@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/model/clipboard.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
 
