@@ -48,7 +48,7 @@ std::shared_ptr<const Profile> profileOf (const std::string& id)
     if (auto found = profileNamed (all, id)) return found;
     std::vector<std::string> names;
     for (const auto& p : all.profiles)
-        if (p->wires.any()) names.push_back (p->id);
+        if (! p->inputs.empty()) names.push_back (p->id);
     fail (Message::error ("hid/unknown_profile", "", "there is no device profile " + quote (id), suggestion (id, names)));
 }
 
@@ -68,6 +68,20 @@ std::unique_ptr<Device> handOf (const std::string& text)
     for (const auto& m : made.messages)
         if (m.severity == Message::Severity::error) fail (Message::error (m.id, "--hand " + text + m.where, m.text, m.remedy));
     return std::move (made.device);
+}
+
+const char* nameOf (Wire wire)
+{
+    if (wire == Wire::hid) return "hid";
+    return wire == Wire::serial ? "serial" : "udp";
+}
+
+Wire wireOf (const FakeOptions& o, const Profile& profile)
+{
+    for (const auto wire : { Wire::serial, Wire::udp, Wire::hid })
+        if (o.wire == nameOf (wire)) return wire;
+    if (profile.wires.serial) return Wire::serial;
+    return profile.wires.udp ? Wire::udp : Wire::hid;
 }
 
 std::string textOf (const FakeDevice::Line& line)
@@ -199,13 +213,15 @@ void run (const FakeOptions& o)
     }
 #endif
     const auto profile = profileOf (o.profile);
-    const bool is_udp = o.wire == "udp" || (o.wire.empty() && ! profile->wires.serial);
-    FakeDevice::Options options { .wire = is_udp ? Wire::udp : Wire::serial, .link = o.link, .port = o.port, .faults = {} };
-    if (options.wire == Wire::udp && ! o.link.empty()) throw UsageError ("--link", "only a serial line has a name to link to");
+    FakeDevice::Options options { .wire = wireOf (o, *profile), .link = o.link, .port = o.port, .faults = {} };
+    if (options.wire != Wire::serial && ! o.link.empty()) throw UsageError ("--link", "only a serial line has a name to link to");
     for (const auto& text : o.faults)
     {
         options.faults.push_back (orFail (readFault (text)));
-        if (isOfService (options.faults.back().kind)) fail (Message::error ("fake/fault", text, "only a service has this fault", "choose another fault"));
+        const auto kind = options.faults.back().kind;
+        if (isOfService (kind)) fail (Message::error ("fake/fault", text, "only a service has this fault", "choose another fault"));
+        if (kind == DeviceFault::Kind::missed && options.wire != Wire::serial)
+            fail (Message::error ("fake/fault", text, "only a serial line has this fault", "choose another fault, or \"--wire serial\""));
     }
     auto fake = orFail (FakeDevice::make (profile, handOf (o.hand), options));
 
@@ -216,9 +232,9 @@ void run (const FakeOptions& o)
         if (! log) fail (Message::error ("output/unwritable", o.log, "the log cannot be written", "name a file in a folder that you may write to"));
         fake->on_line = [&log] (const FakeDevice::Line& line) { log << textOf (line); };
     }
-    const auto driver = options.wire == Wire::udp ? "udp" : "serial";
     const auto place = ! o.link.empty() ? o.link : fake->place();
-    std::cout << "a fake " << profile->name << " is at " << place << "; play on it: --device ROLE=" << driver << ":" << profile->id << "@" << place << "\n"
+    std::cout << "a fake " << profile->name << " is at " << place << "; play on it: --device ROLE=" << nameOf (options.wire) << ":" << profile->id
+              << (options.wire == Wire::hid ? "" : "@" + place) << "\n"
               << std::flush;
     play (*fake, o.duration_s, log);
     const auto n = fake->counts();
@@ -231,12 +247,15 @@ void run (const FakeOptions& o)
 void addFakeDevice (const Command& app)
 {
     const auto options = std::make_shared<FakeOptions>();
-    const auto command = app.add ("fake-device", "Simulate a device at the far end of a wire, to test programs without hardware");
+    const auto command = app.add ("fake-device", "Simulate a device, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
-                    "The id of a profile that names a wire, such as tactus_board; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
+                    "The id of a profile, such as tactus_board; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
         .required();
-    command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
+    command
+        .addOption ("--wire", options->wire,
+                    "The wire: serial, udp, or hid, a virtual device of the kernel, which needs root; default: the first that the profile knows")
+        .check (oneOf ({ "serial", "udp", "hid" }));
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
     command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
     command.addOption ("--hand", options->hand,
@@ -252,6 +271,7 @@ void addFakeDevice (const Command& app)
                     "  tactus fake-device tactus_board --link board --log heard.txt\n"
                     "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@board\n"
                     "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1\n"
+                    "  sudo tactus fake-device tactus_board --wire hid\n"
                     "  tactus fake-device haply_2diy --link arm --fault missed_byte@5:0.001\n"
                     "  tactus fake-device haply_inverse3 --port 10001\n"
                     "  tactus fake-device bhaptics_vest --port 15881");

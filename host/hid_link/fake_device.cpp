@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -101,7 +103,7 @@ Result<DeviceFault> readFault (std::string_view text)
 
 FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device> h, Options o)
     : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
-      watchdog (profile->limits.device_watchdog), port (options.port), side (profile),
+      watchdog (profile->limits.device_watchdog), port (options.port), serial ("fake-" + std::to_string (std::random_device {}())), side (profile),
       framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none),
       answers (framing == Framing::answer),
       init (answers ? stepsOf (*profile) : std::vector<Bytes> {}),
@@ -119,7 +121,8 @@ FakeDevice::~FakeDevice()
 
 Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Profile> profile, std::unique_ptr<Device> hand, Options options)
 {
-    const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp && profile->wires.udp;
+    const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp ? profile->wires.udp
+                                                                                                                    : true;
     if (! knows)
         return Message::error ("fake/wire", profile->id,
                                "the profile " + quote (profile->id) + " has no wire " + quote (options.wire == Wire::serial ? "serial" : "udp"),
@@ -129,12 +132,15 @@ Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Prof
         return Message::error ("fake/link", options.link, "there is a link with this name, which leads to a file", "remove it, or name another one");
     std::unique_ptr<FakeDevice> fake (new FakeDevice (std::move (profile), std::move (hand), std::move (options)));
     if (auto connected = fake->connect(); ! connected) return std::move (connected).error();
+    if (fake->hid)
+        if (auto found = fake->findFile(); ! found) return std::move (found).error();
     return fake;
 }
 
 /// Makes the far end of the wire, of a serial line under another name than the last one.
 Result<> FakeDevice::connect()
 {
+    if (options.wire == Wire::hid) return plug();
     const auto old_name = name;
     auto made = options.wire == Wire::serial ? WireFile::makeTerminal (name) : WireFile::listenUdp (port);
     if (made && options.wire == Wire::serial && name == old_name)
@@ -150,6 +156,40 @@ Result<> FakeDevice::connect()
     return {};
 }
 
+Result<> FakeDevice::plug()
+{
+    const auto identity = identityOf (*profile);
+    if (! identity) return identity.error();
+    auto plugged = VirtualHid::plug (*identity, serial);
+    if (! plugged) return std::move (plugged).error();
+    hid = std::move (*plugged);
+    hid->on_ask = [this] (std::uint8_t id) { return answerTo (id); };
+    return {};
+}
+
+/// Waits for the device's file. A driver of the kernel may ask it for reports first.
+Result<> FakeDevice::findFile()
+{
+    constexpr std::chrono::milliseconds longest { 5000 }, pause { 10 };
+    Bytes report (longest_report + 1);
+    for (const auto end = WireFile::Clock::now() + longest; WireFile::Clock::now() < end;)
+    {
+        static_cast<void> (hid->read (report, WireFile::Clock::now() + pause));
+        if (name = hid->path(); ! name.empty()) return {};
+    }
+    return Message::error ("fake/hidraw", profile->id, "the kernel has made no file /dev/hidraw* for the device",
+                           "load the module hid-generic; a device that the kernel has a driver of its own for needs more than a profile describes");
+}
+
+/// What it answers if it is asked for a report: the latest one of this id, or a feature report of `init`.
+Bytes FakeDevice::answerTo (std::uint8_t id) const
+{
+    if (is (FaultKind::stall) || is (FaultKind::reset)) return {};
+    const bool has_ids = profile->inputs.front().id.has_value();
+    const auto latest = std::ranges::find_if (previous, [&] (const auto& r) { return ! has_ids || r.front() == id; });
+    return latest != previous.end() ? *latest : featureOf (*profile, id);
+}
+
 bool FakeDevice::is (FaultKind kind) const noexcept
 {
     return std::ranges::any_of (options.faults, [&] (const auto& f) { return f.kind == kind && time() >= f.from && time() < f.to; });
@@ -161,10 +201,11 @@ void FakeDevice::comeAndGo()
     if (is (FaultKind::away))
     {
         wire.reset();
+        hid.reset();
         restart();
         return;
     }
-    if (! wire && connect()) restart();   // else tried again on the next step
+    if (! isConnected() && connect()) restart();   // else tried again on the next step
 }
 
 void FakeDevice::restart()
@@ -194,7 +235,7 @@ void FakeDevice::step()
     hand->write (applied);
     hand_reading = hand->read();
     side.hold (is (FaultKind::lie));
-    if (! wire || answers || is (FaultKind::stall) || is (FaultKind::reset)) return;
+    if (! isConnected() || answers || is (FaultKind::stall) || is (FaultKind::reset)) return;
     std::vector<Bytes> reports;
     for (std::size_t i = 0; i < side.inputs(); ++i)
         if (side.tellsSomething (i)) reports.push_back (side.input (i, hand_reading, time()));
@@ -208,12 +249,19 @@ void FakeDevice::step()
 
 bool FakeDevice::hear (WireFile::Clock::time_point until)
 {
-    if (! wire || is (FaultKind::stall) || is (FaultKind::reset)) return false;
+    if (! isConnected() || is (FaultKind::stall) || is (FaultKind::reset)) return false;
     lines.lose (is (FaultKind::missed));
-    Bytes report (longest_report + 1);
-    const auto got = options.wire == Wire::udp ? wire->read (report, until) : lines.read (*wire, report, until);
+    Bytes bytes (longest_report + 1);
+    WireFile::Outcome got;
+    if (hid)
+        got = hid->read (bytes, until);
+    else
+        got = options.wire == Wire::udp ? wire->read (bytes, until) : lines.read (*wire, bytes, until);
     if (got.what != WireFile::Outcome::Kind::report) return false;
-    take (std::span (report).first (got.size));
+    auto report = std::span (bytes).first (got.size);
+    const auto isAsLong = [&] (const auto& out) { return ! out.id && out.body.size() + 1 == report.size(); };
+    if (hid && std::ranges::any_of (profile->outputs, isAsLong)) report = report.subspan (1);   // the 0 of a report without an id
+    take (report);
     return true;
 }
 
@@ -261,7 +309,10 @@ void FakeDevice::send (const Bytes& report)
             byte = static_cast<std::uint8_t> (random());
     if (is (FaultKind::half)) bytes.resize (bytes.size() / 2);
     if (is (FaultKind::lost_byte)) bytes.erase (bytes.begin() + static_cast<std::ptrdiff_t> (bytes.size() / 2));
-    static_cast<void> (wire->write (bytes));   // a program that does not read loses reports
+    if (hid)
+        hid->send (bytes);
+    else
+        static_cast<void> (wire->write (bytes));   // a program that does not read loses reports
 }
 
 void FakeDevice::tell (Line::What what, std::span<const std::uint8_t> bytes) const

@@ -3,6 +3,7 @@
 
 #include "line_reader.hpp"
 #include "transport.hpp"
+#include "virtual_hid.hpp"
 
 #include <host/hid/device_side.hpp>
 
@@ -29,9 +30,9 @@ struct DeviceFault
     {
         stall,       ///< sends nothing and takes nothing
         garbage,     ///< sends random bytes instead of reports
-        half,        ///< sends only the first half of a report's bytes on the wire
+        half,        ///< sends only the first half of a report's bytes
         lost_byte,   ///< leaves out a byte in the middle of a report
-        missed,      ///< misses the last byte of the bytes that come together
+        missed,      ///< serial lines only: misses the last byte of the bytes that come together
         reset,       ///< is being reset; comes back on the same line as if switched on again, and has forgotten what `init` has set up
         late,        ///< after each report, sends the previous one again
         lie,         ///< an encoder stops counting, or, without encoders, the first coordinate is frozen
@@ -50,8 +51,8 @@ constexpr bool isOfService (DeviceFault::Kind kind) noexcept { return kind == De
 /// Reads "stall", "stall@2" (from 2 s on) or "stall@2:0.5" (for half a second). Id: fake/fault.
 Result<DeviceFault> readFault (std::string_view);
 
-/// Simulates the device of a profile at the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool and feels the
-/// force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
+/// Simulates the device of a profile at the far end of a serial line (a pseudo-terminal) or of UDP, or as a HID device of the kernel. A simulated hand moves
+/// its tool and feels the force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
 /// if no valid report comes for its watchdog (`device_watchdog` of the profile; without one it keeps them on), and if an enable bit is 0.
 ///
 /// It sends only reports with values or buttons: no signs of life and the like, which some devices send, too.
@@ -93,7 +94,8 @@ public:
         std::uint64_t released = 0;   ///< times that the watchdog has released the motors
     };
 
-    /// The hand may be any simulated device. Its layout is not used. Ids: device/wire, fake/wire if the profile does not know the wire, fake/link.
+    /// The hand may be any simulated device. Its layout is not used. Ids: device/wire, fake/wire if the profile does not know the wire, fake/link; of HID those
+    /// of VirtualHid, and fake/hidraw if the kernel makes no file of the device.
     static Result<std::unique_ptr<FakeDevice>> make (std::shared_ptr<const Profile>, std::unique_ptr<Device> hand, Options);
 
     ~FakeDevice();
@@ -112,7 +114,7 @@ public:
     /// Takes a report that has come, or waits for one. False if none comes. step() calls it without waiting, until there is none.
     bool hear (WireFile::Clock::time_point until);
 
-    std::string place() const { return name; }   ///< what a program opens: "/dev/pts/3", "127.0.0.1:9750"
+    std::string place() const { return name; }   ///< what a program opens: "/dev/pts/3", "127.0.0.1:9750", "/dev/hidraw3"
     double rate() const noexcept { return rate_hz; }
     double time() const noexcept { return static_cast<double> (steps) / rate_hz; }   ///< s
     const Effort& effort() const noexcept { return applied; }                        ///< what the motors do now
@@ -123,6 +125,10 @@ private:
     FakeDevice (std::shared_ptr<const Profile>, std::unique_ptr<Device> hand, Options);
 
     Result<> connect();
+    Result<> plug();
+    Result<> findFile();
+    bool isConnected() const noexcept { return wire || hid; }
+    Bytes answerTo (std::uint8_t id) const;
     bool is (DeviceFault::Kind) const noexcept;
     void comeAndGo();
     void restart();
@@ -137,8 +143,10 @@ private:
     Options options;
     const double rate_hz, watchdog;
     int port = 0;
+    const std::string serial;   // of a HID device: no other one has it
     std::string name;
-    std::optional<WireFile> wire;
+    std::optional<WireFile> wire;   // this or the other, or none while it is away
+    std::unique_ptr<VirtualHid> hid;
     DeviceSide side;
     Framing framing = Framing::none;
     const bool answers;

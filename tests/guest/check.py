@@ -29,11 +29,30 @@ def text(name):
         return f.read()
 
 
+def rows_of_fake(log):
+    """The log of fake-device, as rows of the board's log."""
+    number = lambda report, at: int.from_bytes(report[at:at + 4], "little", signed=True)
+    for line in log.splitlines():
+        step, what, report = line.split(" ", 2)
+        if what == "!":
+            continue
+        report = bytes.fromhex(report)
+        where = 12 if what == ">" else 8
+        three = [str(number(report, where + 4 * i)) for i in range(3)]
+        if what == ">":
+            yield ["in", "good", str(number(report, 4)), *three]
+        else:
+            yield ["out", "driven" if report[2] & 1 else "other" if any(report[2:60]) else "neutral", str(number(report, 4)), *three, str(1e-3 * int(step))]
+
+
 class Board:
     """The log of a board: what it sent and received, in order."""
 
     def __init__(self, name):
-        self.rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
+        if os.path.exists(os.path.join(folder, name + ".fake.log")):
+            self.rows = list(rows_of_fake(text(name + ".fake.log")))
+        else:
+            self.rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
         self.sent = [(r[1], int(r[2])) for r in self.rows if r[0] == "in"]
         self.place = {tuple(int(v) for v in r[3:6]): int(r[2]) for r in self.rows if r[0] == "in"}
         self.heard = [(r[1], int(r[2]), tuple(int(v) for v in r[3:6]), float(r[6])) for r in self.rows if r[0] == "out" and len(r) == 7]
@@ -129,6 +148,18 @@ check(said["refused"] == 0 and said["taken"] > 300, f"loop: {said['taken']} repo
 check(full > 0, "loop: after the ramp the device gets the graph's force unchanged")
 check(said["lost"] == 0, "loop: no report is lost")
 check("which tick the run directly" in text("loop.play.err"), "loop: the tick thread reads the board itself")
+
+board, said, full = closed_loop("fake_loop")
+check(said["refused"] == said["lost"] == 0 and said["taken"] > 300 and full > 0, f"fake_loop: {said['taken']} reports of fake-device decoded")
+check(" 0 refused, 0 stray bytes" in text("fake_loop.fake.txt"), "fake_loop: fake-device refused no report")
+
+heard = Board("fake_faults").heard
+pushed = [h for h in heard if h[0] == "driven" and any(h[2])]
+gap = max((b[3] - a[3] for a, b in zip(pushed, pushed[1:])), default=0.0)
+check(len(pushed) > 1000 and gap > 0.5, f"fake_faults: fake-device is pushed {len(pushed)} times, and not for {gap:.2f} s, in which it is away")
+check(heard[-1][0] == "neutral" and heard[-1][3] - pushed[-1][3] < 0.15, "fake_faults: once its player is killed, the last report is neutral")
+check("fake/hidraw" in text("fake_dualsense.txt"), "a DualSense of fake-device is refused, as the kernel's driver refuses it")
+check("play on it: --device ROLE=hid:woodenhaptics_usb" in text("fake_woodenhaptics.txt"), "fake-device is a WoodenHaptics arm")
 
 if os.path.exists(os.path.join(folder, "usb.board.csv")):
     board, said, _ = closed_loop("usb")

@@ -49,7 +49,7 @@ recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
 
 say "programs and libraries are read into memory"
 programs=(build/release/bin/* build/release/lib/tactus/plugins/* plugins/* /usr/bin/python3)
-for tool in bash cat chmod cp grep head ls mkdir mv pgrep pkill rm sed seq setpriv sleep sort tail wc; do programs+=("$(type -P $tool)"); done
+for tool in awk bash cat chmod cp grep head ls mkdir mv pgrep pkill rm sed seq setpriv sleep sort tail wc; do programs+=("$(type -P $tool)"); done
 [ -d build/release/python ] && readarray -t -O ${#programs[@]} programs < <(
     find build/release/python/ /usr/lib/python3/dist-packages/numpy /usr/lib/python3.*/lib-dynload -name '*.so'
     find /usr/lib/python3.*/ -maxdepth 3 -path '*__pycache__*' -o -maxdepth 1 -name '*.py')
@@ -173,6 +173,46 @@ for signal in INT KILL STOP hang; do
     unplug
     keep driver_$signal
 done
+
+# The board of fake-device. The program has another name than the one that plays.
+ln -s "$PWD/$tactus" $work/fake
+inputs=$(compgen -G '/sys/class/input/event*' | wc -l)
+pretend () { gone; $work/fake fake-device tactus_board --wire hid --log $work/fake.log "$@" >$work/fake.txt 2>&1 & sim=$!; wait_for '/dev/hidraw*'; }
+keep_fake () { unplug; mv $work/fake.log "/run/results/$1.fake.log"; mv $work/fake.txt "/run/results/$1.fake.txt"; keep "$1"; }
+say "fake-device as a HID device: a closed loop"
+pretend
+play --duration 3 "${recorded[@]}" || fail "the closed loop with fake-device"
+keep_fake fake_loop
+
+say "fake-device as a HID device: half reports, unplugged and plugged in again, and its player killed"
+pretend --fault half@4:0.05 --fault away@5:0.5
+play --duration 600 & player=$!
+for _ in $(seq 6000); do   # its time is the number of its steps
+    tail -n 1 $work/fake.log | awk '{ exit $1 < 9000 }' && tail -n 50 $work/fake.log | grep -q '< 54 01 01' && break
+    sleep 0.1
+done
+to_player KILL
+wait $player
+sleep 0.5
+keep_fake fake_faults
+
+say "fake-device with a profile that says it is a keyboard"
+sed -e 's/"id": "woodenhaptics_usb"/"id": "keys"/' \
+    -e 's/"vid": "0x1234", "pid": "0x0006"/"vid": "0x1209", "pid": "0x0001", "usage_page": "0x0001", "usage": "0x0006"/' \
+    host/profiles/woodenhaptics_usb.json >$work/profiles/keys.json
+gone
+$work/fake fake-device keys --duration 1 >/run/results/fake_keys.txt 2>&1 & sim=$!
+wait_for '/dev/hidraw*'
+sleep 0.5
+[ "$(compgen -G '/sys/class/input/event*' | wc -l)" -eq "$inputs" ] || fail "fake-device is a keyboard"
+wait $sim || fail "a device that says it is a keyboard"
+rm $work/profiles/keys.json
+
+say "fake-device as a HID device that the kernel has its own driver for"
+gone
+$work/fake fake-device dualsense_usb --duration 1 >/run/results/fake_dualsense.txt 2>&1
+[ $? -eq 1 ] || fail "a DualSense of fake-device must be an error"
+$work/fake fake-device woodenhaptics_usb --duration 1 >/run/results/fake_woodenhaptics.txt 2>&1 || fail "a WoodenHaptics arm of fake-device"
 
 # gadget: creates a board on its own bus, behind the kernel's USB stack.
 gadget=/sys/kernel/config/usb_gadget/board

@@ -64,7 +64,7 @@ int joystick (const std::vector<std::string>& args)
     std::signal (SIGTERM, [] (int) { ended = 1; });
     std::ifstream file (text (args, "file", ""), std::ios::binary);
     const std::vector<char> bytes { std::istreambuf_iterator<char> (file), {} };
-    if (bytes.empty() || bytes.size() > HID_MAX_DESCRIPTOR_SIZE) return 2;
+    if (bytes.empty() || bytes.size() > 4096) return 2;   // of the kernel
     const std::vector<std::uint8_t> descriptor (bytes.begin(), bytes.end());
 
     Log log;
@@ -74,11 +74,11 @@ int joystick (const std::vector<std::string>& args)
     std::array<std::uint8_t, 25> latest = reportAt (0.0);
     const auto plug = [&] {
         auto device = std::make_unique<Uhid> ("Test joystick", "J1", std::uint16_t { 0x1209 }, std::uint16_t { 0xffb0 }, descriptor);
-        device->on_ask = [&] (std::uint8_t id) -> std::vector<std::uint8_t> {
+        device->answerWith ([&] (std::uint8_t id) -> std::vector<std::uint8_t> {
             if (id == place && answers) return { latest.begin(), latest.end() };
             if (id != block_load || ! asked) return {};
             return { block_load, block, static_cast<std::uint8_t> (block > 0 ? 1 : 2), 0, 0x10 };
-        };
+        });
         return device;
     };
     Mark mark (args);

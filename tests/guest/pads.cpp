@@ -13,22 +13,11 @@ namespace
 {
 volatile std::sig_atomic_t ended = 0;
 
-struct ReportShape
-{
-    std::uint8_t id, length;   // without the id
-};
+/// The kernel's drivers know the layouts by heart, but the kernel passes on only reports that the descriptor has.
+host::hid::Bytes descriptorOf (std::initializer_list<host::hid::ReportSize> reports) { return host::hid::describeReports (0xff00, 1, reports); }
 
-// A vendor's page with some reports. The kernel's drivers know the layouts by heart, but the kernel passes on only reports that the descriptor has.
-std::vector<std::uint8_t> descriptorOf (std::initializer_list<ReportShape> inputs, std::initializer_list<ReportShape> outputs)
-{
-    std::vector<std::uint8_t> all { 0x06, 0x00, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x75, 0x08, 0x15, 0x00, 0x26, 0xff, 0x00 };
-    for (const auto& [id, length] : inputs)
-        all.insert (all.end(), { 0x85, id, 0x95, length, 0x09, 0x02, 0x81, 0x02 });
-    for (const auto& [id, length] : outputs)
-        all.insert (all.end(), { 0x85, id, 0x95, length, 0x09, 0x03, 0x91, 0x02 });
-    all.push_back (0xc0);
-    return all;
-}
+using Kind = host::hid::DescribedField::Kind;
+constexpr auto in = Kind::input, out = Kind::output;
 
 struct Log
 {
@@ -81,8 +70,8 @@ int dualSense (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
     Log log;
-    Uhid device ("Test DualSense", "01:02:03:04:05:06", 0x054c, 0x0ce6, descriptorOf ({ { 1, 63 } }, { { 2, 47 } }));
-    device.on_ask = featureOfDualSense;
+    Uhid device ("Test DualSense", "01:02:03:04:05:06", 0x054c, 0x0ce6, descriptorOf ({ { in, 1, 63 }, { out, 2, 47 } }));
+    device.answerWith (featureOfDualSense);
     const auto heard = [&] (std::span<const std::uint8_t> report) { log.add (report); };
     const double end = now() + option (args, "seconds", 10.0);
     std::array<std::uint8_t, 64> report {};
@@ -104,7 +93,7 @@ int switchPro (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
     Log log;
-    const auto descriptor = descriptorOf ({ { 0x21, 48 }, { 0x30, 48 }, { 0x81, 63 } }, { { 0x01, 48 }, { 0x10, 48 }, { 0x80, 63 } });
+    const auto descriptor = descriptorOf ({ { in, 0x21, 48 }, { in, 0x30, 48 }, { in, 0x81, 63 }, { out, 0x01, 48 }, { out, 0x10, 48 }, { out, 0x80, 63 } });
     Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptor);
     std::array<std::uint8_t, 64> report {};
     const auto state = [&] (std::uint8_t id) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <linux/uhid.h>
+#include <host/hid_link/virtual_hid.hpp>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -9,15 +9,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::guest
@@ -55,115 +56,54 @@ inline timespec waitUntil (double until)
     return { 0, left > 0.0 ? static_cast<long> (std::min (left, 0.5) * 1e9) : 0 };
 }
 
-/// A device through the kernel's uhid (Linux: Documentation/hid/uhid.rst), without a bus.
+/// A device through the kernel's uhid, without a bus.
 class Uhid final : public VirtualDevice
 {
 public:
-    static constexpr std::uint16_t usb = 3;
-
     Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
     {
-        fd = ::open ("/dev/uhid", O_RDWR | O_CLOEXEC);
-        if (fd < 0)
+        host::hid::DeviceIdentity identity;
+        identity.info.product = name;
+        identity.info.vid = vid;
+        identity.info.pid = pid;
+        identity.descriptor.assign (descriptor.begin(), descriptor.end());
+        auto plugged = host::hid::VirtualHid::plug (identity, serial);
+        if (! plugged)
         {
-            std::perror ("/dev/uhid");
+            std::fprintf (stderr, "%s\n", describe (plugged.error()).c_str());
             std::exit (2);
         }
-        uhid_event e {};
-        e.type = UHID_CREATE2;
-        auto& c = e.u.create2;
-        std::snprintf (reinterpret_cast<char*> (c.name), sizeof c.name, "%s", name);
-        std::snprintf (reinterpret_cast<char*> (c.uniq), sizeof c.uniq, "%s", serial);
-        std::memcpy (c.rd_data, descriptor.data(), descriptor.size());
-        c.rd_size = static_cast<std::uint16_t> (descriptor.size());
-        c.bus = usb;
-        c.vendor = vid;
-        c.product = pid;
-        tell (e);
+        device = std::move (*plugged);
     }
-
-    ~Uhid() override
-    {
-        uhid_event e {};
-        e.type = UHID_DESTROY;
-        tell (e);
-        ::close (fd);
-    }
-
-    Uhid (const Uhid&) = delete;
-    Uhid& operator= (const Uhid&) = delete;
 
     /// The answer to a request for the report with this id. Empty: the request is refused.
-    std::function<std::vector<std::uint8_t> (std::uint8_t)> on_ask {};
+    void answerWith (std::function<std::vector<std::uint8_t> (std::uint8_t)> answer) { device->on_ask = std::move (answer); }
 
-    bool input (std::span<const std::uint8_t> report) override
-    {
-        uhid_event e {};
-        e.type = UHID_INPUT2;
-        e.u.input2.size = static_cast<std::uint16_t> (report.size());
-        std::memcpy (e.u.input2.data, report.data(), report.size());
-        tell (e);
-        return true;
-    }
-
-    bool isOpen() const override { return opened; }
+    bool input (std::span<const std::uint8_t> report) override { return device->send (report); }
+    bool isOpen() const override { return device->isOpen(); }
 
     void serve (double until, const Heard& output) override
     {
-        for (;;)
+        using Clock = host::hid::VirtualHid::Clock;
+        std::array<std::uint8_t, host::hid::longest_report> report {};
+        for (double t = now(); t < until; t = now())
         {
-            const auto wait = waitUntil (until);
-            pollfd p { fd, POLLIN, 0 };
-            if (::ppoll (&p, 1, &wait, nullptr) <= 0)
-            {
-                if (now() >= until) return;
-                continue;
-            }
-            uhid_event e {};
-            if (::read (fd, &e, sizeof e) <= 0) return;
-            if (e.type == UHID_OPEN) opened = true;
-            if (e.type == UHID_CLOSE) opened = false;
-            if (e.type == UHID_OUTPUT) output (std::span<const std::uint8_t> (e.u.output.data, e.u.output.size));
-            if (e.type == UHID_GET_REPORT) reply (e);
-            if (e.type == UHID_SET_REPORT)
-            {
-                output (std::span<const std::uint8_t> (e.u.set_report.data, e.u.set_report.size));
-                uhid_event reply {};
-                reply.type = UHID_SET_REPORT_REPLY;
-                reply.u.set_report_reply.id = e.u.set_report.id;
-                tell (reply);
-            }
+            const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (until - t));
+            const auto got = device->read (report, end);
+            if (got.what == host::ReportFile::Outcome::Kind::failure) return;
+            if (got.what == host::ReportFile::Outcome::Kind::report) output (std::span (report).first (got.size));
         }
     }
 
 private:
-    void tell (const uhid_event& e)
-    {
-        if (::write (fd, &e, sizeof e) < 0) std::perror ("uhid");
-    }
-
-    void reply (const uhid_event& asked)
-    {
-        const auto report = on_ask ? on_ask (asked.u.get_report.rnum) : std::vector<std::uint8_t> {};
-        uhid_event e {};
-        e.type = UHID_GET_REPORT_REPLY;
-        auto& r = e.u.get_report_reply;
-        r.id = asked.u.get_report.id;
-        r.err = report.empty() ? EIO : 0;
-        r.size = static_cast<std::uint16_t> (report.size());
-        std::memcpy (r.data, report.data(), report.size());
-        tell (e);
-    }
-
-    int fd = -1;
-    bool opened = false;
+    std::unique_ptr<host::hid::VirtualHid> device;
 };
 
 /// The value of "--name VALUE" in the arguments.
 inline double option (const std::vector<std::string>& args, const std::string& name, double otherwise)
 {
     for (std::size_t i = 0; i + 1 < args.size(); ++i)
-        if (args[i] == "--" + name) return std::atof (args[i + 1].c_str());
+        if (args[i] == "--" + name) return std::strtod (args[i + 1].c_str(), nullptr);
     return otherwise;
 }
 

@@ -41,6 +41,8 @@ std::vector<std::string> linesOf (const std::string& log, const std::string& wha
     return found;
 }
 
+const std::string dry_wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+
 const std::string drives = "< 54 01 01 00", rests = "< 54 01 00 00";
 
 /// The device of a profile, played by the program, and what another program opens.
@@ -174,7 +176,7 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     const auto link = scratch.path ("board");
     Running fake { { "fake-device", "tactus_board", "--link", link } };
     REQUIRE (eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
-    const auto ran = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--device", "stylus=serial:tactus_board@" + link, "--duration", "2",
+    const auto ran = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + link, "--duration", "2",
                                   "--session", "off", "--osc", "off", "--out", scratch.path ("out.csv"), "--record", "drag.force" });
     INFO (ran.out + ran.err);
     CHECK (ran.status == 0);
@@ -184,7 +186,7 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     const auto silent = scratch.path ("silent");
     Running mute { { "fake-device", "tactus_board", "--link", silent, "--fault", "stall" } };
     REQUIRE (eventually ([&] { return mute.out().find ("ROLE=") != std::string::npos; }));
-    const auto waited = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--device", "stylus=serial:tactus_board@" + silent, "--duration", "0.5",
+    const auto waited = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + silent, "--duration", "0.5",
                                      "--session", "off", "--osc", "off" });
     INFO (waited.out + waited.err);
     CHECK (waited.err.find ("stylus: warning: the guard withheld the force: ") != std::string::npos);
@@ -252,6 +254,9 @@ TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires
     CHECK (refused ({ "tactus_board", "--hand", "gesture:wave" }, "device/unknown_gesture"));
     CHECK (refused ({ "tactus_board", "--hand", "hid:auto" }, "device/real"));
     CHECK (refused ({ "tactus_board", "--wire", "udp", "--link", "board" }, "--link"));
+    CHECK (refused ({ "tactus_board", "--wire", "hid", "--link", "board" }, "--link"));
+    CHECK (refused ({ "tactus_board", "--wire", "udp", "--fault", "missed_byte@1:1" }, "only a serial line has this fault"));
+    CHECK (refused ({ "haply_2diy", "--wire", "hid" }, "describes no HID device"));
     const test::Scratch scratch;
     const auto file = scratch.write ("file", "mine"), link = scratch.path ("link");
     CHECK (refused ({ "tactus_board", "--link", file }, "fake/link"));
