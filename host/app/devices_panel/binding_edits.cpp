@@ -27,11 +27,14 @@ void DevicesPanel::bind (const std::string& role, const std::string& label)
             s.bind (role, rebound (now, profile ? simulationOf (*profile, now) : to));
     });
     if (boundNow (role) == before) return;
-    const auto exchange = [safe = SafePointer (this), role, other = std::make_shared<Json> (before)] {
-        if (safe != nullptr) *other = safe->putDevice (role, *other);
+    const auto along = std::make_shared<std::function<void()>>();
+    const auto exchange = [safe = SafePointer (this), role, along, other = std::make_shared<Json> (before)] {
+        if (safe == nullptr) return;
+        *other = safe->putDevice (role, *other);
+        if (*along) (*along)();
     };
     document.addWindowStep (filled (TRANS ("device of %1"), role).toStdString(), exchange, exchange);
-    if (onBind) onBind (role);
+    if (onBind) *along = onBind (role);
 }
 
 /// Gives a role an earlier device; null: that of the graph. Returns the binding before. Its guard stays, unless one of the two is of another kind.

@@ -25,7 +25,8 @@ public:
 
     std::function<void (const juce::String&)> onHint;
     std::function<Result<> (const std::string& role)> onTry;   ///< plays a gentle pulse on the device of a role
-    std::function<void (const std::string& role)> onBind;      ///< the user has chosen another device for a role
+    /// The user has chosen another device for a role. Returns what undo and redo of this do, besides changing the device; may be empty.
+    std::function<std::function<void()> (const std::string& role)> onBind;
     void tryDevice (const std::string& role);
 
     void listSoundCards();   ///< looks for the sound cards of this computer

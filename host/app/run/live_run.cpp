@@ -83,9 +83,9 @@ void LiveRun::moveBy (Hand who)
     restart();
 }
 
-void LiveRun::useDevice()
+void LiveRun::changeHand (Hand who)
 {
-    moved_by = {};
+    moved_by = std::move (who);
     if (wanted) restart();
 }
 

@@ -73,7 +73,7 @@ public:
     void start (Hand);
     void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
     void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
-    void useDevice();         ///< the tool's own device moves it; starts nothing that does not run
+    void changeHand (Hand);   ///< as moveBy(), but starts nothing that does not run
 
     /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.
     void moveTool (std::string role);

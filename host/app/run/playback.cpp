@@ -34,10 +34,10 @@ void Playback::moveBy (LiveRun::Hand hand)
     live_run.moveBy (std::move (hand));
 }
 
-void Playback::useDevice()
+void Playback::changeHand (LiveRun::Hand hand)
 {
     before_run();
-    live_run.useDevice();
+    live_run.changeHand (std::move (hand));
 }
 
 void Playback::moveTool (std::string role)

@@ -21,7 +21,7 @@ public:
     void start (LiveRun::Hand);   ///< this and the next five: see LiveRun
     void startOther (LiveRun::Hand);
     void moveBy (LiveRun::Hand);
-    void useDevice();
+    void changeHand (LiveRun::Hand);
     void moveTool (std::string role);
     void startAgain();
     void restart() { start (live_run.hand()); }

@@ -116,10 +116,11 @@ void MainView::connectRun()
 
     devices.onHint = patching.onHint;
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
-    devices.onBind = [this] (const std::string& role) {
-        if (! run().isMovedOtherwise (role)) return;
-        hand.useDevice();
+    devices.onBind = [this] (const std::string& role) -> std::function<void()> {
+        if (! run().isMovedOtherwise (role)) return {};
+        auto exchange = hand.useDevice();
         status.notify (filled (TRANS ("The device of %1 moves its tool from now on. Press and drag on the surface of the hand, and the mouse does."), role));
+        return exchange;
     };
 
     takes.onHint = patching.onHint;

@@ -214,10 +214,21 @@ std::vector<std::pair<juce::String, std::function<void()>>> HandPanel::choices()
     return all;
 }
 
-void HandPanel::useDevice()
+std::function<void()> HandPanel::useDevice()
 {
-    chosen_hand = {};
-    playback.useDevice();
+    struct Hands
+    {
+        LiveRun::Hand moves, chosen;
+    };
+    const auto now = std::make_shared<Hands> (Hands { playback.current().hand(), chosen_hand }), other = std::make_shared<Hands>();
+    const auto exchange = [safe = SafePointer (this), now, other] {
+        if (safe == nullptr || safe->playback.current().hand() != now->moves) return;
+        std::swap (*now, *other);
+        safe->chosen_hand = now->chosen;
+        safe->playback.changeHand (now->moves);
+    };
+    exchange();
+    return exchange;
 }
 
 void HandPanel::refresh()

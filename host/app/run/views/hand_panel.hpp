@@ -24,7 +24,9 @@ public:
     /// What can move the tool, and which tool it can be, by name, and how to choose it.
     std::vector<std::pair<juce::String, std::function<void()>>> choices();
 
-    void useDevice();   ///< from now on, the tool is moved by its own device
+    /// From now on, the tool is moved by its own device. Returns a function that takes this back, and when it is called again, does it again; it does nothing
+    /// while the user has chosen another hand meanwhile.
+    std::function<void()> useDevice();
 
     HandView& view() noexcept { return surface; }
     SceneView& scene() noexcept { return space; }

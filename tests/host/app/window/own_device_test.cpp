@@ -57,8 +57,27 @@ TEST_CASE ("a card of the devices panel says that the mouse moves the tool, and 
     CHECK (w.view->statusText().contains ("The device of stylus moves its tool from now on"));
     CHECK (w.view->handPanel().chosen() == LiveRun::Hand {});   // also in the next graph
 
+    w.key ("ctrl + z");   // takes back the device, and what moved the tool
+    CHECK (listTitled (w, "device").getText() == "as in the graph");
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
+    CHECK (w.view->handPanel().chosen() == LiveRun::Hand::pointer());
+    w.key ("ctrl + y");
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand {}; }));
+    CHECK (listTitled (w, "device").getText() == "simulated tool");
+    // A hand that was chosen since then stays.
     listTitled (w, "What moves the tool").grabKeyboardFocus();
     w.key ("cursor down");
+    w.key ("cursor down");
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.hand().kind == LiveRun::Hand::Kind::path; }));
+    w.key ("ctrl + z");
+    CHECK (listTitled (w, "device").getText() == "as in the graph");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
+    w.key ("ctrl + y");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
+
+    REQUIRE (waitFor ([&] { return run.isRunning(); }));
+    listTitled (w, "What moves the tool").grabKeyboardFocus();
+    w.key ("cursor up");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
     run.stop();   // a stopped graph stays stopped
     REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
