@@ -152,6 +152,8 @@ def main():
     profiles = [json.loads((ROOT / "host/profiles" / f"{name}.json").read_text()) for name in PROFILES]
     (given.out / "profiles.json").write_text(json.dumps({"profiles": profiles}))
     (given.out / "presets.json").write_text(json.dumps({"presets": sorted(entries, key=lambda one: one["title"])}, indent=1) + "\n")
+    worker = given.out / "offline.js"
+    worker.write_text(worker.read_text().replace("BUILD", hash_of(given.out)[:16]))
     print(f"{given.out}: {len(presets)} presets")
 
 

@@ -447,6 +447,6 @@ if __name__ == "__main__":
         print("skipped: needs chromium, chromium-driver and python3-selenium")
         sys.exit(77)
     Playground.tactus, Playground.site = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    for test in ("reports_test.mjs", "playground_device_test.mjs"):
+    for test in ("reports_test.mjs", "offline_test.mjs", "playground_device_test.mjs"):
         subprocess.run(["node", HERE / test, Playground.site], check=True)
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

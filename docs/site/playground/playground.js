@@ -178,14 +178,20 @@ function rearm()
     say (about ? `${about.title} is running.` : '');
 }
 
-/** Keeps the page and what it has loaded, so that it opens without its server, too: offline.js. */
+/** Keeps the page and what it has loaded, so that it opens without its server, too: offline.js keeps what it is asked for. */
 async function keepForLater()
 {
-    if (! navigator.serviceWorker) return;
-    await navigator.serviceWorker.register ('offline.js');
-    const shelf = await caches.open ('tactus-playground'), page = location.href.split ('#')[0];
-    const loaded = performance.getEntriesByType ('resource').map (one => one.name).filter (name => name.startsWith (new URL ('.', page).href));
-    await shelf.addAll ([...new Set ([page, ...['engine.js', 'graphs/tactus_graph.js', 'profiles.json'].map (name => new URL (name, page).href), ...loaded])]);
+    const workers = navigator.serviceWorker;
+    if (! workers) return;
+    const page = location.href.split ('#')[0];
+    const keep = () => {
+        const loaded = performance.getEntriesByType ('resource').map (one => one.name).filter (name => name.startsWith (new URL ('.', page).href));
+        const needed = ['engine.js', 'graphs/tactus_graph.js', 'profiles.json'].map (name => new URL (name, page).href);
+        return Promise.all ([...new Set ([page, ...needed, ...loaded])].map (url => fetch (url)));
+    };
+    workers.addEventListener ('controllerchange', keep);   // the first worker, or that of a new build, which has kept nothing so far
+    await workers.register ('offline.js');
+    if (workers.controller) await keep();
 }
 
 //==============================================================================
