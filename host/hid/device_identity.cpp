@@ -34,7 +34,8 @@ std::vector<ReportSize> reportsOf (const Profile& profile)
         add (all, out.is_feature ? Kind::feature : Kind::output, out.id, out.body.size());
     for (const auto* steps : { &profile.init, &profile.exit })
         for (const auto& step : *steps)
-            if (step.kind != Step::Kind::output && step.bytes.size() > 1) add (all, Kind::feature, step.bytes.front(), step.bytes.size());
+            if (step.kind != Step::Kind::output && step.bytes.size() > 1)
+                add (all, Kind::feature, usesIds (profile) ? std::optional (step.bytes.front()) : std::nullopt, step.bytes.size());
     std::ranges::stable_sort (all, {}, &ReportSize::id);
     return all;
 }

@@ -11,6 +11,7 @@
 #include <host/hid_link/wire_file.hpp>
 #include <host/platform/device_file.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/file/file_lock.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -84,6 +85,9 @@ void recordReports (const ConnectedDevice& device, CaptureFile& file, double dur
 /// Reads a serial port without a profile.
 void recordBytes (const ConnectedDevice& device, int baud, CaptureFile& file, double duration_s)
 {
+    std::error_code unseen;
+    const auto alone = FileLock::takeExisting (device.path);   // another reader would take a part of the bytes of a program that drives the device
+    if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path)) fail (inUse (device.path));
     auto line = WireFile::openSerial (device.path, baud);
     if (! line)
         fail (Message::error (line.error().id, device.path, "cannot open it: " + line.error().text,

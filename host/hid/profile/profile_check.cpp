@@ -73,6 +73,7 @@ public:
         three ("position", p.position, axes, direct ? "m" : "");
         three ("rotation", p.rotation, axes, "rad");
         three ("force", p.force, efforts, direct ? "N" : "");
+        noCurrents();
         three ("torque", p.torque, efforts, "N*m");
         twice();
         known ("pressure", p.pressure, axes, "N");
@@ -111,6 +112,16 @@ private:
     {
         for (const auto& name : names)
             known (key, name, among, unit);
+    }
+
+    /// A linear map gives a force or a torque. Without the constant of a motor, neither is a current.
+    void noCurrents()
+    {
+        if (! std::holds_alternative<LinearMap> (p.kinematics)) return;
+        for (const auto& name : p.force)
+            if (! name.empty() && efforts.has (name) && efforts.unitOf (name) == "A")
+                in.error ("force", "profile/unit", quote (name) + " is in A, but linear kinematics give N, or N*m for an axis in rad",
+                          "give the field a scale in N*m that includes the torque constant of the motor: for 1 mA and 0.05 N*m/A, \"5e-5 N*m\"");
     }
 
     /// Checks that no field renders two components: their sum would exceed the limit of each.
@@ -170,20 +181,54 @@ private:
     void neutrals()
     {
         for (const auto& report : p.outputs)
-            for (const auto& field : report.fields)
+        {
+            rests (report, report.neutral, "outputs", "the neutral report of " + quote (report.name));
+            noneEnabled (report, report.neutral, "outputs", "the neutral report of " + quote (report.name));
+        }
+    }
+
+    /// Checks that the steps of `init` and `exit` request no force, because they are sent as they are, and that those of `exit`, the last reports that the
+    /// device gets, leave its enable bits at 0.
+    void stepsAtRest (const std::vector<Step>& steps, const std::string& key)
+    {
+        for (const auto& step : steps)
+            for (const auto& report : p.outputs)
             {
-                if (report.neutral.empty() || field.bits.end() > 8 * report.neutral.size()) continue;   // reported elsewhere
-                const auto raw = bitsAt (field.bits, report.neutral);
-                if (field.source == OutputField::Source::enable && raw != 0)
-                    in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " enables the motors with " + quote (field.name),
-                              "set the bits of this field to 0 in the neutral report");
-                const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0 || isMechanical (field.unit);
-                if (field.source == OutputField::Source::effort && pushes) rest (report, field, numberOf (field.bits, raw));
+                if (! sends (step, report)) continue;
+                const auto what = "the report " + quote (report.name) + " of a step of " + quote (key);
+                rests (report, step.bytes, key, what);
+                if (key == "exit") noneEnabled (report, step.bytes, key, what);
             }
     }
 
-    /// Checks the number that the neutral report has in the field of a motor.
-    void rest (const OutputReport& report, const OutputField& field, double number)
+    /// Whether the device may take a step for this report: by its id, or without ids, by its first byte, unless that is a part of a field.
+    static bool sends (const Step& step, const OutputReport& report)
+    {
+        if (step.bytes.empty() || report.body.empty() || step.kind == Step::Kind::get_feature) return false;
+        if ((step.kind == Step::Kind::feature) != report.is_feature) return false;
+        const bool varies = std::ranges::any_of (report.fields, [] (const auto& field) { return field.bits.at < 8; });
+        return varies || step.bytes.front() == report.body.front();
+    }
+
+    void noneEnabled (const OutputReport& report, const Bytes& bytes, std::string_view key, const std::string& what)
+    {
+        for (const auto& field : report.fields)
+            if (field.source == OutputField::Source::enable && field.bits.end() <= 8 * bytes.size() && bitsAt (field.bits, bytes) != 0)
+                in.error (key, "profile/neutral", what + " enables the motors at byte " + std::to_string (field.bits.at / 8), "set the enable bits to 0 there");
+    }
+
+    void rests (const OutputReport& report, const Bytes& bytes, std::string_view key, const std::string& what)
+    {
+        for (const auto& field : report.fields)
+        {
+            if (bytes.empty() || field.bits.end() > 8 * bytes.size()) continue;   // reported elsewhere
+            const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0 || isMechanical (field.unit);
+            if (field.source == OutputField::Source::effort && pushes) rests (field, numberOf (field.bits, bitsAt (field.bits, bytes)), key, what);
+        }
+    }
+
+    /// Checks the number that such a report has in the field of a motor.
+    void rests (const OutputField& field, double number, std::string_view key, const std::string& what)
     {
         const auto& e = field.encoding;
         std::string asked;   // what the number asks for; empty if it is not a force
@@ -193,8 +238,8 @@ private:
             if (const double none = numberOf (field.bits, rawOf (field.bits, zero)); number != none)
                 asked = "the raw value " + numberText (number) + ", but no force is " + numberText (none) + ",";
         if (! asked.empty())
-            in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " asks for " + asked + " in " + quote (field.name),
-                      "in the neutral report, write the raw value of this field that means no force");
+            in.error (key, "profile/neutral", what + " asks for " + asked + " in " + quote (field.name),
+                      "write the raw value of this field that means no force there");
     }
 
     /// Checks that each effort has a limit. For an effort that is neither force nor torque, min and max of its field are enough.
@@ -253,7 +298,9 @@ private:
             for (const auto& step : *list)
                 if (step.bytes.empty())
                     in.error (list == &p.init ? "init" : "exit", "profile/missing", "the step has no bytes",
-                              "write \"bytes\": the whole report, starting with its id, or with 00 if it has none");
+                              "write \"bytes\": the whole report, starting with its id if it has one");
+        stepsAtRest (p.init, "init");
+        stepsAtRest (p.exit, "exit");
     }
 
     /// Checks that everything that the device needs can pass over its wires.

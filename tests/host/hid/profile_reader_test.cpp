@@ -140,6 +140,9 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/outputs/0/neutral", "03", "profile/beyond" },
         { "/outputs/0/neutral", "04 00*9", "profile/format" },
         { "/outputs/0/neutral", "03 00 00 01 00*6", "profile/neutral" },
+        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01 00*6" }])"), "profile/neutral" },   // 256 mN
+        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01" }])"), "profile/neutral" },        // also in a report that ends early
+        { "/exit", Json::parse (R"([{ "bytes": "01 02" }, { "bytes": "03 00 00 01 00*6" }])"), "profile/neutral" },
         { "/signals", Json::parse (R"([{ "amplitude": "fx" }])"), "profile/signal_on_force" },
         { "/limits", Json::object(), "profile/no_limit" },
         { "/signals", Json::parse (R"([{ "amplitude": "hum" }])"), "profile/no_limit" },
@@ -243,6 +246,35 @@ TEST_CASE ("a profile with a slew limit whose effort has no maximum is refused, 
     CHECK_FALSE (loaded.profile);
     REQUIRE (loaded.messages.size() == 1);
     CHECK (loaded.messages[0].id == "device/slow_stop");
+}
+
+TEST_CASE ("the steps of init may enable the motors, those of exit may not", "[safety]")
+{
+    auto json = good();
+    json["outputs"][0]["fields"].push_back (Json::parse (R"({ "source": "enable", "at": 1, "type": "u4" })"));
+    CHECK (readProfile (json).messages.empty());
+    const auto enabled = Json::parse (R"([{ "bytes": "03 01 00*8" }])");
+    json["init"] = enabled;
+    CHECK (readProfile (json).messages.empty());
+    json["exit"] = enabled;
+    const auto loaded = readProfile (json);
+    CHECK_FALSE (loaded.profile);
+    REQUIRE (loaded.messages.size() == 1);
+    CHECK (loaded.messages[0].id == "profile/neutral");
+    CHECK (loaded.messages[0].where == "/exit");
+    json["exit"] = Json::parse (R"([{ "bytes": "02 ff*9" }])");   // no report that the profile describes
+    CHECK (readProfile (json).messages.empty());
+}
+
+TEST_CASE ("a linear map drives no current, because it knows no torque constant")
+{
+    auto json = good();
+    json["kinematics"] = Json::parse (R"({ "linear": { "matrix": [[0.05, 0, 0], [0, 1, 0], [0, 0, 1]] } })");
+    CHECK (readProfile (json).messages.empty());
+    json["outputs"][0]["fields"][0] = Json::parse (R"({ "name": "fx", "at": 2, "type": "s16le", "scale": 0.001, "unit": "A" })");
+    const auto loaded = readProfile (json);
+    CHECK_FALSE (loaded.profile);
+    CHECK (std::ranges::any_of (loaded.messages, [] (const Message& m) { return m.id == "profile/unit" && m.where == "/force"; }));
 }
 
 TEST_CASE ("a force with a table is refused unless its neutral report holds the raw value of no force")
