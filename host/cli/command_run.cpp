@@ -13,6 +13,7 @@
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -101,6 +102,8 @@ std::vector<DeviceOption> CommandRun::readDeviceOptions()
             text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, notes);
         reportOn (notes);
         if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
+        if (std::ranges::any_of (all, [&] (const auto& other) { return other.role == parsed->role; }))
+            fail (Message::error ("device/option", "--device " + text, "the role " + quote (parsed->role) + " has got a device before", "leave one of the two out"));
         all.push_back (std::move (*parsed));
     }
     return all;

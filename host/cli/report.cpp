@@ -12,11 +12,15 @@ namespace tactus::host
 
 namespace
 {
+std::string placeInFile (const Message& m)
+{
+    return m.line > 0 ? m.file + ":" + std::to_string (m.line) + ":" + std::to_string (m.column) : m.file + m.where;
+}
+
 std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::string& file)
 {
     const bool in_graph = m.where.empty() || m.where.starts_with ('/');
-    if (! m.file.empty() && m.file != file)
-        return m.line > 0 ? m.file + ":" + std::to_string (m.line) + ":" + std::to_string (m.column) : m.file + m.where;
+    if (! m.file.empty() && m.file != file) return placeInFile (m);
     if (! in_graph) return m.where;   // `where` names a feed column or an option, not a part of the graph
     const auto at = m.line > 0 ? TextPosition { m.line, m.column } : loaded.positionOf (m.where);
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
@@ -65,6 +69,12 @@ void warn (const std::string& file, const Message& m)
     std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text);
     if (! m.remedy.empty()) std::cerr << "\n    " << printable (cut (m.remedy));
     std::cerr << idOf (m);
+}
+
+void warnOfFiles (const Messages& messages)
+{
+    for (const auto& m : messages)
+        warn (placeInFile (m), m);
 }
 
 void fail (const Message& e)

@@ -31,6 +31,9 @@ int report (const Messages&, const LoadedGraph&, const std::string& file);
 /// Prints a warning about this file.
 void warn (const std::string& file, const Message&);
 
+/// Prints each message as a warning, with its own file and place.
+void warnOfFiles (const Messages&);
+
 /// Prints the error and throws Stop.
 [[noreturn]] void fail (const Message&);
 [[noreturn]] void fail (const std::string& id, const std::string& what, const std::string& remedy);

@@ -50,6 +50,10 @@ void makeAbsolute (Json& description, const fs::path& folder)
             if (const auto text = path.get<std::string>(); text.find_first_of ("./\\") != text.npos)
                 path = fs::absolute (folder / text).lexically_normal().string();
         }
+    const auto port = description.is_object() && description.value ("driver", Json()) == "serial" ? description.find ("port") : description.end();
+    if (port == description.end() || ! port->is_string()) return;
+    const auto text = port->get<std::string>();
+    if (! text.empty() && ! text.starts_with ("COM")) *port = fs::absolute (folder / text).string();   // a link, such as that of `tactus fake-device --link`
 }
 
 /// Replaces "auto" by the profile of the connected device, so that the role can wait for this device later.
@@ -156,7 +160,8 @@ std::string verdict (const RoleFit& fit)
     if (! text.empty()) return "no: " + text;
     if (! fit.there) return "unknown until it is connected";
     text = fit.connected == false ? "yes, once it is connected" : "yes";
-    return fit.along.empty() ? text : text + "; it moves only along " + fit.along;
+    if (! fit.along.empty()) text += "; it moves only along " + fit.along;
+    return fit.pushes.empty() || fit.pushes == fit.along ? text : text + "; it pushes only along " + fit.pushes;
 }
 
 constexpr std::string_view whose (RoleFit::From from)

@@ -165,8 +165,8 @@ void HidDevice::judge (const ArrivedReport& report, std::uint64_t lost) noexcept
 ReadingFault HidDevice::fault (bool is_connected) const noexcept
 {
     if (! is_connected) return ReadingFault::unplugged;
-    if (! has_one) return ReadingFault::no_report;
     if (refused) return ReadingFault::malformed;
+    if (! has_one) return ReadingFault::no_report;
     if (restarted) return ReadingFault::restarted;
     return record.isTrusted() ? ReadingFault::none : ReadingFault::lost;
 }

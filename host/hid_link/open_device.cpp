@@ -2,6 +2,7 @@
 #include "open_device.hpp"
 #include "force_feedback.hpp"
 #include "hid_device.hpp"
+#include "profile_library.hpp"
 #include "wire_file.hpp"
 #include "wires.hpp"
 #include <tactus/run/device/guard_limits.hpp>
@@ -73,11 +74,11 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
 {
     if (auto found = profileNamed (all, id)) return found;
 
-    // The profile's file may exist but contain an error.
+    // The profile's file may exist but contain an error, or the folder may not be used.
     const auto broken = std::ranges::find_if (all.messages, [&] (const Message& m) {
-        if (m.severity != Message::Severity::error) return false;
-        return std::filesystem::path (m.file).stem() == id;
+        return m.severity == Message::Severity::error && std::filesystem::path (m.file).stem() == id;
     });
+    const auto unused = std::ranges::find (all.messages, ownProfileFolder().string(), &Message::file);
     std::vector<std::string> names { "auto", std::string (pid_profile) };
     for (const auto& p : all.profiles)
         names.push_back (p->id);
@@ -85,6 +86,9 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
         messages.push_back (Message::error ("hid/unknown_profile", "/profile",
                                             "the profile " + quote (id) + " has an error: " + broken->file + broken->where + ": " + broken->text,
                                             broken->remedy));
+    else if (unused != all.messages.end())
+        messages.push_back (Message::error ("hid/unknown_profile", "/profile", "there is no device profile " + quote (id) + "; " + unused->file + ": " + unused->text,
+                                            unused->remedy));
     else
         messages.push_back (Message::error ("hid/unknown_profile", "/profile", "there is no device profile " + quote (id), suggestion (id, names)));
     return nullptr;

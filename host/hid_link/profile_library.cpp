@@ -155,7 +155,14 @@ LoadedProfiles loadOwnProfiles (const fs::path& folder)
 LoadedProfiles loadProfileLibrary()
 {
     LoadedProfiles own, shipped;
-    if (const auto folder = ownProfileFolder(); ! folder.empty() && isFolder (folder)) own = loadOwnProfiles (folder);
+    if (const auto folder = ownProfileFolder(); ! folder.empty() && isFolder (folder))
+        own = loadOwnProfiles (folder);
+    else if (const char* given = std::getenv ("TACTUS_PROFILES"); given != nullptr && *given != 0)
+    {
+        auto& m = own.messages.emplace_back (
+            Message::warning ("profile/unreadable", "", "there is no such folder, although TACTUS_PROFILES names it", "create it, or name another one"));
+        m.file = folder.string();
+    }
     if (const auto folder = profileFolder(); ! folder.empty()) shipped = loadProfiles (folder);
     return joined (std::move (own), std::move (shipped));
 }

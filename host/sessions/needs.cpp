@@ -123,21 +123,29 @@ DeviceParts partsOf (const hid::Profile& p)
              .others = hid::layoutOf (hid::HidModel (std::make_shared<const hid::Profile> (p))) };
 }
 
-std::string movesAlong (const hid::Profile& p, const Mat3& axes)
+namespace
 {
-    Vec3 has;   // of the device's own directions: 0 for those in which nothing is measured
+/// The directions in the graph of what a device does along its own ones, of which a name is empty where it does nothing. Empty for all three.
+std::string directions (const hid::Profile& p, const std::array<std::string, 3>& names, const Mat3& axes)
+{
+    Vec3 has;
     for (int i = 0; i < 3; ++i)
-        has[i] = p.position[static_cast<std::size_t> (i)].empty() ? 0.0 : 1.0;
+        has[i] = names[static_cast<std::size_t> (i)].empty() ? 0.0 : 1.0;
     Mat3 moves = has.asDiagonal();
     if (const auto* linear = std::get_if<hid::LinearMap> (&p.kinematics)) moves = linear->matrix * moves;
     if (std::holds_alternative<hid::SerialArm> (p.kinematics)) moves.setIdentity();   // of the five bars, the two fields lead to x and y
     moves = axes * p.axes * moves;
-    std::string names;
+    std::string text;
     int count = 0;
     for (int i = 0; i < 3; ++i)
-        if (moves.row (i).cwiseAbs().maxCoeff() > 1e-9) names += (count++ == 0 ? "" : " and ") + std::string (1, static_cast<char> ('x' + i));
-    return count == 3 ? std::string() : names;
+        if (moves.row (i).cwiseAbs().maxCoeff() > 1e-9) text += (count++ == 0 ? "" : " and ") + std::string (1, static_cast<char> ('x' + i));
+    return count == 3 ? std::string() : text;
 }
+}   // namespace
+
+std::string movesAlong (const hid::Profile& p, const Mat3& axes) { return directions (p, p.position, axes); }
+
+std::string pushesAlong (const hid::Profile& p, const Mat3& axes) { return directions (p, p.force, axes); }
 
 DeviceParts partsOf (const DriverAbout& a)
 {

@@ -46,6 +46,9 @@ DeviceParts partsOf (const DriverAbout&);
 /// The directions in which a device can move the tool, if these are not all: "y", or "x and y". `axes`: those of its workspace.
 std::string movesAlong (const hid::Profile&, const Mat3& axes);
 
+/// The same for its force: "x" or "x and y"; empty for all three, and for a device without a force.
+std::string pushesAlong (const hid::Profile&, const Mat3& axes);
+
 /// Describes parts, as in "position, force, axis 'trigger', signal output 2", or "nothing".
 std::string describe (const DeviceParts&);
 

@@ -61,7 +61,11 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
         return why;
     }
     if (! is_numbers_only)
-        return Message::error ("device/option", where, quote (id) + " is the profile of a device that must be connected", "write " + role + "=hid:" + id);
+    {
+        std::string how = "=hid:" + id;
+        if (profile->match.empty()) how = profile->wires.serial ? "=serial:" + id + "@PORT" : "=udp:" + id + "@ADDRESS:PORT";
+        return Message::error ("device/option", where, quote (id) + " is the profile of a device that must be connected", "write " + role + how);
+    }
 
     auto option = tactus::parseDeviceOption (role + "=sim", described, folder_of_graph);
     if (! option) return option;

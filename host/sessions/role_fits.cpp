@@ -114,8 +114,11 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))
         {
-            if (const auto profile = hid::profileNamed (all, textAt (fit.description, "profile")); profile && fit.needs.position)
-                fit.along = movesAlong (*profile, fit.workspace.axes);
+            if (const auto profile = hid::profileNamed (all, textAt (fit.description, "profile")))
+            {
+                if (fit.needs.position) fit.along = movesAlong (*profile, fit.workspace.axes);
+                if (fit.needs.force) fit.pushes = pushesAlong (*profile, fit.workspace.axes);
+            }
             if (textAt (fit.description, "profile") != hid::pid_profile) fit.connected = isConnected (fit.description, connected, all);
             if (! fit.there)
                 for (const auto& device : connected)

@@ -29,6 +29,7 @@ struct RoleFit
     std::optional<DeviceParts> there {};   ///< parts of the device, from partsOf
     std::optional<bool> connected {};      ///< set only for a HID device with a profile, and false for a serial port that does not exist
     std::string along {};                  ///< the only directions in which the device moves in the graph, as movesAlong
+    std::string pushes {};                 ///< the only directions in which it pushes, as pushesAlong
     std::vector<std::string> lacking {};   ///< missing parts, from lackingOf
     Messages messages {};                  ///< problems of the description; `where` is relative to it
 

@@ -270,7 +270,7 @@ public:
         const auto list = [] (const Vec3& v) { return Json { v.x(), v.y(), v.z() }; };
         return { { "profile", port.profile()->id },
                  { "connected", port.isConnected() },
-                 { "valid", latest.valid },
+                 { "valid", port.isConnected() && latest.fault == ReadingFault::none && m.sample().valid },   // the reading, which drives nothing here
                  { "reports", counts.reports },
                  { "taken", read.taken },
                  { "lost", read.lost },
@@ -401,8 +401,7 @@ void run (const DevicesOptions& options)
         return captureDevice (capture);
     }
     const auto profiles = loadProfileLibrary();
-    for (const auto& m : profiles.messages)
-        std::cerr << printableName (m.file + m.where) << ": warning: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
+    warnOfFiles (profiles.messages);
 
     const auto all = options.capture.device.empty() ? listAll (profiles) : std::vector { listedAs (chooseDevice (options.capture.device, profiles)) };
     Json json = Json::array();

@@ -192,6 +192,34 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     CHECK (waited.err.find ("stylus: warning: the guard withheld the force: ") != std::string::npos);
 }
 
+TEST_CASE ("a profile that cannot be used is told from one that does not exist", "[cli][wires]")
+{
+    const test::Scratch scratch;
+    const auto said = [&] (const std::string& folder, const std::vector<std::string>& words) {
+        setenv ("TACTUS_PROFILES", folder.c_str(), 1);
+        const auto ran = runTactus (words);
+        unsetenv ("TACTUS_PROFILES");
+        CHECK (ran.status == 1);
+        return ran.err;
+    };
+    const auto own = scratch.write ("twig.json", "{\n\"format\": \"tactus-profile\",,\n}");
+    const auto folder = std::filesystem::path (own).parent_path().string();
+    const std::vector<std::string> fake { "fake-device", "twig" },
+        play { "play", dry_wood, "--device", "stylus=serial:twig@/dev/null", "--session", "off", "--osc", "off", "--duration", "0.1" };
+    CHECK (said (folder, fake).find ("twig.json:2:") != std::string::npos);
+    CHECK (said (folder, play).find ("twig.json: a key in double quotes should follow the comma") != std::string::npos);
+    for (const auto& words : { fake, play })
+        CHECK (said (folder + "/none", words).find ("there is no such folder, although TACTUS_PROFILES names it") != std::string::npos);
+}
+
+TEST_CASE ("a role gets one device", "[cli][wires]")
+{
+    const auto ran = runTactus ({ "play", dry_wood, "--device", "stylus=sim", "--device", "stylus=gesture:press", "--session", "off", "--osc", "off",
+                                  "--duration", "0.1" });
+    CHECK (ran.status == 1);
+    CHECK (ran.err.find ("the role 'stylus' has got a device before") != std::string::npos);
+}
+
 TEST_CASE ("a line that carries only garbage is told from one that carries nothing", "[cli][wires]")
 {
     const test::Scratch scratch;
@@ -317,7 +345,27 @@ TEST_CASE ("tactus devices --probe shows the readings of a board on a wire", "[c
     const auto json = runTactus ({ "devices", "--probe", "--json", "--device", fake.device, "--duration", "0.5" });
     INFO (json.out + json.err);
     CHECK (Json::parse (json.out)[0]["probe"]["taken"].get<int>() > 10);
+    CHECK (Json::parse (json.out)[0]["probe"]["valid"] == true);
     CHECK (linesOf (fake.log, drives).empty());   // nothing was driven
+}
+
+TEST_CASE ("tactus devices --capture reads no serial port that a run drives", "[cli][wires][capture][safety]")
+{
+    Fake fake { "serial" };
+    REQUIRE (fake.is_there);
+    Running play { { "play", dry_wood, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    for (const auto& port : { fake.scratch.path ("board"), std::filesystem::canonical (fake.scratch.path ("board")).string() })
+    {
+        const auto ran = runTactus ({ "devices", "--capture", fake.scratch.path ("taken.jsonl"), "--device", port, "--duration", "0.1" });
+        INFO (ran.out + ran.err);
+        CHECK (ran.status == 1);
+        CHECK (ran.err.find ("another role or another instance of Tactus is using it") != std::string::npos);
+    }
+    const auto ran = play.stop();
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find (" 0 lost") != std::string::npos);
 }
 
 TEST_CASE ("tactus devices --capture records a serial port without a profile, and says why it cannot record", "[cli][wires][capture]")

@@ -3,12 +3,14 @@
 
 #include "program.hpp"
 
+#include <tactus/file/text_file.hpp>
 #include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 using namespace tactus;
 using test::runTactus;
@@ -58,6 +60,12 @@ TEST_CASE ("a role is bound, shown with what the graph needs from it, and unboun
     CHECK_FALSE (has (ran.out, "connected"));
     CHECK (has (runTactus ({ "session", "--file", file, "--bind", "stylus=serial:tactus_board@/dev/null" }).out, "not checked until a run opens it"));
     CHECK (has (runTactus ({ "session", "--file", file, "--bind", "stylus=serial:tactus_board@/dev/no_such_port" }).out, "not connected"));
+
+    // A link in this folder, from whatever folder the session is used later.
+    runTactus ({ "session", "--file", file, "--bind", "stylus=serial:tactus_board@a_link" });
+    const auto port = Json::parse (*readTextFile (file))["roles"]["stylus"]["port"].get<std::string>();
+    CHECK (std::filesystem::path (port).is_absolute());
+    CHECK (port.ends_with ("/a_link"));
     ran = runTactus ({ "session", "--file", file, "--bind", "stylus=udp:tactus_board@10.99.99.99:65537" });
     CHECK (ran.status == 1);
     CHECK (has (ran.err, "from 1 to 65535"));
