@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "control_value.hpp"
 #include "rows.hpp"
 
 #include <host/app/inspector/blocks/fields.hpp>
@@ -35,31 +36,26 @@ void change (Document& d, const std::string& id, const std::function<void (graph
     d.perform (graph::ChangeControl { id, std::move (to) }, step);
 }
 
-/// The control's name, fader and delete button.
+/// The control's name, value and delete button.
 class Header final : public Block
 {
 public:
-    Header (Document& d, const Catalogue& c, std::string i) : document (d), catalogue (c), id (std::move (i))
+    Header (Document& d, const Catalogue& c, std::string i, const Refusal& refused) : document (d), catalogue (c), id (std::move (i))
     {
         name.setTitle (TRANS ("Name of the control"));
         name.setTooltip (TRANS ("The name of the control"));
         name.onApply = [this] (const juce::String& text) { change (document, id, [to = text.trim().toStdString()] (auto& c) { c.name = to; }); };
-        fader.setSliderStyle (juce::Slider::LinearBar);
-        fader.setSliderSnapsToMousePosition (false);   // a press leaves the value
-        fader.setRange (0.0, 1.0);
-        fader.setWantsKeyboardFocus (true);
-        fader.setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
-        fader.setNumDecimalPlacesToDisplay (2);
-        fader.onDragStart = fader.onDragEnd = [this] { continues = false; };
-        fader.onValueChange = [this] {
+        value.read = readControl;
+        value.onRefused = refused;
+        value.onChange = [this] (const std::optional<Json>& to, bool continues) {
+            if (! to) return;   // a control has no default
             change (
-                document, id, [v = fader.getValue()] (auto& c) { c.value = v; },
+                document, id, [v = siOf (*to, controlSheet())] (auto& c) { c.value = v; },
                 continues ? graph::Step::joined : graph::Step::own);
-            continues = fader.isMouseButtonDown (true);   // its text covers it, and gets the mouse
         };
         cross.onClick = [this] { document.perform (removeControl (document.graph(), id, catalogue)); };
         addAndMakeVisible (name);
-        addAndMakeVisible (fader);
+        addAndMakeVisible (value);
         addAndMakeVisible (cross);
     }
 
@@ -69,12 +65,13 @@ public:
     {
         const auto* c = find (document, id);
         if (c == nullptr) return;
-        fader.setTitle (c->name.empty() ? c->id : c->name);
         name.show (fromUtf8 (c->name.empty() ? c->id : c->name));
-        fader.setValue (c->value, juce::dontSendNotification);
-        fader.setEnabled (! isOverridden (document.graph(), *c));
-        fader.setAlpha (fader.isEnabled() ? 1.0f : 0.5f);
-        fader.setTooltip (overriddenText (document.graph(), *c));
+        value.setTitle (fromUtf8 (c->name.empty() ? c->id : c->name));
+        const auto drivers = driversOf (document.graph(), *c);
+        value.setDriver (isOverridden (document.graph(), *c) ? drivers.front() : std::string());
+        value.show (Json (c->value));
+        const auto overridden = overriddenText (document.graph(), *c);
+        value.setTooltip (tooltipOf (controlSheet()) + (overridden.isEmpty() ? "" : "\n" + overridden));
     }
 
     void resized() override
@@ -82,8 +79,7 @@ public:
         auto area = getLocalBounds().reduced (0, 2);
         cross.setBounds (area.removeFromRight (24));
         name.setBounds (area.removeFromLeft (getWidth() * 2 / 5).withTrimmedRight (4));
-        fader.setBounds (area);
-        fader.setMouseDragSensitivity (std::max (1, area.getWidth()));   // the bar follows the pointer
+        value.setBounds (area);
     }
 
 private:
@@ -91,10 +87,9 @@ private:
     const Catalogue& catalogue;
     std::string id;
     TextField name;
-    juce::Slider fader;
+    NumberField value { controlSheet() };
     ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain,
                        TRANS ("Delete this control. Its parameters keep the values that it sets.") };
-    bool continues = false;
 };
 
 class ControlEditor final : public Stack
@@ -120,7 +115,7 @@ protected:
 
     void fill() override
     {
-        add (std::make_unique<Header> (document, catalogue, id));
+        add (std::make_unique<Header> (document, catalogue, id, refused));
         const auto* c = find (document, id);
         if (c == nullptr) return;
         if (c->to.empty()) add (TRANS ("No targets yet. Right-click a parameter to add one."), TextBlock::Kind::small);

@@ -22,6 +22,8 @@ Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
     scroll.setWantsKeyboardFocus (false);   // the keys are for the fields
+    setMouseClickGrabsKeyboardFocus (false);
+    scroll.setMouseClickGrabsKeyboardFocus (false);
     addAndMakeVisible (scroll);
     addChildComponent (strip);
     strip.onHint = [this] (const juce::String& why) {

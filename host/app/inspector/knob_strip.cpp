@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "knob_strip.hpp"
+#include "control_value.hpp"
 
 #include <host/app/inspector/blocks/fields.hpp>
+#include <host/app/look/drag_way.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -27,14 +30,9 @@ public:
     {
         setRange (0.0, 1.0);
         setNumDecimalPlacesToDisplay (2);
-        setDoubleClickReturnValue (true, 0.5);
         setWantsKeyboardFocus (true);
-        setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
-        onDragStart = onDragEnd = [this] { continues = false; };
-        onValueChange = [this] {
-            change (getValue(), continues);
-            continues = isMouseButtonDown();
-        };
+        setMouseClickGrabsKeyboardFocus (false);                  // the canvas keeps the keyboard focus
+        onValueChange = [this] { change (getValue(), false); };   // by a screen reader
     }
 
     const std::string& control() const noexcept { return id; }
@@ -47,7 +45,7 @@ public:
         setTitle (name);
         overridden = overriddenText (document.graph(), *c);
         has_no_effect = isOverridden (document.graph(), *c);
-        const auto usual = filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle, or on the name to rename it"), name);
+        const auto usual = filled (TRANS ("%1: drag up or down, Shift+drag for fine steps; double-click to type a value, or on the name to rename it"), name);
         setTooltip (has_no_effect ? name + ": " + overridden : usual + (overridden.isEmpty() ? "" : "\n" + overridden));
         setValue (c->value, juce::dontSendNotification);
         repaint();
@@ -64,31 +62,38 @@ public:
         return true;
     }
 
-    /// On the dial, JUCE moves it to the middle.
     void mouseDoubleClick (const juce::MouseEvent& e) override
     {
         if (e.y >= getHeight() - label_height) return rename();
-        if (! has_no_effect) juce::Slider::mouseDoubleClick (e);
+        if (! refusesHand()) typeValue();
     }
 
-    void mouseDown (const juce::MouseEvent& e) override
+    void mouseDown (const juce::MouseEvent&) override
     {
-        if (! refusesHand()) juce::Slider::mouseDown (e);
+        refusesHand();
+        grabbed = getValue();
+        way = {};
+        continues = false;
     }
 
     void mouseDrag (const juce::MouseEvent& e) override
     {
-        if (! has_no_effect) juce::Slider::mouseDrag (e);
+        constexpr double pixels = 250.0;   // over the whole range
+        if (! has_no_effect) turnTo (grabbed + way.to (e) / pixels);
     }
 
-    void mouseUp (const juce::MouseEvent& e) override
-    {
-        if (! has_no_effect) juce::Slider::mouseUp (e);
-    }
+    void mouseUp (const juce::MouseEvent&) override { continues = false; }
 
+    /// One turn of the wheel is one step of the history.
     void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel) override
     {
-        if (! refusesHand()) juce::Slider::mouseWheelMove (e, wheel);
+        if (refusesHand()) return;
+        const auto now = juce::Time::getMillisecondCounter();
+        continues = now - turned_at < 500 && document.history().position() == turned_step;
+        turnTo (getValue() + static_cast<double> (wheel.deltaY) * (e.mods.isShiftDown() ? 0.02 : 0.2));
+        turned_at = now;
+        turned_step = document.history().position();
+        continues = false;
     }
 
     void focusGained (FocusChangeType cause) override
@@ -133,19 +138,21 @@ public:
 
     void rename()
     {
-        field = std::make_unique<TextField>();
-        field->setTitle (TRANS ("Name of the control"));
-        field->show (name);
-        field->onApply = [this] (const juce::String& text) { edit ([to = text.trim().toStdString()] (graph::Control& c) { c.name = to; }, false); };
-        field->onFocusLost = [this] {
-            field->apply();
-            juce::MessageManager::callAsync ([safe = SafePointer (this)] {
-                if (safe != nullptr && safe->field && ! safe->field->hasKeyboardFocus (true)) safe->field.reset();
-            });
-        };
-        addAndMakeVisible (*field);
-        field->setBounds (getLocalBounds().removeFromBottom (24));
-        takeFocus (*field);
+        edit (TRANS ("Name of the control"), name, getLocalBounds().removeFromBottom (24),
+              [this] (const juce::String& text) { edit ([to = text.trim().toStdString()] (graph::Control& c) { c.name = to; }, false); });
+    }
+
+    void typeValue()
+    {
+        edit (TRANS ("Value of the control"), juce::String (getValue(), 4).trimCharactersAtEnd ("0").trimCharactersAtEnd ("."), getLocalBounds().removeFromTop (24),
+              [this] (const juce::String& text) {
+                  const auto to = readControl (text.toStdString());
+                  if (to)
+                      change (*to, false);
+                  else if (strip.onHint)
+                      strip.onHint (messageText (to.error()));
+              });
+        field->selectAll();
     }
 
 private:
@@ -161,6 +168,32 @@ private:
     {
         if (has_no_effect && strip.onHint) strip.onHint (overridden);
         return has_no_effect;
+    }
+
+    /// Opens a field over a part of the knob.
+    void edit (const juce::String& title, const juce::String& text, juce::Rectangle<int> place, std::function<void (const juce::String&)> apply)
+    {
+        field = std::make_unique<TextField>();
+        field->setTitle (title);
+        field->show (text);
+        field->onApply = std::move (apply);
+        field->onFocusLost = [this] {
+            field->apply();
+            juce::MessageManager::callAsync ([safe = SafePointer (this)] {
+                if (safe != nullptr && safe->field && ! safe->field->hasKeyboardFocus (true)) safe->field.reset();
+            });
+        };
+        addAndMakeVisible (*field);
+        field->setBounds (place);
+        takeFocus (*field);
+    }
+
+    void turnTo (double value)
+    {
+        const double to = std::clamp (value, 0.0, 1.0);
+        if (to == getValue()) return;
+        change (to, continues);
+        continues = true;
     }
 
     void change (double to, bool joins)
@@ -182,7 +215,11 @@ private:
     std::string id;
     juce::String name, overridden;
     bool has_no_effect = false;         // wires set all its targets
-    std::unique_ptr<TextField> field;   // while the control is being renamed
+    std::unique_ptr<TextField> field;   // while its name or its value is being typed
+    DragWay way;
+    double grabbed = 0.0;
+    std::uint32_t turned_at = 0;   // by the wheel, in ms
+    std::size_t turned_step = 0;
     bool continues = false;
 };
 

@@ -65,6 +65,7 @@ void Fader::moveTo (double position)
 void Fader::mouseDown (const juce::MouseEvent& e)
 {
     dragged = false;
+    turned_at = 0;
     grabbed = Taper::position (gain);
     if (e.mods.isAltDown() && onChange) onChange (std::nullopt, false);
 }
@@ -99,6 +100,7 @@ bool Fader::keyPressed (const juce::KeyPress& key)
 
 void Fader::nudge (double decibels)
 {
+    turned_at = 0;
     const double before = std::max (decibelsOf (gain), -60.0);   // from off, it starts at the bottom of the usual range
     const double sign = gain < 0.0 ? -1.0 : 1.0;
     if (onChange) onChange (sign * roundedGain (std::min (gainOf (before + decibels), Taper::most)), false);
@@ -115,7 +117,9 @@ std::unique_ptr<juce::AccessibilityHandler> Fader::createAccessibilityHandler()
 
 void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
-    dragged = false;
+    const auto now = juce::Time::getMillisecondCounter();
+    dragged = now - turned_at < 500;   // one turn of the wheel is one step of the history
+    turned_at = now;
     moveTo (Taper::position (gain) + static_cast<double> (wheel.deltaY) * (e.mods.isShiftDown() ? 0.02 : 0.1));
     dragged = false;
 }

@@ -40,6 +40,7 @@ private:
 
     double gain = 1.0, grabbed = 0.0;   // grabbed: the fader position at the start of a drag
     bool dragged = false;
+    std::uint32_t turned_at = 0;   // by the wheel, in ms
 };
 
 }   // namespace tactus::host

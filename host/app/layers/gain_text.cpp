@@ -4,6 +4,7 @@
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/read_number.hpp>
 #include <tactus/text/units.hpp>
@@ -26,6 +27,10 @@ std::string squeezed (const std::string& text)
     return all;
 }
 
+constexpr double most_by_level = 4.0;   // 12 dB
+
+std::string levelWritten (const UnityLevel& level) { return numberText (std::strtod (juce::String (level.peak, 3, true).toRawUTF8(), nullptr)) + " " + level.unit; }
+
 Result<double> levelToGain (const std::string& text, const UnityLevel& level)
 {
     const auto wanted = parseMeasure (unitWritten (text));
@@ -43,7 +48,13 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
     if (! unit || ! (level.peak > 0.0))
         return Message::error ("gain/no_level", {}, TRANS ("the layer has been silent, so its level is not known").toStdString(),
                                TRANS ("let it sound first, or write a gain such as -6 dB").toStdString());
-    return decibelsOf (wanted->value / level.peak);
+    // A level that a layer reaches for a moment only, such as while the hand rests, says nothing about how strong it becomes.
+    if (const double gain = wanted->value / level.peak; std::abs (gain) <= most_by_level) return decibelsOf (gain);
+    return Message::error ("gain/quiet", {},
+                           filled (TRANS ("the layer has reached only %1, so that would be a gain of %2 dB"), levelWritten (level),
+                                   juce::String (decibelsOf (wanted->value / level.peak), 1))
+                               .toStdString(),
+                           TRANS ("let it sound as strongly as it will, or write a gain such as 6 dB").toStdString());
 }
 }   // namespace
 

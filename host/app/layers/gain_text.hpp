@@ -22,7 +22,7 @@ double gainOf (double decibels);
 /// The datasheet row of a gain in dB, for a NumberField.
 const PortSheet& decibelSheet();
 
-/// The level of a layer at a gain of 1. From it follows the gain for a level such as "0.3 N".
+/// The greatest level that a layer has reached, at a gain of 1. From it follows the gain for a level such as "0.3 N".
 struct UnityLevel
 {
     double peak = 0.0;   ///< 0 if there is no signal
@@ -30,7 +30,7 @@ struct UnityLevel
 };
 
 /// Reads a gain and returns it in dB: "-6" and "-6 dB", "off", "x0.5" and "50 %", or a level in the unit of the layer, such as "0.3 N".
-/// Ids: gain/syntax, gain/unit, gain/no_level.
+/// A level that needs a gain above 12 dB is refused: the layer has not sounded as it will. Ids: gain/syntax, gain/unit, gain/no_level, gain/quiet.
 Result<double> readGain (const std::string& text, const UnityLevel&);
 
 }   // namespace tactus::host

@@ -88,10 +88,16 @@ bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
         const auto& trace = *traces.front();
         unit = trace.unit();
         quantity = trace.quantity();
+        if (of.lock() != traces.front() || trace.end() < seen) strongest = 0.0;
+        of = traces.front();
         if (is_first) seen = trace.end();
         fresh = trace.end() > seen ? static_cast<std::size_t> (trace.end() - seen) : 0;
         // Without new samples, the level is zero.
-        if (fresh > 0 || trace.end() < seen) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), factor, latest);
+        if (fresh > 0 || trace.end() < seen) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), 1.0, latest);
+        for (std::size_t i = latest.size() - std::min (fresh, latest.size()); i < latest.size(); ++i)
+            if (std::isfinite (latest[i])) strongest = std::max (strongest, std::abs (latest[i]));
+        for (auto& v : latest)
+            v *= factor;
         seen = trace.end();
     }
     meter.take (latest, fresh, dt_s);

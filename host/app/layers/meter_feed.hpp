@@ -19,12 +19,14 @@ struct MeterFeed
     Meter meter;
     std::string unit;   ///< symbol in SI; empty: not known
     Quantity quantity = Quantity::any;
+    double strongest = 0.0;   ///< the greatest level of the trace in this run, before the factor
 
     /// Returns true if there is a trace. `factor` scales the level.
     bool take (const PortTraces&, double factor, double dt_s);
 
 private:
     std::uint64_t seen = 0;
+    std::weak_ptr<const Trace> of;
     bool has_begun = false;   // what a trace held before was of another layer, or of an earlier run
     std::vector<double> latest;
 };

@@ -101,7 +101,6 @@ void LayerStrip::show()
     const auto held = controlOf (graph, pathOf ("gain"));
     held_by = held ? juce::String (held->name) : juce::String();
     const double now = held ? held->value : numberOf (*node, "gain");
-    if (now == 0.0 && gain != 0.0) unity_peak = feed.meter.peak() / std::abs (gain);
     gain = now;
     driver = driverAt (graph, pathOf ("gain"));
     gain_field.setDriver (driver);
@@ -184,7 +183,11 @@ void LayerStrip::nameControls (const juce::String& label)
     priority.setTitle (filled (TRANS ("Priority of %1"), label));
 }
 
-UnityLevel LayerStrip::unityLevel() const { return { gain == 0.0 ? unity_peak : feed.meter.peak() / std::abs (gain), feed.unit }; }
+UnityLevel LayerStrip::unityLevel() const
+{
+    if (is_before_gain) return { feed.strongest, feed.unit };
+    return { gain != 0.0 ? feed.strongest / std::abs (gain) : 0.0, feed.unit };
+}
 
 void LayerStrip::typeGain (const juce::String& text) { gain_field.type (text); }
 
@@ -283,6 +286,7 @@ void LayerStrip::refresh (const Traces::Client& traces, double dt_s, bool with_s
     const auto port = [this] (const char* list) { return context->place.path + list + std::to_string (layer) + ']'; };
     const auto found = traces.of (port (".in["));
     const auto level = found.empty() ? traces.of (port (".level[")) : found;
+    is_before_gain = ! found.empty();
     const auto peak = feed.meter.peak(), rms = feed.meter.rms();
     const auto quantity = feed.quantity;
     feed.take (level, found.empty() ? 1.0 : gain, dt_s);   // the level is that after the gain

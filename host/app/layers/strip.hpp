@@ -98,11 +98,11 @@ private:
     NumberField gain_field { decibelSheet() }, priority, send_gain { decibelSheet() };
     std::vector<Send> sends;
     MeterFeed feed;
+    bool is_before_gain = true;   // what the meter takes
     Bands spectrum;
     juce::Rectangle<int> meter_area, spectrum_area, peak_area;
     graph::Id fed_by = 0;
     double gain = 1.0;
-    double unity_peak = 0.0;   // the peak at a gain of 1, before the gain became 0
     bool heard = true, wired = false, moving = false;
     juce::String held_by;
     std::string driver;   // the output whose wire sets the gain

@@ -76,6 +76,16 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
     notifyChanged();
 }
 
+void Document::beginHistory()
+{
+    const auto now = origins[edits.position()];
+    edits = graph::History (edits.graph(), nullptr);
+    origins = { now };
+    window_steps.clear();
+    ++changes;
+    notifyChanged();
+}
+
 void Document::goTo (std::size_t position)
 {
     const auto before = edits.position();

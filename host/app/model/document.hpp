@@ -80,6 +80,9 @@ public:
     /// Replaces the graph as one undo step of that name.
     void open (graph::Graph, Source, const std::string& step);
 
+    /// Forgets all steps, so that nothing before now can be brought back.
+    void beginHistory();
+
     /// Tells the listeners that the graph must be read again, because the node types of the catalogue have changed.
     void renew()
     {

@@ -11,16 +11,23 @@ namespace tactus::host
 {
 
 /// A path with a transport: pause, seek and slow motion while a hand follows it. The position never jumps: after a seek it catches up like
-/// a critically damped spring, and a change of speed takes a moment.
+/// a critically damped spring, and a change of speed takes a moment. A gesture goes round; a recording pauses at its end.
 class TransportPath final : public Path
 {
 public:
     static constexpr double least_speed = 0.1, most_speed = 2.0;
 
-    explicit TransportPath (std::shared_ptr<const Path> p) : path (std::move (p)), now (path->at (0.0)) {}
+    explicit TransportPath (std::shared_ptr<const Path> p)
+        : path (std::move (p)), repeats (dynamic_cast<const GesturePath*> (path.get()) != nullptr), now (path->at (0.0))
+    {
+    }
 
     // [any thread]
-    void play (bool on) noexcept { plays = on; }
+    void play (bool on) noexcept
+    {
+        if (on && ! repeats && reported >= path->duration()) seek (0.0);   // again from its beginning
+        plays = on;
+    }
     bool isPlaying() const noexcept { return plays; }
     void setSpeed (double factor) noexcept { speed = factor; }
     void seek (double to_s) noexcept { wanted = to_s; }
@@ -45,6 +52,12 @@ public:
             place = to;
         }
         place += pace * dt;
+        const double length = path->duration();
+        if (! repeats && place >= length)
+        {
+            place = length;
+            plays = false;
+        }
         const Vec3 b = offset.velocity + catch_up_rate * offset.position;
         const double decay = math::exp (-catch_up_rate * dt);
         offset.position = decay * (offset.position + b * dt);
@@ -53,8 +66,7 @@ public:
         const auto on_path = path->at (place);
         now.position = on_path.position + offset.position;
         now.velocity = pace * on_path.velocity + offset.velocity;
-        const double loop = path->duration();
-        reported.store (loop > 0.0 ? math::fmod (place, loop) : place, std::memory_order_relaxed);
+        reported.store (repeats && length > 0.0 ? math::fmod (place, length) : place, std::memory_order_relaxed);
         return now;
     }
 
@@ -63,7 +75,8 @@ private:
     static constexpr double pace_rate = 20.0, catch_up_rate = 12.0;   // 1/s
 
     std::shared_ptr<const Path> path;
-    std::atomic<bool> plays = true;
+    const bool repeats;
+    mutable std::atomic<bool> plays = true;
     std::atomic<double> speed = 1.0;
     mutable std::atomic<double> wanted = none, reported = 0.0;
 

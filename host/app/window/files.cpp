@@ -11,6 +11,7 @@
 #include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 
 namespace tactus::host
@@ -131,6 +132,7 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), true, by_pointer);
+    if (! document.file().empty()) known_texts[document.file()] = readTextFile (document.file()).value_or (std::string());
     callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
 }
 
@@ -181,8 +183,22 @@ void Files::openCopy (const fs::path& preset, bool by_pointer)
 void Files::save (std::function<void()> then)
 {
     endTyping();
-    if (document.file().empty()) return saveAs (std::move (then));
-    saveTo (document.file(), then);
+    const auto file = document.file();
+    if (file.empty()) return saveAs (std::move (then));
+    if (! wasChangedElsewhere (file)) return saveTo (file, then);
+    question.ask (filled (TRANS ("%1 has been changed"), printableName (file.filename().string())),
+                  TRANS ("Another program has changed the file since it was opened or saved here. Saving it replaces those changes."),
+                  { { TRANS ("Save as ..."), [this, then] { saveAs (then); } },
+                    { TRANS ("Replace"), [this, file, then] { saveTo (file, then); } },
+                    { TRANS ("Cancel"), {} } });
+}
+
+/// True if a file is there and is no longer what this window has read or written.
+bool Files::wasChangedElsewhere (const fs::path& file) const
+{
+    const auto known = known_texts.find (file);
+    const auto now = readTextFile (file);
+    return known != known_texts.end() && now && *now != known->second;
 }
 
 void Files::saveAs (std::function<void()> then)
@@ -227,6 +243,7 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     const auto messages = document.save (file, carriedTo (file.parent_path(), document.graph()));
     if (! messages.empty() && name != before) document.call (before);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
+    known_texts[file] = readTextFile (file).value_or (std::string());
     autosave();
     settings.noteRecent (file);
     callbacks.onSettings();
@@ -272,6 +289,7 @@ void Files::restoreNext (bool runs)
     auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
     show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, false);
+    document.beginHistory();   // what was open before was empty, and undo must not lose what was recovered
     bool has_takes = true;
     for (const auto& take : crashed.front().takes())
         has_takes = callbacks.openTake (take) && has_takes;

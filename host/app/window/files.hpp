@@ -9,6 +9,7 @@
 #include <host/app/storage/settings.hpp>
 
 #include <functional>
+#include <map>
 
 namespace tactus::host
 {
@@ -74,6 +75,7 @@ private:
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
     std::string nameIn (const std::filesystem::path&) const;
+    bool wasChangedElsewhere (const std::filesystem::path&) const;
     void askAboutNext();
     void restoreNext (bool runs);
     std::string name() const;
@@ -87,8 +89,9 @@ private:
     std::optional<RecoverySession> session;
     std::filesystem::path home;
     std::vector<CrashedSession> crashed;
-    std::optional<Autosaver> autosaver;   // declared after the session, which it uses
-    bool is_dirty = false;                // the document has changed since it was handed to the autosaver
+    std::optional<Autosaver> autosaver;                         // declared after the session, which it uses
+    std::map<std::filesystem::path, std::string> known_texts;   // of files, as they were last read or written here
+    bool is_dirty = false;                                      // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
     bool safe = false;
 };

@@ -14,6 +14,8 @@ namespace tactus::host
 class Block : public juce::Component
 {
 public:
+    Block() { setMouseClickGrabsKeyboardFocus (false); }   // a click beside the fields must not give the keyboard to the first one
+
     virtual int heightFor (int width) = 0;
     virtual void refresh (const graph::Node*) {}   ///< shows the current values; the node may be null
     virtual void refreshLive() {}                  ///< shows what wires set; call it while a graph runs, and once after that

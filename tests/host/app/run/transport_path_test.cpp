@@ -60,6 +60,30 @@ TEST_CASE ("the hand never jumps on a pause, a seek or a change of speed, and it
     });
 }
 
+TEST_CASE ("a recording pauses at its end, and plays again from its beginning", "[app][transport]")
+{
+    TraceData data;
+    for (int i = 0; i <= 10; ++i)
+        data.rows.push_back ({ 0.1 * i, { 0.01 * i, 0.0, 0.0 } });
+    TransportPath played { std::make_shared<TracePath> (data, Placement {}) };
+    double t = 0.0;
+    const auto run = [&] (double seconds) {
+        for (const double end = t + seconds; t < end; t += 1.0 / 4000.0)
+            played.at (t);
+    };
+    run (0.5);
+    CHECK (played.isPlaying());
+    CHECK (played.position() == Approx (0.5).epsilon (0.01));
+    run (1.0);
+    CHECK_FALSE (played.isPlaying());
+    CHECK (played.position() == played.duration());
+    played.play (true);
+    run (0.5);
+    CHECK (played.isPlaying());
+    CHECK (played.position() > 0.3);
+    CHECK (played.position() < 0.6);
+}
+
 TEST_CASE ("a paused hand comes to rest, and continues from there", "[app][transport]")
 {
     const auto path = stroke();

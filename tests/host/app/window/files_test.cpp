@@ -336,7 +336,54 @@ TEST_CASE ("an edit during a run is autosaved before it runs, and counts as a tr
     CHECK_FALSE (d.isInTrial());
 }
 
-TEST_CASE ("a recovered document is unsaved, and recovering it can be undone")
+TEST_CASE ("a file that another program has changed is replaced only if the person says so", "[files]")
+{
+    TemporaryFolder folder;
+    const auto file = folder / "mine.json";
+    REQUIRE (saveGraph (loadGraph (wood).graph, file));
+    Rig d;
+    d.files->open (file);
+    d.edit (0.5);
+    d.files->save();
+    CHECK_FALSE (d.question.isOpen());   // nobody else has changed it
+    const auto written = *readTextFile (file);
+
+    const auto theirs = written + "\n";
+    REQUIRE (writeTextFile (file, theirs));
+    d.edit (0.6);
+    SECTION ("Cancel keeps both")
+    {
+        d.files->save();
+        REQUIRE (d.question.isOpen());
+        CHECK (d.question.title().contains ("has been changed"));
+        d.question.cancel();
+        CHECK (*readTextFile (file) == theirs);
+        CHECK (d.document.isChanged());
+    }
+    SECTION ("Replace saves, and then the file is known")
+    {
+        bool went_on = false;
+        d.files->save ([&] { went_on = true; });
+        REQUIRE (d.question.isOpen());
+        CHECK_FALSE (went_on);
+        d.question.answer (1);
+        CHECK (went_on);
+        CHECK (*readTextFile (file) != theirs);
+        CHECK_FALSE (d.document.isChanged());
+        d.edit (0.7);
+        d.files->save();
+        CHECK_FALSE (d.question.isOpen());
+    }
+    SECTION ("a file that is gone is written again")
+    {
+        fs::remove (file);
+        d.files->save();
+        CHECK_FALSE (d.question.isOpen());
+        CHECK (fs::exists (file));
+    }
+}
+
+TEST_CASE ("a recovered document is unsaved, and no undo takes it away")
 {
     TemporaryFolder home;
     auto graph = loadGraph (wood).graph;
@@ -353,7 +400,10 @@ TEST_CASE ("a recovered document is unsaved, and recovering it can be undone")
     CHECK (d.document.file() == wood);
     CHECK (d.document.isChanged());
     CHECK (d.runs);
-    CHECK (d.document.history().names().back() == "recover Dry wood");
+    CHECK (d.document.history().size() == 0);
+    d.document.undo();
+    CHECK (writeGraph (d.document.graph()) == writeGraph (graph));
+    CHECK (d.document.isChanged());
     CHECK_FALSE (fs::exists (folder));
     d.files->end();
     CHECK (fs::is_empty (home / "sessions"));
