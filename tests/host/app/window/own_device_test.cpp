@@ -67,6 +67,7 @@ TEST_CASE ("a card of the devices panel says that the mouse moves the tool, and 
     // A hand that was chosen since then stays.
     listTitled (w, "What moves the tool").grabKeyboardFocus();
     w.key ("cursor down");
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
     w.key ("cursor down");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand().kind == LiveRun::Hand::Kind::path; }));
     w.key ("ctrl + z");
