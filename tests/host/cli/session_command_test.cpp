@@ -185,7 +185,8 @@ TEST_CASE ("an unreadable session prevents a run if it was named on the command 
 TEST_CASE ("a user's damaged session file neither ends a run nor causes a force, is set aside, and is not mentioned by the next run", "[sessions][cli]")
 {
     const Scratch home;
-    const std::string before = std::getenv ("TACTUS_HOME");
+    const char* const given = std::getenv ("TACTUS_HOME");
+    const std::string before = given != nullptr ? given : "";
     setenv ("TACTUS_HOME", home.path ("").c_str(), 1);
     home.write ("session.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"})");
     const std::vector<std::string> arguments { "play", wood, "--osc", "off", "--duration", "0.1" };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/app/window/files.hpp>
-#include <tactus/file/text_file.hpp>
-
 #include "support/temporary_folder.hpp"
 
+#include <host/app/window/files.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
+
+#include <catch2/catch.hpp>
 
 #include <fstream>
 #include <iterator>
