@@ -103,7 +103,7 @@ std::vector<DeviceOption> CommandRun::readDeviceOptions()
         reportOn (notes);
         if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
         if (std::ranges::any_of (all, [&] (const auto& other) { return other.role == parsed->role; }))
-            fail (Message::error ("device/option", "--device " + text, "the role " + quote (parsed->role) + " has got a device before", "leave one of the two out"));
+            fail (Message::error ("device/option", "--device " + text, "the role " + quote (parsed->role) + " already has a device", "remove one of the two"));
         all.push_back (std::move (*parsed));
     }
     return all;

@@ -30,7 +30,7 @@ struct ReportSize
 };
 
 /// The descriptor of a device with one collection, whose reports are bytes without a meaning: all fields have a usage of the vendor, so the system
-/// makes neither a keyboard nor a pointer of them, whatever the collection is. The reports with one id must be of different kinds.
+/// makes neither a keyboard nor a pointer out of them, whatever the collection is. The reports with one id must be of different kinds.
 Bytes describeReports (std::uint16_t usage_page, std::uint16_t usage, std::span<const ReportSize>);
 
 /// A device that a profile fits, as its first rule describes it. Id: fake/wire if the profile has no rule or no input report, or if it has reports with and

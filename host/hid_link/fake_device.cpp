@@ -178,7 +178,7 @@ Result<> FakeDevice::findFile()
         if (name = hid->path(); ! name.empty()) return {};
     }
     return Message::error ("fake/hidraw", profile->id, "the kernel has made no file /dev/hidraw* for the device",
-                           "load the module hid-generic; a device that the kernel has a driver of its own for needs more than a profile describes");
+                           "load the module hid-generic; if the kernel has its own driver for this device, that driver needs more than a profile describes");
 }
 
 /// What it answers if it is asked for a report: the latest one of this id, or a feature report of `init`.

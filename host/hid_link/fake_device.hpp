@@ -94,8 +94,8 @@ public:
         std::uint64_t released = 0;   ///< times that the watchdog has released the motors
     };
 
-    /// The hand may be any simulated device. Its layout is not used. Ids: device/wire, fake/wire if the profile does not know the wire, fake/link; of HID those
-    /// of VirtualHid, and fake/hidraw if the kernel makes no file of the device.
+    /// The hand may be any simulated device. Its layout is not used. Ids: device/wire, fake/wire if the profile does not know the wire, fake/link; for HID,
+    /// also those of VirtualHid, and fake/hidraw if the kernel makes no file for the device.
     static Result<std::unique_ptr<FakeDevice>> make (std::shared_ptr<const Profile>, std::unique_ptr<Device> hand, Options);
 
     ~FakeDevice();

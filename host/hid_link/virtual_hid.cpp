@@ -70,7 +70,7 @@ Result<std::unique_ptr<VirtualHid>> VirtualHid::plug (const DeviceIdentity& iden
     if (file < 0)
     {
         const auto why = std::generic_category().message (errno);
-        if (isForbidden (door)) return Message::error ("hid/not_permitted", door, why, "run this program as root, or give this user the right to the file");
+        if (isForbidden (door)) return Message::error ("hid/not_permitted", door, why, "run this program as root, or give this user access to the file");
         return Message::error ("fake/uhid", door, "the kernel makes no virtual HID devices here: " + why,
                                "load its module with \"sudo modprobe uhid\"; in a container, ask for the device");
     }

@@ -125,7 +125,7 @@ DeviceParts partsOf (const hid::Profile& p)
 
 namespace
 {
-/// The directions in the graph of what a device does along its own ones, of which a name is empty where it does nothing. Empty for all three.
+/// The axes of the graph along which a device acts: "x and y". Empty if it acts along all three. `names`: its own axes; an empty name means none there.
 std::string directions (const hid::Profile& p, const std::array<std::string, 3>& names, const Mat3& axes)
 {
     Vec3 has;

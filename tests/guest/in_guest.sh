@@ -174,7 +174,7 @@ for signal in INT KILL STOP hang; do
     keep driver_$signal
 done
 
-# The board of fake-device. The program has another name than the one that plays.
+# The board of fake-device. The program has a different name from the one that plays.
 ln -s "$PWD/$tactus" $work/fake
 inputs=$(compgen -G '/sys/class/input/event*' | wc -l)
 pretend () { gone; $work/fake fake-device tactus_board --wire hid --log $work/fake.log "$@" >$work/fake.txt 2>&1 & sim=$!; wait_for '/dev/hidraw*'; }

@@ -54,7 +54,7 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
                            filled (TRANS ("the layer has reached only %1, so that would be a gain of %2 dB"), levelWritten (level),
                                    juce::String (decibelsOf (wanted->value / level.peak), 1))
                                .toStdString(),
-                           TRANS ("let it sound as strongly as it will, or write a gain such as 6 dB").toStdString());
+                           TRANS ("let it reach its full strength first, or write a gain such as 6 dB").toStdString());
 }
 }   // namespace
 

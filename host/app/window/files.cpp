@@ -187,7 +187,7 @@ void Files::save (std::function<void()> then)
     if (file.empty()) return saveAs (std::move (then));
     if (! wasChangedElsewhere (file)) return saveTo (file, then);
     question.ask (filled (TRANS ("%1 has been changed"), printableName (file.filename().string())),
-                  TRANS ("Another program has changed the file since it was opened or saved here. Saving it replaces those changes."),
+                  TRANS ("Another program has changed the file since it was opened or saved here. Saving overwrites those changes."),
                   { { TRANS ("Save as ..."), [this, then] { saveAs (then); } },
                     { TRANS ("Replace"), [this, file, then] { saveTo (file, then); } },
                     { TRANS ("Cancel"), {} } });

@@ -114,7 +114,7 @@ private:
             known (key, name, among, unit);
     }
 
-    /// A linear map gives a force or a torque. Without the constant of a motor, neither is a current.
+    /// A linear map gives a force or a torque. Without the constant of a motor, neither can be a current.
     void noCurrents()
     {
         if (! std::holds_alternative<LinearMap> (p.kinematics)) return;
@@ -201,7 +201,7 @@ private:
             }
     }
 
-    /// Whether the device may take a step for this report: by its id, or without ids, by its first byte, unless that is a part of a field.
+    /// Whether the device may mistake a step for this report: by its id, or without ids, by its first byte, unless that is a part of a field.
     static bool sends (const Step& step, const OutputReport& report)
     {
         if (step.bytes.empty() || report.body.empty() || step.kind == Step::Kind::get_feature) return false;
@@ -239,7 +239,7 @@ private:
                 asked = "the raw value " + numberText (number) + ", but no force is " + numberText (none) + ",";
         if (! asked.empty())
             in.error (key, "profile/neutral", what + " asks for " + asked + " in " + quote (field.name),
-                      "write the raw value of this field that means no force there");
+                      "write the raw value there that means no force");
     }
 
     /// Checks that each effort has a limit. For an effort that is neither force nor torque, min and max of its field are enough.

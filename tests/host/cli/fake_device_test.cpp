@@ -217,7 +217,7 @@ TEST_CASE ("a role gets one device", "[cli][wires]")
     const auto ran = runTactus ({ "play", dry_wood, "--device", "stylus=sim", "--device", "stylus=gesture:press", "--session", "off", "--osc", "off",
                                   "--duration", "0.1" });
     CHECK (ran.status == 1);
-    CHECK (ran.err.find ("the role 'stylus' has got a device before") != std::string::npos);
+    CHECK (ran.err.find ("the role 'stylus' already has a device") != std::string::npos);
 }
 
 TEST_CASE ("a line that carries only garbage is told from one that carries nothing", "[cli][wires]")

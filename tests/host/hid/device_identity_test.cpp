@@ -76,7 +76,7 @@ TEST_CASE ("no profile makes a keyboard or a pointer of a virtual device", "[hid
         }
 }
 
-TEST_CASE ("a profile that cannot be a virtual device is told why", "[hid][wires]")
+TEST_CASE ("a profile that cannot be a virtual device is refused with the reason", "[hid][wires]")
 {
     const auto said = [] (const Profile& profile) {
         const auto device = identityOf (profile);

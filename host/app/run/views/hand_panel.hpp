@@ -24,8 +24,8 @@ public:
     /// What can move the tool, and which tool it can be, by name, and how to choose it.
     std::vector<std::pair<juce::String, std::function<void()>>> choices();
 
-    /// From now on, the tool is moved by its own device. Returns a function that takes this back, and when it is called again, does it again; it does nothing
-    /// while the user has chosen another hand meanwhile.
+    /// From now on, the tool is moved by its own device. Returns a function that takes this back, and when it is called again, does it again; it does
+    /// nothing if the user has since chosen another hand.
     std::function<void()> useDevice();
 
     HandView& view() noexcept { return surface; }
