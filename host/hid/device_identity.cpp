@@ -103,10 +103,11 @@ Result<DeviceIdentity> identityOf (const Profile& profile)
 
 Bytes featureOf (const Profile& profile, std::uint8_t id)
 {
+    const bool has_ids = usesIds (profile);
     for (const auto& step : profile.init)
     {
-        if (step.kind != Step::Kind::get_feature || step.bytes.empty() || step.bytes.front() != id) continue;
-        Bytes report (step.bytes.size());
+        if (step.kind != Step::Kind::get_feature || step.bytes.empty() || (has_ids && step.bytes.front() != id)) continue;
+        Bytes report (step.bytes.size() + (has_ids ? 0 : 1));
         report.front() = id;
         return report;
     }

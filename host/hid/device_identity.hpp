@@ -37,7 +37,7 @@ Bytes describeReports (std::uint16_t usage_page, std::uint16_t usage, std::span<
 /// without ids.
 Result<DeviceIdentity> identityOf (const Profile&);
 
-/// What a device with the profile answers to a request for a feature report that `init` makes: the id, and zeros. Empty: it has no such report.
+/// What a device with the profile answers to a request for a feature report that `init` makes: the id, or a 0 if it has no ids, and zeros. Empty: it has no such report.
 Bytes featureOf (const Profile&, std::uint8_t id);
 
 }   // namespace tactus::host::hid

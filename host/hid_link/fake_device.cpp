@@ -163,7 +163,7 @@ Result<> FakeDevice::plug()
     auto plugged = VirtualHid::plug (*identity, serial);
     if (! plugged) return std::move (plugged).error();
     hid = std::move (*plugged);
-    hid->on_ask = [this] (std::uint8_t id) { return answerTo (id); };
+    hid->on_ask = [this] (std::uint8_t id, bool is_feature) { return answerTo (id, is_feature); };
     return {};
 }
 
@@ -182,12 +182,16 @@ Result<> FakeDevice::findFile()
 }
 
 /// What it answers if it is asked for a report: the latest one of this id, or a feature report of `init`.
-Bytes FakeDevice::answerTo (std::uint8_t id) const
+Bytes FakeDevice::answerTo (std::uint8_t id, bool is_feature) const
 {
     if (is (FaultKind::stall) || is (FaultKind::reset)) return {};
-    const bool has_ids = profile->inputs.front().id.has_value();
+    if (is_feature) return featureOf (*profile, id);
+    const bool has_ids = usesIds (*profile);
     const auto latest = std::ranges::find_if (previous, [&] (const auto& r) { return ! has_ids || r.front() == id; });
-    return latest != previous.end() ? *latest : featureOf (*profile, id);
+    if (latest == previous.end()) return {};
+    auto report = *latest;
+    if (! has_ids) report.insert (report.begin(), 0);
+    return report;
 }
 
 bool FakeDevice::is (FaultKind kind) const noexcept
@@ -217,6 +221,8 @@ void FakeDevice::restart()
     lines.reset();
     previous.clear();
     if (wire) wire->dropInput();
+    for (Bytes bytes (longest_report + 1); hid && hid->read (bytes, {}).what == WireFile::Outcome::Kind::report;)
+        ;
 }
 
 void FakeDevice::step()

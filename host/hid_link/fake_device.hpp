@@ -128,7 +128,7 @@ private:
     Result<> plug();
     Result<> findFile();
     bool isConnected() const noexcept { return wire || hid; }
-    Bytes answerTo (std::uint8_t id) const;
+    Bytes answerTo (std::uint8_t id, bool is_feature) const;
     bool is (DeviceFault::Kind) const noexcept;
     void comeAndGo();
     void restart();

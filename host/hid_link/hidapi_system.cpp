@@ -3,7 +3,6 @@
 
 #include <host/platform/device_file.hpp>
 #include <host/platform/failsafe.hpp>
-#include <tactus/file/file_lock.hpp>
 
 #include <hidapi.h>
 
@@ -187,16 +186,14 @@ public:
     Result<std::unique_ptr<Transport>> open (const ConnectedDevice& device) override
     {
         const std::lock_guard lock (oneAtATime());
-        auto alone = FileLock::takeExisting (device.path);
-        std::error_code unseen;
-        if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-            return inUse (device.path);
+        auto alone = lockDevice (device.path);
+        if (! alone) return std::move (alone).error();
         Handle out (hid_open_path (device.path.c_str()));
         auto file = out && isReportFile (device.path) ? ReportFile::open (device.path) : std::nullopt;
         Handle in (out && ! file ? hid_open_path (device.path.c_str()) : nullptr);
         if (! out || (! file && ! in))
             return Message::error (isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, errorOf (nullptr));
-        return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (file), std::move (in), std::move (out));
+        return std::make_unique<HidapiTransport> (device.path, std::move (*alone), std::move (file), std::move (in), std::move (out));
     }
 
     Bytes reportDescriptor (const ConnectedDevice& device) override   // not through hidapi, which provides it only since 0.14
@@ -208,6 +205,15 @@ public:
     bool mayOpen (const ConnectedDevice& device) override { return ! isForbidden (device.path); }
 };
 }   // namespace
+
+Result<std::optional<FileLock>> lockDevice (const std::string& path)
+{
+    auto alone = FileLock::takeExisting (path);
+    std::error_code unseen;
+    const bool is_used = ! alone && std::filesystem::exists (path, unseen) && ! std::filesystem::is_directory (path, unseen) && ! isForbidden (path);
+    if (is_used) return inUse (path);
+    return alone;
+}
 
 HidSystem& thisComputer()
 {

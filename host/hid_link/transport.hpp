@@ -3,12 +3,14 @@
 
 #include <host/hid/match.hpp>
 #include <host/platform/report_file.hpp>
+#include <tactus/file/file_lock.hpp>
 #include <tactus/text/result.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -33,6 +35,9 @@ inline Message inUse (std::string where)
     return Message::error ("hid/not_opened", std::move (where), "another role or another instance of Tactus is using it",
                            "end the other program, or leave the device to the other role");
 }
+
+/// Locks the file of a device, so that only one driver uses it. Empty if the system does not let this user open it. Id: hid/not_opened if another driver has it.
+Result<std::optional<FileLock>> lockDevice (const std::string& path);
 
 /// An open device. One thread may read while another makes all other calls. The destructor closes it. Id: hid/transfer.
 class Transport

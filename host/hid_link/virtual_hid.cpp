@@ -113,7 +113,7 @@ VirtualHid::Outcome VirtualHid::read (std::span<std::uint8_t> into, Clock::time_
         }
         if (e.type == UHID_OPEN) is_open = true;
         if (e.type == UHID_CLOSE) is_open = false;
-        if (e.type == UHID_GET_REPORT) answer (file, e, on_ask ? on_ask (e.u.get_report.rnum) : Bytes {});
+        if (e.type == UHID_GET_REPORT) answer (file, e, on_ask ? on_ask (e.u.get_report.rnum, e.u.get_report.rtype == UHID_FEATURE_REPORT) : Bytes {});
         if (e.type == UHID_OUTPUT) return taken (into, e.u.output.data, e.u.output.size);
         if (e.type == UHID_SET_REPORT)
         {

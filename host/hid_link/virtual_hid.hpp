@@ -29,8 +29,9 @@ public:
     VirtualHid (const VirtualHid&) = delete;
     VirtualHid& operator= (const VirtualHid&) = delete;
 
-    /// The answer to a request for the report with this id, which begins with it. Empty: the request is refused.
-    std::function<Bytes (std::uint8_t id)> on_ask;
+    /// The answer to a request for the input or feature report with this id. It begins with the id, or with a 0 if the device has none. Empty: the request is
+    /// refused.
+    std::function<Bytes (std::uint8_t id, bool is_feature)> on_ask;
 
     /// Takes the next output or feature report that a program has sent, or waits for one; does not wait if `until` has passed. Answers the requests that come
     /// meanwhile. A report without an id begins with a 0 on some kernels.

@@ -342,9 +342,9 @@ Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, co
     std::error_code unseen;
     if (std::filesystem::is_directory (device.path, unseen))
         return notOpened (device, "it is a folder, not a serial line", "name the port itself, such as /dev/ttyACM0");
-    auto alone = FileLock::takeExisting (device.path);
-    if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-        return inUse (device.path);
+    auto locked = lockDevice (device.path);
+    if (! locked) return std::move (locked).error();
+    auto& alone = *locked;
     auto line = WireFile::openSerial (device.path, profile.wires.serial->baud);
     if (! line) return notOpened (device, line.error().text, line.error().remedy);
     if (! alone) return notOpened (device, "it cannot be locked");

@@ -77,7 +77,10 @@ public:
     }
 
     /// The answer to a request for the report with this id. Empty: the request is refused.
-    void answerWith (std::function<std::vector<std::uint8_t> (std::uint8_t)> answer) { device->on_ask = std::move (answer); }
+    void answerWith (std::function<std::vector<std::uint8_t> (std::uint8_t)> answer)
+    {
+        device->on_ask = [answer = std::move (answer)] (std::uint8_t id, bool) { return answer (id); };
+    }
 
     bool input (std::span<const std::uint8_t> report) override { return device->send (report); }
     bool isOpen() const override { return device->isOpen(); }

@@ -47,8 +47,9 @@ class Browser
     get (url, method = 'GET')
     {
         let answer;
-        this.listeners.fetch ({ request: { url, method }, respondWith: given => { answer = given; } });
-        return answer;
+        const kept = [];
+        this.listeners.fetch ({ request: { url, method }, respondWith: given => { answer = given; }, waitUntil: work => kept.push (work) });
+        return answer?.then (async given => { await Promise.all (kept); return given; });
     }
 }
 

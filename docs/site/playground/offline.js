@@ -9,7 +9,7 @@ async function keep (request, answer)
     catch (error) { console.warn (`not kept for later: ${request.url}: ${error}`); }
 }
 
-async function answerTo (request)
+async function answerTo ({ request }, whileKept)
 {
     let answer;
     try { answer = await fetch (request); }
@@ -19,17 +19,19 @@ async function answerTo (request)
         if (! kept) throw error;
         return kept;
     }
-    if (answer.status === 200) await keep (request, answer.clone());   // not a part of a file
+    if (answer.status === 200) whileKept (keep (request, answer.clone()));   // not a part of a file
     return answer;
 }
 
 async function begin()
 {
     for (const name of await caches.keys())
-        if (name.startsWith (shelves) && name !== shelf) await caches.delete (name);
+        if (name.startsWith ('tactus-playground') && name !== shelf) await caches.delete (name);
     await clients.claim();
 }
 
 addEventListener ('install', () => skipWaiting());
 addEventListener ('activate', event => event.waitUntil (begin()));
-addEventListener ('fetch', event => { if (event.request.method === 'GET') event.respondWith (answerTo (event.request)); });
+addEventListener ('fetch', event => {
+    if (event.request.method === 'GET') event.respondWith (answerTo (event, work => event.waitUntil (work)));
+});

@@ -31,8 +31,14 @@ public:
         setRange (0.0, 1.0);
         setNumDecimalPlacesToDisplay (2);
         setWantsKeyboardFocus (true);
-        setMouseClickGrabsKeyboardFocus (false);                  // the canvas keeps the keyboard focus
-        onValueChange = [this] { change (getValue(), false); };   // by a screen reader
+        setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
+        valueFromTextFunction = [this] (const juce::String& text) {
+            const auto to = readControl (text.toStdString());
+            return to ? *to : getValue();
+        };
+        onValueChange = [this] {   // by a screen reader
+            if (! refusesHand()) change (getValue(), false);
+        };
     }
 
     const std::string& control() const noexcept { return id; }
@@ -78,7 +84,7 @@ public:
 
     void mouseDrag (const juce::MouseEvent& e) override
     {
-        constexpr double pixels = 250.0;   // over the whole range
+        constexpr double pixels = 200.0;   // over the whole range
         if (! has_no_effect) turnTo (grabbed + way.to (e) / pixels);
     }
 
@@ -90,10 +96,12 @@ public:
         if (refusesHand()) return;
         const auto now = juce::Time::getMillisecondCounter();
         continues = now - turned_at < 500 && document.history().position() == turned_step;
+        const auto version = document.version();
         turnTo (getValue() + static_cast<double> (wheel.deltaY) * (e.mods.isShiftDown() ? 0.02 : 0.2));
+        continues = false;
+        if (document.version() == version) return;   // at an end of the range
         turned_at = now;
         turned_step = document.history().position();
-        continues = false;
     }
 
     void focusGained (FocusChangeType cause) override
@@ -173,6 +181,7 @@ private:
     /// Opens a field over a part of the knob.
     void edit (const juce::String& title, const juce::String& text, juce::Rectangle<int> place, std::function<void (const juce::String&)> apply)
     {
+        if (field) field->apply();
         field = std::make_unique<TextField>();
         field->setTitle (title);
         field->show (text);

@@ -118,10 +118,11 @@ std::unique_ptr<juce::AccessibilityHandler> Fader::createAccessibilityHandler()
 void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
     const auto now = juce::Time::getMillisecondCounter();
+    const auto before = gain;
     dragged = now - turned_at < 500;   // one turn of the wheel is one step of the history
-    turned_at = now;
     moveTo (Taper::position (gain) + static_cast<double> (wheel.deltaY) * (e.mods.isShiftDown() ? 0.02 : 0.1));
     dragged = false;
+    if (gain != before) turned_at = now;
 }
 
 void Fader::paint (juce::Graphics& g)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gain_text.hpp"
+#include "meter_feed.hpp"
 
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 
-#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/read_number.hpp>
 #include <tactus/text/units.hpp>
@@ -29,8 +29,6 @@ std::string squeezed (const std::string& text)
 
 constexpr double most_by_level = 4.0;   // 12 dB
 
-std::string levelWritten (const UnityLevel& level) { return numberText (std::strtod (juce::String (level.peak, 3, true).toRawUTF8(), nullptr)) + " " + level.unit; }
-
 Result<double> levelToGain (const std::string& text, const UnityLevel& level)
 {
     const auto wanted = parseMeasure (unitWritten (text));
@@ -51,7 +49,7 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
     // A level that a layer reaches for a moment only, such as while the hand rests, says nothing about how strong it becomes.
     if (const double gain = wanted->value / level.peak; std::abs (gain) <= most_by_level) return decibelsOf (gain);
     return Message::error ("gain/quiet", {},
-                           filled (TRANS ("the layer has reached only %1, so that would be a gain of %2 dB"), levelWritten (level),
+                           filled (TRANS ("the layer has reached only %1, so that would be a gain of %2 dB"), levelText (level.peak, level.unit),
                                    juce::String (decibelsOf (wanted->value / level.peak), 1))
                                .toStdString(),
                            TRANS ("let it reach its full strength first, or write a gain such as 6 dB").toStdString());

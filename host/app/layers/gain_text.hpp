@@ -22,7 +22,7 @@ double gainOf (double decibels);
 /// The datasheet row of a gain in dB, for a NumberField.
 const PortSheet& decibelSheet();
 
-/// The greatest level that a layer has reached, at a gain of 1. From it follows the gain for a level such as "0.3 N".
+/// The greatest level that the meter of a layer has shown, at a gain of 1. From it follows the gain for a level such as "0.3 N".
 struct UnityLevel
 {
     double peak = 0.0;   ///< 0 if there is no signal

@@ -82,20 +82,22 @@ bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
 {
     const bool is_first = ! std::exchange (has_begun, true);
     latest.clear();
+    newest = 0.0;
+    has_changed = false;
     std::size_t fresh = 0;
     if (! traces.empty())
     {
         const auto& trace = *traces.front();
         unit = trace.unit();
         quantity = trace.quantity();
-        if (of.lock() != traces.front() || trace.end() < seen) strongest = 0.0;
+        has_changed = of.lock() != traces.front() || trace.end() < seen;
         of = traces.front();
         if (is_first) seen = trace.end();
         fresh = trace.end() > seen ? static_cast<std::size_t> (trace.end() - seen) : 0;
         // Without new samples, the level is zero.
         if (fresh > 0 || trace.end() < seen) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), 1.0, latest);
         for (std::size_t i = latest.size() - std::min (fresh, latest.size()); i < latest.size(); ++i)
-            if (std::isfinite (latest[i])) strongest = std::max (strongest, std::abs (latest[i]));
+            if (std::isfinite (latest[i])) newest = std::max (newest, std::abs (latest[i]));
         for (auto& v : latest)
             v *= factor;
         seen = trace.end();

@@ -19,7 +19,8 @@ struct MeterFeed
     Meter meter;
     std::string unit;   ///< symbol in SI; empty: not known
     Quantity quantity = Quantity::any;
-    double strongest = 0.0;   ///< the greatest level of the trace in this run, before the factor
+    double newest = 0.0;        ///< the greatest level that came with the last take(), before the factor
+    bool has_changed = false;   ///< true if the last take() had another trace than the one before, such as that of a new run
 
     /// Returns true if there is a trace. `factor` scales the level.
     bool take (const PortTraces&, double factor, double dt_s);

@@ -64,7 +64,11 @@ LayerStrip::LayerStrip (std::shared_ptr<const MixerContext> c, int i)
 
 void LayerStrip::connectFields()
 {
-    fader.onChange = [this] (std::optional<double> to, bool goes_on) { setGain (to ? std::optional<Json> (*to) : std::nullopt, goes_on); };
+    fader.onChange = [this] (std::optional<double> to, bool goes_on) {
+        const auto& history = context->document.history();
+        setGain (to ? std::optional<Json> (*to) : std::nullopt, goes_on && history.position() == fader_step);
+        fader_step = history.position();
+    };
     gain_field.read = [this] (const std::string& text) { return readGain (text, unityLevel()); };
     gain_field.onChange = [this] (const std::optional<Json>& db, bool goes_on) {
         if (! db) return setGain (std::nullopt, goes_on);
@@ -183,11 +187,7 @@ void LayerStrip::nameControls (const juce::String& label)
     priority.setTitle (filled (TRANS ("Priority of %1"), label));
 }
 
-UnityLevel LayerStrip::unityLevel() const
-{
-    if (is_before_gain) return { feed.strongest, feed.unit };
-    return { gain != 0.0 ? feed.strongest / std::abs (gain) : 0.0, feed.unit };
-}
+UnityLevel LayerStrip::unityLevel() const { return { unity_peak, feed.unit }; }
 
 void LayerStrip::typeGain (const juce::String& text) { gain_field.type (text); }
 
@@ -286,11 +286,12 @@ void LayerStrip::refresh (const Traces::Client& traces, double dt_s, bool with_s
     const auto port = [this] (const char* list) { return context->place.path + list + std::to_string (layer) + ']'; };
     const auto found = traces.of (port (".in["));
     const auto level = found.empty() ? traces.of (port (".level[")) : found;
-    is_before_gain = ! found.empty();
     const auto peak = feed.meter.peak(), rms = feed.meter.rms();
     const auto quantity = feed.quantity;
     feed.take (level, found.empty() ? 1.0 : gain, dt_s);   // the level is that after the gain
-    if (feed.quantity != quantity) repaint();              // its colour is everywhere
+    if (feed.has_changed) unity_peak = 0.0;
+    if (const double divisor = found.empty() ? std::abs (gain) : 1.0; divisor > 0.0) unity_peak = std::max (unity_peak, feed.newest / divisor);
+    if (feed.quantity != quantity) repaint();   // its colour is everywhere
     if (feed.meter.peak() != peak || feed.meter.rms() != rms)
     {
         repaint (meter_area);

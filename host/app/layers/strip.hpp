@@ -98,7 +98,8 @@ private:
     NumberField gain_field { decibelSheet() }, priority, send_gain { decibelSheet() };
     std::vector<Send> sends;
     MeterFeed feed;
-    bool is_before_gain = true;   // what the meter takes
+    double unity_peak = 0.0;      // the greatest level that the meter has shown in this run, at a gain of 1
+    std::size_t fader_step = 0;   // the position of the history after the last change by the fader
     Bands spectrum;
     juce::Rectangle<int> meter_area, spectrum_area, peak_area;
     graph::Id fed_by = 0;

@@ -25,7 +25,8 @@ public:
     // [any thread]
     void play (bool on) noexcept
     {
-        if (on && ! repeats && reported >= path->duration()) seek (0.0);   // again from its beginning
+        auto unasked = none;
+        if (on && ! repeats && reported >= path->duration()) wanted.compare_exchange_strong (unasked, 0.0);   // again from its beginning
         plays = on;
     }
     bool isPlaying() const noexcept { return plays; }
@@ -51,12 +52,12 @@ public:
             offset.velocity += pace * (before.velocity - after.velocity);
             place = to;
         }
+        const double length = path->duration(), was = place;
         place += pace * dt;
-        const double length = path->duration();
         if (! repeats && place >= length)
         {
             place = length;
-            plays = false;
+            if (was < length) plays = false;
         }
         const Vec3 b = offset.velocity + catch_up_rate * offset.position;
         const double decay = math::exp (-catch_up_rate * dt);

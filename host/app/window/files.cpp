@@ -122,6 +122,7 @@ void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, st
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
 {
     if (isClipExtension (file)) return loadClipGraph (file, by_pointer);
+    const auto text = readTextFile (file);   // before it is read as a graph, so that a change in between is noticed
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages) && isClipFile (file)) return loadClipGraph (file, by_pointer);
     if (hasErrors (loaded.messages)) return refuse (file, loaded.messages);
@@ -132,7 +133,7 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), true, by_pointer);
-    if (! document.file().empty()) known_texts[document.file()] = readTextFile (document.file()).value_or (std::string());
+    if (! document.file().empty()) known_texts[document.file()] = text.value_or (std::string());
     callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
 }
 
@@ -289,7 +290,8 @@ void Files::restoreNext (bool runs)
     auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
     show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, false);
-    document.beginHistory();   // what was open before was empty, and undo must not lose what was recovered
+    document.beginHistory();                                                                                  // undo must not lose what was recovered
+    if (! saved.file.empty()) known_texts[saved.file] = readTextFile (saved.file).value_or (std::string());   // what changed it before is not known
     bool has_takes = true;
     for (const auto& take : crashed.front().takes())
         has_takes = callbacks.openTake (take) && has_takes;

@@ -11,7 +11,6 @@
 #include <host/hid_link/wire_file.hpp>
 #include <host/platform/device_file.hpp>
 #include <host/platform/signals.hpp>
-#include <tactus/file/file_lock.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -85,9 +84,6 @@ void recordReports (const ConnectedDevice& device, CaptureFile& file, double dur
 /// Reads a serial port without a profile.
 void recordBytes (const ConnectedDevice& device, int baud, CaptureFile& file, double duration_s)
 {
-    std::error_code unseen;
-    const auto alone = FileLock::takeExisting (device.path);   // another reader would take a part of the bytes of a program that drives the device
-    if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path)) fail (inUse (device.path));
     auto line = WireFile::openSerial (device.path, baud);
     if (! line)
         fail (Message::error (line.error().id, device.path, "cannot open it: " + line.error().text,
@@ -139,6 +135,8 @@ void captureDevice (const DeviceCapture& options)
     const auto profiles = loadProfileLibrary();
     const auto chosen = chooseDevice (options.device, profiles);
     const auto descriptor = chosen.device.wire == Wire::hid ? thisComputer().reportDescriptor (chosen.device) : Bytes {};
+    const bool is_line = chosen.device.wire == Wire::serial && ! chosen.profile;
+    const auto alone = is_line ? orFail (lockDevice (chosen.device.path)) : std::nullopt;   // another reader would take a part of the bytes of a run
     const auto file = orFail (CaptureFile::create (options.file, chosen.device, chosen.profile ? chosen.profile->id : std::string(), descriptor));
     const auto place = printableName (chosen.device.path);
     std::cout << "recording " << place << (chosen.profile ? ", profile " + printableName (chosen.profile->id) : std::string (", without a profile"))

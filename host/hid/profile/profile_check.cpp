@@ -119,8 +119,8 @@ private:
     {
         if (! std::holds_alternative<LinearMap> (p.kinematics)) return;
         for (const auto& name : p.force)
-            if (! name.empty() && efforts.has (name) && efforts.unitOf (name) == "A")
-                in.error ("force", "profile/unit", quote (name) + " is in A, but linear kinematics give N, or N*m for an axis in rad",
+            if (! name.empty() && efforts.has (name) && efforts.unitOf (name) != "N" && efforts.unitOf (name) != "N*m")
+                in.error ("force", "profile/unit", quote (name) + " is in " + efforts.unitOf (name) + ", but linear kinematics give N, or N*m for an axis in rad",
                           "give the field a scale in N*m that includes the torque constant of the motor: for 1 mA and 0.05 N*m/A, \"5e-5 N*m\"");
     }
 
@@ -193,21 +193,32 @@ private:
     {
         for (const auto& step : steps)
             for (const auto& report : p.outputs)
-            {
-                if (! sends (step, report)) continue;
-                const auto what = "the report " + quote (report.name) + " of a step of " + quote (key);
-                rests (report, step.bytes, key, what);
-                if (key == "exit") noneEnabled (report, step.bytes, key, what);
-            }
+                for (const auto& bytes : readings (step, report))
+                {
+                    const auto what = "the report " + quote (report.name) + " of a step of " + quote (key);
+                    rests (report, bytes, key, what);
+                    if (key == "exit") noneEnabled (report, bytes, key, what);
+                }
     }
 
-    /// Whether the device may mistake a step for this report: by its id, or without ids, by its first byte, unless that is a part of a field.
-    static bool sends (const Step& step, const OutputReport& report)
+    /// How a device may read a step as this report: if it begins with its id, or without ids, with its first byte, unless that varies. Systems leave out a
+    /// leading 0, and fill up a report that is too short.
+    static std::vector<Bytes> readings (const Step& step, const OutputReport& report)
     {
-        if (step.bytes.empty() || report.body.empty() || step.kind == Step::Kind::get_feature) return false;
-        if ((step.kind == Step::Kind::feature) != report.is_feature) return false;
-        const bool varies = std::ranges::any_of (report.fields, [] (const auto& field) { return field.bits.at < 8; });
-        return varies || step.bytes.front() == report.body.front();
+        std::vector<Bytes> all;
+        if (step.bytes.empty() || report.body.empty() || report.neutral.empty() || step.kind == Step::Kind::get_feature) return all;
+        if ((step.kind == Step::Kind::feature) != report.is_feature) return all;
+        const auto isAtStart = [] (const auto& field) { return field.bits.at < 8; };
+        const bool varies = std::ranges::any_of (report.fields, isAtStart) || std::ranges::count (report.sequences, 0u, &SequenceNibble::byte) > 0
+                            || (report.stream && report.stream->at == 0) || (report.checksum && report.checksum->at == 0);
+        const auto add = [&] (std::span<const std::uint8_t> bytes) {
+            if (! varies && bytes.front() != report.body.front() && bytes.front() != report.neutral.front()) return;
+            auto& read = all.emplace_back (bytes.begin(), bytes.end());
+            read.resize (std::max (read.size(), report.body.size()));
+        };
+        add (step.bytes);
+        if (step.bytes.front() == 0 && step.bytes.size() > 1 && (report.id || step.bytes.size() == report.body.size() + 1)) add (std::span (step.bytes).subspan (1));
+        return all;
     }
 
     void noneEnabled (const OutputReport& report, const Bytes& bytes, std::string_view key, const std::string& what)
@@ -231,8 +242,8 @@ private:
     void rests (const OutputField& field, double number, std::string_view key, const std::string& what)
     {
         const auto& e = field.encoding;
-        std::string asked;   // what the number asks for; empty if it is not a force
-        if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= std::abs (e.scale)))
+        std::string asked;                                                                                                                                // what the number asks for; empty if it is not a force
+        if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= 0.5000001 * std::abs (e.scale)))   // half a count
             asked = numberText (value) + " " + field.unit;
         if (const double zero = encoded (e, 0.0); e.law == Encoding::Law::table && std::isfinite (zero))   // else the scale is refused elsewhere
             if (const double none = numberOf (field.bits, rawOf (field.bits, zero)); number != none)

@@ -140,8 +140,9 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/outputs/0/neutral", "03", "profile/beyond" },
         { "/outputs/0/neutral", "04 00*9", "profile/format" },
         { "/outputs/0/neutral", "03 00 00 01 00*6", "profile/neutral" },
-        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01 00*6" }])"), "profile/neutral" },   // 256 mN
-        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01" }])"), "profile/neutral" },        // also in a report that ends early
+        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01 00*6" }])"), "profile/neutral" },      // 256 mN
+        { "/init", Json::parse (R"([{ "bytes": "03 00 00 01" }])"), "profile/neutral" },           // also in a report that ends early
+        { "/init", Json::parse (R"([{ "bytes": "00 03 00 00 01 00*6" }])"), "profile/neutral" },   // and after a 0, which the system leaves out
         { "/exit", Json::parse (R"([{ "bytes": "01 02" }, { "bytes": "03 00 00 01 00*6" }])"), "profile/neutral" },
         { "/signals", Json::parse (R"([{ "amplitude": "fx" }])"), "profile/signal_on_force" },
         { "/limits", Json::object(), "profile/no_limit" },
@@ -275,6 +276,8 @@ TEST_CASE ("a linear map drives no current, because it knows no torque constant"
     const auto loaded = readProfile (json);
     CHECK_FALSE (loaded.profile);
     CHECK (std::ranges::any_of (loaded.messages, [] (const Message& m) { return m.id == "profile/unit" && m.where == "/force"; }));
+    json["outputs"][0]["fields"][0]["unit"] = "mA";
+    CHECK_FALSE (readProfile (json).profile);
 }
 
 TEST_CASE ("a force with a table is refused unless its neutral report holds the raw value of no force")
@@ -292,9 +295,10 @@ TEST_CASE ("a force with a table is refused unless its neutral report holds the 
     }
 }
 
-TEST_CASE ("an effort in N that is not a force may rest within one count of zero")
+TEST_CASE ("an effort in N that is not a force may rest within half a count of zero")
 {
-    CHECK (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-1 N" })"))).profile);
+    CHECK_FALSE (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "5 N", "offset": "-5 N" })"))).profile);
+    CHECK (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-0.5 N" })"))).profile);
 }
 
 TEST_CASE ("the limits of a motor accept every way to write its unit")

@@ -220,12 +220,14 @@ std::function<void()> HandPanel::useDevice()
     {
         LiveRun::Hand moves, chosen;
     };
-    const auto now = std::make_shared<Hands> (Hands { playback.current().hand(), chosen_hand }), other = std::make_shared<Hands>();
-    const auto exchange = [safe = SafePointer (this), now, other] {
-        if (safe == nullptr || safe->playback.current().hand() != now->moves) return;
-        std::swap (*now, *other);
-        safe->chosen_hand = now->chosen;
-        safe->playback.changeHand (now->moves);
+    const Hands before { playback.run().hand(), chosen_hand }, device {};
+    const auto exchange = [safe = SafePointer (this), before, device, is_device = std::make_shared<bool> (false)] {
+        const auto& from = *is_device ? device : before;
+        const auto& to = *is_device ? before : device;
+        *is_device = ! *is_device;
+        if (safe == nullptr || safe->playback.run().hand() != from.moves) return;
+        safe->chosen_hand = to.chosen;
+        safe->playback.changeHand (to.moves);
     };
     exchange();
     return exchange;

@@ -65,6 +65,7 @@ TEST_CASE ("a card of the devices panel says that the mouse moves the tool, and 
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand {}; }));
     CHECK (listTitled (w, "device").getText() == "simulated tool");
     // A hand that was chosen since then stays.
+    REQUIRE (waitFor ([&] { return listTitled (w, "What moves the tool").getText() == "Its own device"; }));
     listTitled (w, "What moves the tool").grabKeyboardFocus();
     w.key ("cursor down");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
