@@ -12,8 +12,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr double fine = 0.1;
-
 /// Rounds a gain to the precision with which a drag sets it.
 double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
 /// What a screen reader says about a fader, in dB.
@@ -67,14 +65,14 @@ void Fader::mouseDown (const juce::MouseEvent& e)
     dragged = false;
     turned_at = 0;
     grabbed = Taper::position (gain);
+    way = DragWay (DragWay::Along::up);
     if (e.mods.isAltDown() && onChange) onChange (std::nullopt, false);
 }
 
 void Fader::mouseDrag (const juce::MouseEvent& e)
 {
     if (e.mods.isAltDown()) return;
-    const double way = -static_cast<double> (e.getDistanceFromDragStartY()) / static_cast<double> (std::max (1.0f, slot().getHeight()));
-    moveTo (grabbed + way * (e.mods.isShiftDown() ? fine : 1.0));
+    moveTo (grabbed + way.to (e) / static_cast<double> (std::max (1.0f, slot().getHeight())));
 }
 
 void Fader::mouseUp (const juce::MouseEvent&) { dragged = false; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/look/drag_way.hpp>
 #include <host/app/look/look.hpp>
 
 #include <functional>
@@ -39,6 +40,7 @@ private:
     void nudge (double decibels);
 
     double gain = 1.0, grabbed = 0.0;   // grabbed: the fader position at the start of a drag
+    DragWay way { DragWay::Along::up };
     bool dragged = false;
     std::uint32_t turned_at = 0;   // by the wheel, in ms
 };

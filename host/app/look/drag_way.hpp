@@ -8,20 +8,30 @@
 namespace tactus::host
 {
 
-/// How far a number has been dragged, in pixels: to the right and up counts, as on the knobs of JUCE. With Shift, it goes a tenth as far. One may
-/// press and release Shift during the drag.
+/// How far a number has been dragged, in pixels: to the right and up, as on the knobs of JUCE, or only up, as on a fader. With Shift, it goes a tenth as far.
+/// Shift may be pressed and released during the drag.
 class DragWay
 {
 public:
+    enum class Along
+    {
+        both,
+        up
+    };
+
+    DragWay() = default;
+    explicit DragWay (Along a) : along (a) {}
+
     double to (const juce::MouseEvent& e) noexcept
     {
         constexpr double fine = 0.1;
         const auto now = e.getOffsetFromDragStart(), by = now - std::exchange (before, now);
-        way += (by.x - by.y) * (e.mods.isShiftDown() ? fine : 1.0);
+        way += ((along == Along::both ? by.x : 0) - by.y) * (e.mods.isShiftDown() ? fine : 1.0);
         return way;
     }
 
 private:
+    Along along = Along::both;
     juce::Point<int> before;
     double way = 0.0;
 };

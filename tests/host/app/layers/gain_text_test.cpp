@@ -42,7 +42,7 @@ TEST_CASE ("a gain that cannot be read is refused with the reason", "[layers]")
     CHECK (idOf (readGain ("3 N", level)) == "gain/quiet");   // 14 dB
     CHECK (idOf (readGain ("0.3 N", { 1e-3, "N" })) == "gain/quiet");
     CHECK (*readGain ("2 N", level) == Approx (10.5));
-    CHECK (*readGain ("14 dB", level) == 14.0);   // whoever says so
+    CHECK (*readGain ("14 dB", level) == 14.0);   // a gain is taken as it is typed
 }
 
 TEST_CASE ("a gain in dB and back changes it by less than the step of the field", "[layers]")

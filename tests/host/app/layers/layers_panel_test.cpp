@@ -108,6 +108,13 @@ TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and
     fader.mouseDrag (event (fader, from.translated (0, 10), from, shift));
     REQUIRE (changes.size() == 1);
     CHECK (1.0 - *changes[0].first < 0.2 * coarse);
+    const double fine = *changes[0].first;
+    fader.mouseDrag (event (fader, from.translated (0, 11), from, left));   // Shift is released during the drag: the gain goes on from where it is
+    REQUIRE (changes.size() == 2);
+    CHECK (fine - *changes[1].first > 0.0);
+    CHECK (fine - *changes[1].first < 0.2 * coarse);
+    fader.mouseDrag (event (fader, from.translated (20, 11), from, left));   // sideways changes nothing
+    CHECK (changes.size() == 2);
 
     changes.clear();
     fader.mouseDown (event (fader, from, from, left.withFlags (juce::ModifierKeys::altModifier)));
