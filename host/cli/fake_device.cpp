@@ -263,7 +263,8 @@ void addFakeDevice (const Command& app)
                        "The hand: stroke, which gives way to the force; gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; "
                        "default: stroke");
     command.addOption ("--fault", options->faults,
-                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s from the start of this program; kinds: stall, garbage, half, lost_byte, missed_byte, late, lie, "
+                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s from the start of this program; kinds: stall, garbage, half, "
+                       "lost_byte, missed_byte, late, lie, "
                        "reset, away, and of a service push and rename; may be given more than once")
         .oneValueEach();
     command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if received, and its bytes").type ("FILE");

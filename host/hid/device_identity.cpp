@@ -84,7 +84,8 @@ Result<DeviceIdentity> identityOf (const Profile& profile)
     const auto no = [&] (std::string why, std::string remedy) {
         return Message::error ("fake/wire", profile.id, "the profile " + quote (profile.id) + " " + std::move (why), std::move (remedy));
     };
-    if (profile.match.empty() || profile.inputs.empty()) return no ("describes no HID device", "choose another wire, or a profile with \"match\" and \"inputs\"");
+    if (profile.match.empty() || profile.inputs.empty())
+        return no ("describes no HID device", "choose another wire, or a profile with \"match\" and \"inputs\"");
     const auto& rule = profile.match.front();
     DeviceIdentity device;
     device.info.vid = firstOf (rule.vid);

@@ -29,15 +29,16 @@ struct ReportSize
     std::size_t size = 0;
 };
 
-/// The descriptor of a device with one collection, whose reports are bytes without a meaning: all fields have a usage of the vendor, so the system
-/// makes neither a keyboard nor a pointer out of them, whatever the collection is. The reports with one id must be of different kinds.
+/// A descriptor with one collection, whose reports are bytes without a meaning. All fields are vendor-defined, so the system makes neither a keyboard nor a
+/// pointer out of them, whatever the collection is. Two reports with the same id must be of different kinds.
 Bytes describeReports (std::uint16_t usage_page, std::uint16_t usage, std::span<const ReportSize>);
 
 /// A device that a profile fits, as its first rule describes it. Id: fake/wire if the profile has no rule or no input report, or if it has reports with and
 /// without ids.
 Result<DeviceIdentity> identityOf (const Profile&);
 
-/// What a device with the profile answers to a request for a feature report that `init` makes: the id, or a 0 if it has no ids, and zeros. Empty: it has no such report.
+/// The answer of a device with this profile to a request for a feature report: the id, or a 0 if the device has no ids, and then zeros. Empty if `init` does
+/// not request this report.
 Bytes featureOf (const Profile&, std::uint8_t id);
 
 }   // namespace tactus::host::hid

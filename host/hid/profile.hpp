@@ -341,8 +341,8 @@ struct SerialWire
     Framing framing = Framing::cobs;
     std::optional<std::uint8_t> filler {};   ///< a byte that only completes a message of which the device has missed a part; else it ignores the byte
 
-    /// A pause that ends an unfinished report: longer than a USB adapter holds back the rest of one. Not a key of profiles. Tests make it longer, because a busy
-    /// computer pauses, too.
+    /// A pause this long ends an unfinished report. A USB adapter may deliver a report in two parts, but with a shorter pause in between. Not a key of
+    /// profiles. Tests make it longer, because a busy computer pauses, too.
     std::chrono::milliseconds pause { 5 };
 
     bool operator== (const SerialWire&) const = default;

@@ -27,7 +27,9 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
 {
     std::vector<MatchRule> rules;
     const bool is_numbers_only = profile.has ("physics") && ! profile.has ("inputs") && ! profile.has ("outputs");
-    if (! is_numbers_only && ! profile.has ("wires")) profile.require ("match", "write \"match\": [{\"vid\": \"0x1209\", \"pid\": \"0x0001\"}] with the numbers of the device, or for a serial line \"wires\": {\"serial\": {}}");
+    if (! is_numbers_only && ! profile.has ("wires"))
+        profile.require ("match", "write \"match\": [{\"vid\": \"0x1209\", \"pid\": \"0x0001\"}] with the numbers of the device, "
+                                  "or for a serial line \"wires\": {\"serial\": {}}");
     profile.each ("match", [&] (ProfileFields& in) {
         MatchRule rule;
         rule.vid = in.ids ("vid");

@@ -121,8 +121,8 @@ FakeDevice::~FakeDevice()
 
 Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Profile> profile, std::unique_ptr<Device> hand, Options options)
 {
-    const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp ? profile->wires.udp
-                                                                                                                    : true;
+    const auto& wires = profile->wires;
+    const bool knows = options.wire == Wire::hid || (options.wire == Wire::udp ? wires.udp : wires.serial.has_value());
     if (! knows)
         return Message::error ("fake/wire", profile->id,
                                "the profile " + quote (profile->id) + " has no wire " + quote (options.wire == Wire::serial ? "serial" : "udp"),

@@ -52,7 +52,7 @@ constexpr bool isOfService (DeviceFault::Kind kind) noexcept { return kind == De
 Result<DeviceFault> readFault (std::string_view);
 
 /// Simulates the device of a profile at the far end of a serial line (a pseudo-terminal) or of UDP, or as a HID device of the kernel. A simulated hand moves
-/// its tool and feels the force. Its time is the number of steps, so nothing depends on the time at which they are made. Like the Tactus board, it releases its motors
+/// its tool and feels the force. Its time is the number of steps, so nothing depends on when they are made. Like the Tactus board, it releases its motors
 /// if no valid report comes for its watchdog (`device_watchdog` of the profile; without one it keeps them on), and if an enable bit is 0.
 ///
 /// It sends only reports with values or buttons: no signs of life and the like, which some devices send, too.

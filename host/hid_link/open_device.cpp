@@ -87,8 +87,8 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
                                             "the profile " + quote (id) + " has an error: " + broken->file + broken->where + ": " + broken->text,
                                             broken->remedy));
     else if (unused != all.messages.end())
-        messages.push_back (Message::error ("hid/unknown_profile", "/profile", "there is no device profile " + quote (id) + "; " + unused->file + ": " + unused->text,
-                                            unused->remedy));
+        messages.push_back (Message::error ("hid/unknown_profile", "/profile",
+                                            "there is no device profile " + quote (id) + "; " + unused->file + ": " + unused->text, unused->remedy));
     else
         messages.push_back (Message::error ("hid/unknown_profile", "/profile", "there is no device profile " + quote (id), suggestion (id, names)));
     return nullptr;

@@ -36,7 +36,8 @@ inline Message inUse (std::string where)
                            "end the other program, or leave the device to the other role");
 }
 
-/// Locks the file of a device, so that only one driver uses it. Empty if the system does not let this user open it. Id: hid/not_opened if another driver has it.
+/// Locks the file of a device, so that only one driver uses it. Empty if this user may not open it, or if it is no file. Id: hid/not_opened if another
+/// driver has it.
 Result<std::optional<FileLock>> lockDevice (const std::string& path);
 
 /// An open device. One thread may read while another makes all other calls. The destructor closes it. Id: hid/transfer.

@@ -10,6 +10,8 @@
 #include <host/app/model/param_now.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -152,7 +154,7 @@ public:
 
     void typeValue()
     {
-        edit (TRANS ("Value of the control"), juce::String (getValue(), 4).trimCharactersAtEnd ("0").trimCharactersAtEnd ("."), getLocalBounds().removeFromTop (24),
+        edit (TRANS ("Value of the control"), juce::String (numberText (std::round (getValue() * 1e4) * 1e-4)), getLocalBounds().removeFromTop (24),
               [this] (const juce::String& text) {
                   const auto to = readControl (text.toStdString());
                   if (to)

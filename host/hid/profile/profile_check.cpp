@@ -120,7 +120,8 @@ private:
         if (! std::holds_alternative<LinearMap> (p.kinematics)) return;
         for (const auto& name : p.force)
             if (! name.empty() && efforts.has (name) && efforts.unitOf (name) != "N" && efforts.unitOf (name) != "N*m")
-                in.error ("force", "profile/unit", quote (name) + " is in " + efforts.unitOf (name) + ", but linear kinematics give N, or N*m for an axis in rad",
+                in.error ("force", "profile/unit",
+                          quote (name) + " is in " + efforts.unitOf (name) + ", but linear kinematics give N, or N*m for an axis in rad",
                           "give the field a scale in N*m that includes the torque constant of the motor: for 1 mA and 0.05 N*m/A, \"5e-5 N*m\"");
     }
 
@@ -217,7 +218,8 @@ private:
             read.resize (std::max (read.size(), report.body.size()));
         };
         add (step.bytes);
-        if (step.bytes.front() == 0 && step.bytes.size() > 1 && (report.id || step.bytes.size() == report.body.size() + 1)) add (std::span (step.bytes).subspan (1));
+        const bool may_be_left_out = step.bytes.front() == 0 && step.bytes.size() > 1;
+        if (may_be_left_out && (report.id || step.bytes.size() == report.body.size() + 1)) add (std::span (step.bytes).subspan (1));
         return all;
     }
 
@@ -242,8 +244,9 @@ private:
     void rests (const OutputField& field, double number, std::string_view key, const std::string& what)
     {
         const auto& e = field.encoding;
-        std::string asked;                                                                                                                                // what the number asks for; empty if it is not a force
-        if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= 0.5000001 * std::abs (e.scale)))   // half a count
+        constexpr double half_a_count = 0.5000001;   // where zero lies between two counts
+        std::string asked;                           // what the number asks for; empty if it is not a force
+        if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= half_a_count * std::abs (e.scale)))
             asked = numberText (value) + " " + field.unit;
         if (const double zero = encoded (e, 0.0); e.law == Encoding::Law::table && std::isfinite (zero))   // else the scale is refused elsewhere
             if (const double none = numberOf (field.bits, rawOf (field.bits, zero)); number != none)

@@ -297,8 +297,9 @@ TEST_CASE ("a force with a table is refused unless its neutral report holds the 
 
 TEST_CASE ("an effort in N that is not a force may rest within half a count of zero")
 {
-    CHECK_FALSE (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "5 N", "offset": "-5 N" })"))).profile);
-    CHECK (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-0.5 N" })"))).profile);
+    const auto accepts = [] (const char* lift) { return readProfile (with ("/outputs/0/fields/1", Json::parse (lift))).profile != nullptr; };
+    CHECK_FALSE (accepts (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "5 N", "offset": "-5 N" })"));
+    CHECK (accepts (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-0.5 N" })"));
 }
 
 TEST_CASE ("the limits of a motor accept every way to write its unit")

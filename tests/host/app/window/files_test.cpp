@@ -346,7 +346,7 @@ TEST_CASE ("a file that another program has changed is replaced only if the pers
     d.files->open (file);
     d.edit (0.5);
     d.files->save();
-    CHECK_FALSE (d.question.isOpen());   // nobody else has changed it
+    CHECK_FALSE (d.question.isOpen());   // only this window has written to it
     const auto written = *readTextFile (file);
 
     const auto theirs = written + "\n";
