@@ -239,11 +239,11 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
 
 namespace
 {
-/// What covers a part of an area: a node or a note. Empty if nothing does.
-juce::Rectangle<float> coverOf (const Scene& scene, juce::Rectangle<float> area)
+/// What covers a part of an area: a node or a note. Empty if nothing does, other than the node `own`.
+juce::Rectangle<float> coverOf (const Scene& scene, juce::Rectangle<float> area, graph::Id own = 0)
 {
     for (const auto& n : scene.nodes())
-        if (n.bounds().intersects (area)) return n.bounds();
+        if (n.id != own && n.bounds().intersects (area)) return n.bounds();
     for (const auto& n : scene.notes())
         if (! n.isRegion() && n.area.intersects (area)) return n.area;
     return {};
@@ -252,12 +252,14 @@ juce::Rectangle<float> coverOf (const Scene& scene, juce::Rectangle<float> area)
 juce::Rectangle<float> usualBox (juce::Point<float> at) { return { at.x, at.y, 160.0f, 96.0f }; }
 }   // namespace
 
-juce::Point<float> freePlace (const Scene& scene, juce::Point<float> at)
+juce::Point<float> freePlace (const Scene& scene, juce::Rectangle<float> box, graph::Id own)
 {
-    while (! coverOf (scene, usualBox (at)).isEmpty())
-        at.y += 2 * Box::grid;
-    return at;
+    while (! coverOf (scene, box, own).isEmpty())
+        box.translate (0.0f, 2 * Box::grid);
+    return box.getPosition();
 }
+
+juce::Point<float> freePlace (const Scene& scene, juce::Point<float> at) { return freePlace (scene, usualBox (at), 0); }
 
 juce::Point<float> placeInRow (const Scene& scene, juce::Point<float> at, bool to_the_left)
 {

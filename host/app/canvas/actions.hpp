@@ -21,6 +21,9 @@ graph::Command placeNodes (const graph::Graph&, const std::string& patch, const 
 /// This point, or the next one below where a node does not cover another one.
 juce::Point<float> freePlace (const Scene&, juce::Point<float>);
 
+/// The same for the box of the node `own`, whose size is known.
+juce::Point<float> freePlace (const Scene&, juce::Rectangle<float> box, graph::Id own);
+
 /// This point; if a node covers it, the next place in the row of that node, at its right or at its left.
 juce::Point<float> placeInRow (const Scene&, juce::Point<float>, bool to_the_left);
 

@@ -205,6 +205,9 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     graph::Id made = 0;
     const auto at = placeFor (type, request);
     if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
+    if (const auto* added = canvas.scene().find (made))
+        if (const auto clear = freePlace (canvas.scene(), added->bounds(), made); clear != added->bounds().getPosition())
+            perform (placeNodes (document.graph(), canvas.patch(), { { made, clear } }), graph::Step::joined);
     canvas.show (canvas.patch(), made);
     canvas.endEdit();   // undoing the edit brings back the view from before
     if (request.wire != 0)

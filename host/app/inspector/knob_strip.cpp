@@ -63,8 +63,19 @@ public:
     {
         const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
         const bool is_down = key.isKeyCode (juce::KeyPress::downKey) || key.isKeyCode (juce::KeyPress::leftKey);
-        if (! is_up && ! is_down) return false;
+        const bool is_digit = isTypedNumber (key);
+        if (! is_up && ! is_down && ! is_digit && ! key.isKeyCode (juce::KeyPress::returnKey)) return false;
         if (refusesHand()) return true;
+        if (! is_up && ! is_down)
+        {
+            typeValue();
+            if (is_digit) field->insertTextAtCaret (juce::String::charToString (key.getTextCharacter()));
+            field->onReturnKey = [this] {
+                field->apply();
+                takeFocus (*this);   // for the next key
+            };
+            return true;
+        }
         const double by = key.getModifiers().isShiftDown() ? 0.001 : 0.01;
         change (std::clamp (getValue() + (is_up ? by : -by), 0.0, 1.0), false);
         return true;

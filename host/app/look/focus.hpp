@@ -18,6 +18,13 @@ inline void letGoOfFocus (const juce::Component& c)
     if (c.hasKeyboardFocus (true)) juce::Component::unfocusAllComponents();
 }
 
+/// True for a key that begins to type a number. Not for Ctrl and a digit, which X11 reports with the text of the digit.
+inline bool isTypedNumber (const juce::KeyPress& key)
+{
+    const auto c = key.getTextCharacter();
+    return ((c >= '0' && c <= '9') || c == '-' || c == '.') && ! key.getModifiers().isCommandDown() && ! key.getModifiers().isAltDown();
+}
+
 /// Applies what is being typed into this component if it is a field, as Return does. JUCE tells a field only later that it has lost the focus, when the
 /// graph may have been saved, replaced or started without it.
 inline void endTyping (juce::Component* in = juce::Component::getCurrentlyFocusedComponent())

@@ -167,12 +167,11 @@ bool NumberField::keyPressed (const juce::KeyPress& key)
         begun = false;
         return true;
     }
-    const auto c = key.getTextCharacter();
-    const bool digit = (c >= '0' && c <= '9') || c == '-' || c == '.';
+    const bool digit = isTypedNumber (key);
     if (! key.isKeyCode (juce::KeyPress::returnKey) && ! digit) return false;
     if (refusesHand()) return true;
     openEditor();
-    if (digit) editor->setText (juce::String::charToString (c));
+    if (digit) editor->insertTextAtCaret (juce::String::charToString (key.getTextCharacter()));
     return true;
 }
 

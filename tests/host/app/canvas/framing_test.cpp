@@ -310,6 +310,30 @@ TEST_CASE ("nodes that are added without a wire make a row that can be read, wit
     }
 }
 
+TEST_CASE ("a new node covers no other one, however large it is, and one undo removes it", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto& board = rig.node ("board").bounds();
+    // A node of the usual size fits into the gap above the board. These do not.
+    const auto gap = board.getPosition().translated (0.0f, -104.0f);
+    for (const auto& type : rig.canvas->types())
+    {
+        const auto before = rig.text();
+        std::set<graph::Id> old;
+        for (const auto& n : rig.canvas->scene().nodes())
+            old.insert (n.id);
+        rig.canvas->commands().addNodeAt (std::string (type.info.id), { gap });
+        for (const auto& made : rig.canvas->scene().nodes())
+            for (const auto& n : rig.canvas->scene().nodes())
+            {
+                INFO (made.name << " and " << n.name);
+                if (! old.contains (made.id) && n.id != made.id) CHECK_FALSE (made.bounds().intersects (n.bounds()));
+            }
+        rig.hand().key ("ctrl + z");
+        CHECK (rig.text() == before);
+    }
+}
+
 TEST_CASE ("in a view that the user has moved, a new node is still where it can be seen", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

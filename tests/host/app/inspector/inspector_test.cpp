@@ -119,14 +119,16 @@ TEST_CASE ("a field opens on Return or a digit, applies on Return and cancels on
         std::vector<std::string> values;
         field.onChange = [&] (std::optional<Json> v, bool) { values.push_back (v ? v->dump() : "default"); };
 
+        CHECK_FALSE (field.keyPressed (juce::KeyPress ('7', juce::ModifierKeys::ctrlModifier, '7')));   // a command of the window
         CHECK (field.keyPressed (juce::KeyPress ('7', {}, '7')));
         REQUIRE (field.isEditing());
         auto* editor = dynamic_cast<juce::TextEditor*> (field.getChildComponent (0));
         REQUIRE (editor != nullptr);
-        CHECK (editor->getText() == "7");
+        editor->keyPressed (juce::KeyPress ('5', {}, '5'));
+        CHECK (editor->getText() == "75");
         editor->onReturnKey();
         CHECK_FALSE (field.isEditing());
-        CHECK (values == std::vector<std::string> { "\"7 mm\"" });   // in the unit shown
+        CHECK (values == std::vector<std::string> { "\"75 mm\"" });   // in the unit shown
 
         field.keyPressed (juce::KeyPress (juce::KeyPress::returnKey));
         REQUIRE (field.isEditing());

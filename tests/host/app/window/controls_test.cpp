@@ -178,6 +178,32 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
     CHECK (WindowRig::focused() == &c.w->view->canvas());
 }
 
+TEST_CASE ("on a knob with the keyboard focus, Return and digits open its value, and the keyboard stays at the knob", "[app][controls]")
+{
+    Cloth c;
+    c.select ("drag");
+    auto& knob = c.w->view->inspected().knobs().knob (0);
+    const auto& control = c.w->graph().controls[0];
+    knob.grabKeyboardFocus();
+    REQUIRE (WindowRig::focused() == &knob);
+    CHECK_FALSE (knob.keyPressed ({ '1', juce::ModifierKeys::ctrlModifier, '1' }));   // a command of the window
+
+    c.key ("return");
+    WindowRig::settle();
+    c.w->stage->type ("30 %");
+    c.key ("return");
+    WindowRig::settle();
+    CHECK (control.value == Approx (0.3));
+    CHECK (WindowRig::focused() == &knob);
+
+    c.w->stage->type (".25");
+    c.key ("return");
+    WindowRig::settle();
+    CHECK (control.value == Approx (0.25));
+    CHECK (WindowRig::focused() == &knob);
+    CHECK (c.w->titled ("Value of the control") == nullptr);
+}
+
 TEST_CASE ("one turn of the wheel over a knob is one step, and Shift+drag is fine", "[app][controls][undo]")
 {
     Cloth c;
