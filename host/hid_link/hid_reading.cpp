@@ -177,8 +177,8 @@ bool HidPort::ask (Transport& t, const InputReport& wanted_report)
     const auto report = std::span<const std::uint8_t> (answer).first (got ? *got : 0);
     if (report.empty() || ! isOf (wanted_report, report) || took > longest_silence)
     {
-        note ("the device does not say where it is while nothing changes, so its readings get old: "
-              + (got ? std::string ("it answers late, or with another report") : got.error().text));
+        note ("the device sends no report while nothing changes, so its readings get old. Asked for one, "
+              + (got ? std::string ("it answers late, or with another report") : "it does not answer: " + got.error().text));
         return false;
     }
 

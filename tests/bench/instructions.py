@@ -51,7 +51,7 @@ def whole_tick_lines(program):
     device = part["reading"] + part["writing"]
     rest = total - part["nodes"] - part["guard"] - device
     return ["", "## A whole tick", "",
-            "A tick of `graphs/padded_bench.json`, with what surrounds its nodes in a run. The guard has the limits of the preset.", "",
+            "The table shows a tick of `graphs/padded_bench.json` with all parts of a run. The guard has the limits of the preset.", "",
             "| part | instructions |", "|---|---:|",
             f"| nodes | {part['nodes']:.0f} |", f"| simulated hand and tool | {device:.0f} |", f"| guard | {part['guard']:.0f} |",
             f"| engine, times, status for other threads | {rest:.0f} |", f"| all | {total:.0f} |"]
@@ -74,9 +74,9 @@ def main():
 
     lines = [
         "# Instructions per tick", "",
-        "What one tick of each node costs. `./test.sh --figures` generates this page.", "",
-        f"Counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: the hand strokes and presses three times, a hit arrives "
-        f"every 0.1 s, other inputs oscillate; parameters and settings have their defaults. The numbers are means over all ticks. They include gathering "
+        "This page lists how many instructions one tick of each node takes. `./test.sh --figures` generates it.", "",
+        f"The instructions were counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: the hand strokes and presses three times, a hit arrives "
+        f"every 0.1 s, and other inputs oscillate. Parameters and settings have their defaults. The numbers are means over all ticks. They include gathering "
         f"the inputs and writing the outputs, but not the call itself ({nothing:.0f} instructions).", "",
         "| family | node | instructions |", "|---|---|---:|",
     ]

@@ -97,7 +97,7 @@ FitPanel::FitPanel()
     amount_label.setJustificationType (juce::Justification::centredRight);
     as_graph.setFirst (true);
     as_graph.setTooltip (TRANS ("Open a new graph in which the fit can be felt; the open graph is saved first if you like"));
-    into_graph.setTooltip (TRANS ("Add only the fitted nodes to the open graph, and wire them as far as that goes without saying"));
+    into_graph.setTooltip (TRANS ("Add only the fitted nodes to the open graph, with their obvious wires"));
     as_graph.onClick = [this] { acceptAsGraph(); };
     into_graph.onClick = [this] { acceptIntoGraph(); };
     cancel.onClick = [this] { close(); };

@@ -45,7 +45,7 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
                                TRANS ("run the graph first, or write a gain such as -6 dB").toStdString());
     if (! unit || ! (level.peak > 0.0))
         return Message::error ("gain/no_level", {}, TRANS ("the layer has been silent, so its level is not known").toStdString(),
-                               TRANS ("let it sound first, or write a gain such as -6 dB").toStdString());
+                               TRANS ("let it play first, or write a gain such as -6 dB").toStdString());
     // A level that a layer reaches for a moment only, such as while the hand rests, says nothing about how strong it becomes.
     if (const double gain = wanted->value / level.peak; std::abs (gain) <= most_by_level) return decibelsOf (gain);
     return Message::error ("gain/quiet", {},

@@ -54,7 +54,7 @@ graph::Endpoint gated (graph::Endpoint source, bool is_vector, const graph::Grap
 /// The node that multiplies the source of a wire by the gain of a contact window; null if there is none.
 const graph::Node* gateOf (const graph::Patch&, const graph::Wire&);
 
-/// What wires a node of the patch, as far as that goes without saying. Wires that it has stay. A hand goes to all that has no position yet, forces
+/// The obvious wires of a node of the patch. Wires that it has stay. A hand goes to all that has no position yet, forces
 /// that go nowhere go to a motor, and any other node gets its sources and goes to the motor, a texture through a contact window. What rubs and has no
 /// load yet gets that of a surface. Empty if the node has its wires, or if nothing fits.
 graph::Batch obviousWires (const graph::Graph&, const std::string& patch, const std::string& node, const Catalogue&);

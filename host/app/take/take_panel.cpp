@@ -20,7 +20,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr auto how_to = NEEDS_TRANS ("Press Record, move, and press Stop. Then mark a stretch of the curve, and make a clip, a gesture or a test of it.");
+constexpr auto how_to = NEEDS_TRANS ("Press Record, move, and press Stop. Then mark a stretch of the curve, and make a clip, a gesture or a test from it.");
 
 /// A time that was typed, in s; the old one if it is not a number.
 double secondsIn (const juce::String& text, double before)

@@ -32,7 +32,7 @@ void MainView::closeWithTake (const std::function<void()>& close)
     const auto length = juce::String (unsaved.front()->length_s, 1);
     question.ask (unsaved.size() == 1 ? filled (TRANS ("Save the take of %1 s before closing Tactus?"), length)
                                       : filled (TRANS ("Save %1 takes before closing Tactus?"), unsaved.size()),
-                  TRANS ("Takes of which nothing has been made are kept only while Tactus is open. `tactus capture` makes clips, gestures and tests of a "
+                  TRANS ("Takes that you have not used are kept only while Tactus is open. `tactus capture` makes clips, gestures and tests from a "
                          "saved take."),
                   { { TRANS ("Save"), [this, close] { takes.save ([this, close] { closeWithFilm (close); }); } },
                     { TRANS ("Don't save"), [this, close] { closeWithFilm (close); } },

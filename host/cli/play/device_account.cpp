@@ -32,13 +32,13 @@ std::string clockOf (const DeviceHealth& h)
         std::snprintf (text, sizeof text, "%.2f reports/s", *h.rate_hz);
         line = text;
     }
+    if (h.ticks) line += (line.empty() ? "" : ", ") + std::string ("which tick the run ") + (h.read_by_tick ? "directly" : "through a reading thread");
     if (h.drift_ppm)
     {
         const auto* way = *h.drift_ppm < 0.0 ? "slower" : "faster";
         std::snprintf (text, sizeof text, "; its clock runs %.1f +- %.1f ppm %s than the run's", std::abs (*h.drift_ppm), h.drift_error_ppm, way);
         line += text;
     }
-    if (h.ticks) line += (line.empty() ? "" : ", ") + std::string ("which tick the run ") + (h.read_by_tick ? "directly" : "through a reading thread");
     return "    " + line + (line.empty() ? "" : "; ") + "readings up to " + milliseconds (h.oldest) + " ms old\n";
 }
 

@@ -92,7 +92,7 @@ Result<std::vector<double>> torquesAlong (const Way& way, const std::shared_ptr<
         }
         if (calm < calm_for)
             return refusal ("smartknob/moves",
-                            "the torque changes while the knob rests at " + inRadians (angle) + ", but a SmartKnob only takes detents",
+                            "the torque changes while the knob rests at " + inRadians (angle) + ", but a SmartKnob accepts only detents",
                             "leave out what vibrates or moves by itself");
         torques.push_back (knob.torque);
     }
@@ -149,7 +149,7 @@ std::optional<double> reach (const Sides& sides, double direction)
 Result<KnobConfig> placesOf (const Sides& up, const Sides& down)
 {
     if (up.detents.empty() || down.detents.empty())
-        return refusal ("smartknob/no_detent", "no angle within a turn is one to which the torque about z pulls the knob back, so this is not a detent",
+        return refusal ("smartknob/no_detent", "the torque about z pulls the knob back to no angle within a turn, so there is no detent",
                         "wire the rotation of device.position to a torque that changes its sign from angle to angle, and this to the torque of device.force");
     KnobConfig config;
     config.width = usual_width;
@@ -399,14 +399,14 @@ std::vector<std::pair<std::string, std::string>> knobFiles (const std::string& s
                 { "snap_point", config.snap_point },
                 { "text", config.text } };
     std::string readme = "# " + stem + "\n\n";
-    readme += "Detents for a [SmartKnob](https://github.com/scottbez1/smartknob), from a graph of Tactus. The firmware of the knob takes no torque: it\n";
-    readme += "computes its own, from `" + stem + ".json` (its `SmartKnobConfig`, protocol version 1). `" + stem + ".bin` is the message that sets it,\n";
+    readme += "Detents for a [SmartKnob](https://github.com/scottbez1/smartknob), from a graph of Tactus. The firmware of the knob accepts no torque\n";
+    readme += "commands: it computes its own torque from `" + stem + ".json` (its `SmartKnobConfig`, protocol version 1). `" + stem + ".bin` is the message that sets it,\n";
     readme += "with a leading 0, which switches the knob to this protocol:\n\n";
     readme += "```sh\nstty -F /dev/ttyUSB0 115200 raw -echo\ncat " + stem + ".bin > /dev/ttyUSB0\n```\n\n| | |\n|---|---|\n";
     readme += "| largest torque of the graph | " + inMillinewtons (fit.largest) + " |\n";
     readme += "| difference of the knob's torque, root mean square | " + inMillinewtons (fit.rms) + " |\n";
     readme += "| torque of the motor per volt | " + inMillinewtons (fit.torque_per_volt) + (is_guess ? ", a guess" : "") + " |\n\n";
-    readme += "The knob damps its own motion, and lets its detents follow a knob that rests; neither is in these numbers.\n";
+    readme += "The knob damps its own motion, and shifts its detents slowly to where it rests. These numbers include neither.\n";
     readme += "Of the limits of the role, the export keeps the largest torque. The firmware has no guard: it does not keep the others.\n";
     return { { stem + ".json", json.dump (2) + "\n" }, { stem + ".bin", knobMessage (config) }, { "README.md", readme } };
 }

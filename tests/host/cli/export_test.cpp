@@ -101,7 +101,7 @@ TEST_CASE ("export writes the detents of a knob for a SmartKnob, and says what i
     CHECK (ran.err.find ("smartknob/shape") != std::string::npos);
     CHECK (textOf (folder + "/knob.json").find ("\"position_width_radians\": 0.52") != std::string::npos);
     CHECK (std::filesystem::file_size (folder + "/knob.bin") > 20);
-    CHECK (textOf (folder + "/README.md").find ("takes no torque") != std::string::npos);
+    CHECK (textOf (folder + "/README.md").find ("accepts no torque") != std::string::npos);
     const auto none = scratch.path ("none");
     checkRefused ({ "export", graph, "-o", none, "--to", "smartknob", "--record", "clicks.out" }, 2, "--record", none);
     checkRefused ({ "export", graph, "-o", none, "--torque-per-volt", "5 mN*m" }, 2, "--torque-per-volt", none);

@@ -87,7 +87,7 @@ void FilmButton::openMenu()
             b.setLength (seconds);
             if (b.onLength) b.onLength();
         });
-    menu.addSubMenu (TRANS ("Length of the past"), lengths);
+    menu.addSubMenu (TRANS ("Length of the film"), lengths);
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (this));
 }
 

@@ -80,7 +80,7 @@ private:
     juce::Image surfaces;
     LabelButton follow_button { TRANS ("Follow"), TRANS ("Keeps the tool in the middle (T)") },
         frame_button { TRANS ("Frame"), TRANS ("Shows the whole scene (F, or double-click)") },
-        reach_button { TRANS ("Reach"), TRANS ("Shows where the devices can reach. Drag an arrow to move that in the graph; the force fades meanwhile") };
+        reach_button { TRANS ("Reach"), TRANS ("Shows where the devices can reach. Drag an arrow to move the reach in the graph; the force fades meanwhile") };
     std::vector<scene::Reach> shown_reaches;
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;

@@ -78,6 +78,25 @@ TEST_CASE ("a field that gets the focus is scrolled into view", "[app][keys]")
     }
 }
 
+TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to the canvas", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    for (const bool has_node : { true, false })
+    {
+        canvas.select (has_node ? Selection { w.graph().root.find ("drag")->id } : Selection {});
+        WindowRig::settle();
+        const auto area = w.stage->getLocalArea (&w.view->inspected(), w.view->inspected().getLocalBounds());
+        for (int y = area.getY() + 4; y < area.getBottom(); y += 8)
+        {
+            INFO (y);
+            w.stage->click (juce::Point<int> (area.getX() + 4, y).toFloat());
+            CHECK (canvas.hasKeyboardFocus (true));
+        }
+    }
+}
+
 TEST_CASE ("the controls of a graph stay in reach as knobs while a node is selected", "[app][keys]")
 {
     WindowRig w ("bronze_bell.json");
