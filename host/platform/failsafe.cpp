@@ -310,9 +310,9 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
 {
     const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);   // a tty must not become that of this session
     if (file < 0) return Message::error ("device/failsafe", device_file, reason (errno));
-    auto armed = arm (file, device_file, reports);
+    auto failsafe = arm (file, device_file, reports);
     ::close (file);
-    return armed;
+    return failsafe;
 }
 
 Result<Failsafe> Failsafe::arm (int descriptor, const std::string& name, const std::vector<Report>& reports)

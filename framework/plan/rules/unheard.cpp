@@ -70,8 +70,8 @@ public:
     void warn (const Patch& patch, const std::string& where, std::span<const std::string> recorded, Messages& messages)
     {
         std::unordered_map<std::string_view, int> number;
-        for (const auto& n : patch.nodes)
-            number.emplace (n.name, static_cast<int> (number.size()));
+        for (std::size_t n = 0; n < patch.nodes.size(); ++n)
+            number.emplace (patch.nodes[n].name, static_cast<int> (n));
         const auto numberOf = [&] (std::string_view path) {
             const auto found = number.find (graph::firstStep (path).name);
             return found == number.end() ? -1 : found->second;
@@ -83,8 +83,8 @@ public:
 
         std::vector<bool> heard (patch.nodes.size(), false), leads_on (patch.nodes.size(), false);
         std::vector<int> open;
-        for (const auto& n : patch.nodes)
-            if (isEnd (graph, n) || (! where.empty() && named_inside.contains (n.name))) open.push_back (numberOf (n.name));
+        for (std::size_t n = 0; n < patch.nodes.size(); ++n)   // not by its name, which a broken file may give to no node or to two
+            if (isEnd (graph, patch.nodes[n]) || (! where.empty() && named_inside.contains (patch.nodes[n].name))) open.push_back (static_cast<int> (n));
         for (const auto& [name, end] : patch.expose.outputs)
             if (const int n = numberOf (end.node); n >= 0) open.push_back (n);
         if (open.empty()) return;
@@ -101,11 +101,11 @@ public:
         for (const bool in_loops : { false, true })
         {
             std::vector<int> last;
-            for (const auto& n : patch.nodes)
-                if (const int i = numberOf (n.name); i >= 0 && ! heard[at (i)] && (in_loops || ! leads_on[at (i)]))
+            for (std::size_t n = 0; n < patch.nodes.size(); ++n)
+                if (! heard[n] && (in_loops || ! leads_on[n]))
                 {
-                    last.push_back (i);
-                    messages.push_back (warningAbout (n, where));
+                    last.push_back (static_cast<int> (n));
+                    messages.push_back (warningAbout (patch.nodes[n], where));
                 }
             spread (std::move (last), before, heard);
         }
