@@ -321,7 +321,7 @@ void PluginDevice::Link::lookAgain()
 //==============================================================================
 // The writing thread
 
-void PluginDevice::Link::offer (const Effort& e, bool is_withheld, std::uint64_t number, std::uint64_t of_episode) noexcept
+void PluginDevice::Link::offer (const Effort& e, bool withheld, std::uint64_t number, std::uint64_t of_episode) noexcept
 {
     PendingEffort to { .effort = {}, .number = number, .episode = of_episode };
     std::copy_n (e.force.data(), 3, to.effort.force);
@@ -330,7 +330,7 @@ void PluginDevice::Link::offer (const Effort& e, bool is_withheld, std::uint64_t
     to.effort.signal_count = static_cast<std::uint32_t> (e.signals.size());
     std::copy (e.axes.begin(), e.axes.end(), to.effort.axes);
     std::copy (e.signals.begin(), e.signals.end(), to.effort.signals);
-    to.effort.is_withheld = is_withheld ? 1 : 0;
+    to.effort.is_withheld = withheld ? 1 : 0;
     offered.store (to);
     something.ring();
 }

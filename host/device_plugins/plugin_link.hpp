@@ -46,7 +46,7 @@ public:
 
     LatestReading taken() const noexcept { return newest.load(); }
     RemovedEffort unrendered() const noexcept { return removed.load(); }
-    void offer (const Effort&, bool is_withheld, std::uint64_t number, std::uint64_t of_episode) noexcept;
+    void offer (const Effort&, bool withheld, std::uint64_t number, std::uint64_t of_episode) noexcept;
     std::uint64_t episode() const noexcept { return current_episode.load (std::memory_order_acquire); }
     bool isConnected() const noexcept { return ! is_lost.load (std::memory_order_acquire); }
     bool isStuck (Clock::time_point now) const noexcept;   ///< a function of the driver does not return
