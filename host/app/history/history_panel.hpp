@@ -23,7 +23,10 @@ private:
     void documentChanged() override;
     int getNumRows() override { return static_cast<int> (document.history().size()) + 1; }
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
-    void listBoxItemClicked (int row, const juce::MouseEvent&) override { goToRow (row); }
+    void listBoxItemClicked (int row, const juce::MouseEvent& e) override
+    {
+        if (e.mods.isLeftButtonDown()) goToRow (row);
+    }
     juce::String getTooltipForRow (int row) override;
     juce::String getNameForRow (int row) override { return nameOfRow (row); }
     juce::String nameOfRow (int row) const;

@@ -3,6 +3,7 @@
 
 #include "limit_list.hpp"
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/look.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -11,7 +12,7 @@ namespace tactus::host
 
 /// A light with the number of limits that the graph breaks (red) or nearly breaks (amber). Without those, it is grey if some limits are
 /// unknown, else green. It is a button: the tooltip says which limits these are. Invisible until the graph has been checked.
-class LimitLight final : public juce::Button
+class LimitLight final : public Button
 {
 public:
     static constexpr int width = 136;

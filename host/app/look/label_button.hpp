@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "button.hpp"
 #include "look.hpp"
 
 namespace tactus::host
 {
 
 /// A small button with a word on it, which stays lit while it is on.
-class LabelButton final : public juce::Button
+class LabelButton final : public Button
 {
 public:
     LabelButton (const juce::String& label, const juce::String& tip) : Button (label)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "button.hpp"
 #include "look.hpp"
 
 namespace tactus::host
 {
 
 /// A text button. The button that Return activates is filled with the accent colour.
-class PlainButton final : public juce::Button
+class PlainButton final : public Button
 {
 public:
     explicit PlainButton (const juce::String& label) : Button (label) { setMouseClickGrabsKeyboardFocus (false); }
@@ -47,7 +48,7 @@ private:
 };
 
 /// A button with a line drawing.
-class IconButton final : public juce::Button
+class IconButton final : public Button
 {
 public:
     IconButton (const juce::String& title, juce::Path lines) : Button (title), picture (std::move (lines))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/look.hpp>
 
 #include <functional>
@@ -9,7 +10,7 @@ namespace tactus::host
 {
 
 /// A small text button. A toggle is filled while it is on.
-class ToolButton final : public juce::Button
+class ToolButton final : public Button
 {
 public:
     enum class Kind
@@ -20,7 +21,7 @@ public:
         tab       ///< one of several tabs
     };
 
-    ToolButton (const juce::String& caption, Kind k, const juce::String& tooltip = {}) : juce::Button (caption), kind (k)
+    ToolButton (const juce::String& caption, Kind k, const juce::String& tooltip = {}) : Button (caption), kind (k)
     {
         setTooltip (tooltip);
         if (caption.length() < 2) setTitle (tooltip.upToFirstOccurrenceOf (":", false, false));   // a screen reader cannot read a symbol

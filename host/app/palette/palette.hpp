@@ -39,7 +39,10 @@ private:
     int getNumRows() override { return static_cast<int> (found.size()); }
     juce::String getNameForRow (int) override;
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
-    void listBoxItemClicked (int row, const juce::MouseEvent&) override { choose (row); }
+    void listBoxItemClicked (int row, const juce::MouseEvent& e) override
+    {
+        if (e.mods.isLeftButtonDown()) choose (row);
+    }
     void textEditorTextChanged (juce::TextEditor&) override { update(); }
     void textEditorReturnKeyPressed (juce::TextEditor&) override { choose (list.getSelectedRow()); }
     void textEditorEscapeKeyPressed (juce::TextEditor&) override { close(); }

@@ -203,7 +203,7 @@ void PresetBrowser::openRow (int row)
 void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
 {
     const auto* r = rowAt (row);
-    if (r == nullptr) return;
+    if (r == nullptr || ! e.mods.isLeftButtonDown()) return;
     if (r->preset == nullptr)
     {
         if (! r->is_own) return;
@@ -240,6 +240,7 @@ PresetBrowser::Part PresetBrowser::partAt (const Row& row, int x) const
 
 void PresetBrowser::mouseDown (const juce::MouseEvent& e)
 {
+    if (! e.mods.isLeftButtonDown()) return;
     const auto at = e.getEventRelativeTo (&list).getPosition();
     const auto* r = list.getLocalBounds().contains (at) ? rowAt (list.getRowContainingPosition (at.x, at.y)) : nullptr;
     if (r == nullptr || r->preset == nullptr || partAt (*r, at.x) != Part::preview || ! onPreview) return;

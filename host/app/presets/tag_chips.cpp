@@ -89,6 +89,7 @@ void TagChips::paint (juce::Graphics& g)
 
 void TagChips::mouseUp (const juce::MouseEvent& e)
 {
+    if (! e.mods.isLeftButtonDown()) return;
     for (const auto& chip : layOut (getWidth(), shown_rows))
     {
         if (! chip.place.contains (e.getPosition())) continue;

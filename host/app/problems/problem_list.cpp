@@ -69,7 +69,7 @@ public:
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        if (! e.source.hasMovedSignificantlySincePressed() && list.onShow) list.onShow (locationOf (list.document.graph(), message));
+        if (e.mods.isLeftButtonDown() && ! e.source.hasMovedSignificantlySincePressed() && list.onShow) list.onShow (locationOf (list.document.graph(), message));
     }
 
 private:

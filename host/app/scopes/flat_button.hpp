@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/look.hpp>
 
 namespace tactus::host
 {
 
 /// A button whose frame appears only under the mouse. Shows a label, or a line drawing in a 14 by 14 square.
-class FlatButton final : public juce::Button
+class FlatButton final : public Button
 {
 public:
     static constexpr int height = 24;
@@ -29,7 +30,7 @@ public:
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        if (onCross && e.position.x >= static_cast<float> (getWidth() - cross_width) && getLocalBounds().contains (e.getPosition())) onCross();
+        if (onCross && e.mods.isLeftButtonDown() && e.position.x >= static_cast<float> (getWidth() - cross_width) && getLocalBounds().contains (e.getPosition())) onCross();
         Button::mouseUp (e);
     }
 

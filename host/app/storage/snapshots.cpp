@@ -99,6 +99,13 @@ graph::Command storeSnapshot (const graph::Graph& g, int number)
     return graph::Batch { filled (TRANS ("store snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
 }
 
+graph::Command clearSnapshot (const graph::Graph& g, int number)
+{
+    Json ui = at (g.extra, "ui");
+    if (hasSnapshot (g, number)) ui["snapshots"].erase (std::to_string (number));
+    return graph::Batch { filled (TRANS ("clear snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
+}
+
 std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
 {
     const auto& then = snapshot (g, number);

@@ -17,6 +17,9 @@ bool hasSnapshot (const graph::Graph&, int number);   ///< 1…9
 /// Stores the current values. One undo step.
 graph::Command storeSnapshot (const graph::Graph&, int number);
 
+/// Empties a snapshot. One undo step.
+graph::Command clearSnapshot (const graph::Graph&, int number);
+
 /// Restores the values of everything that still exists. One undo step. Empty if nothing would change.
 std::optional<graph::Command> recallSnapshot (const graph::Graph&, int number);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "welcome_page.hpp"
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/presets/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
@@ -43,7 +44,7 @@ std::vector<Preset> firstOnes (const std::vector<Preset>& presets, std::size_t m
 }
 
 /// The card of a preset: its name, what it feels like, and a plot of its force.
-class WelcomePage::Card final : public juce::Button
+class WelcomePage::Card final : public Button
 {
 public:
     Card (const Preset& p, PictureStore& s) : Button (p.name), preset (p), pictures (s)

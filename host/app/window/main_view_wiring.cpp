@@ -16,6 +16,9 @@ Files::Callbacks MainView::fileCallbacks()
             run().stop(); },
         .run = [this] (bool by_pointer) { startOpened (by_pointer); },
         .isRunning = [this] { return playback.current().isRunning(); },
+        .isByPointer = [this] { return playback.run().hand() == LiveRun::Hand::pointer(); },
+        .usePointer = [this] {
+            if (! hasBoundRole()) playback.changeHand (LiveRun::Hand::pointer()); },
         .openTake = [this] (const std::filesystem::path& take) { return takes.open (take, true); },
         .onSettings = [this] {
             saveSettingsSoon();
@@ -75,6 +78,7 @@ void MainView::connectSides()
     top.onInstance = [this] (int number) { patching.chooseInstance (number); };
     top.onRecall = [this] (int number) { recall (number); };
     top.onStore = [this] (int number) { store (number); };
+    top.onClear = [this] (int number) { edited.perform (clearSnapshot (edited.graph(), number)); };
     top.onHelp = [this] { helpOnSelection(); };
     top.onMenu = [this] (juce::Component& at) { openMenu (at); };
 

@@ -50,7 +50,7 @@ juce::String captionText() { return TRANS ("Snapshots"); }
 }   // namespace
 
 /// A snapshot button, filled if the snapshot has been stored, and brightly if all values are those of the snapshot.
-class TopBar::Slot final : public juce::Button
+class TopBar::Slot final : public Button
 {
 public:
     explicit Slot (int n) : Button (filled (TRANS ("Snapshot %1"), n)), number (n) { setWantsKeyboardFocus (false); }
@@ -65,6 +65,14 @@ public:
         repaint();
     }
     bool isStored() const noexcept { return is_stored; }
+
+    void mouseDown (const juce::MouseEvent& e) override
+    {
+        Button::mouseDown (e);
+        if (e.mods.isPopupMenu() && onMenu) onMenu();
+    }
+
+    std::function<void()> onMenu;
 
     void paintButton (juce::Graphics& g, bool over, bool down) override
     {
@@ -105,12 +113,13 @@ TopBar::TopBar (Document& d)
             const bool stores = ! s->isStored() || juce::ModifierKeys::currentModifiers.isShiftDown() || juce::ModifierKeys::currentModifiers.isCtrlDown();
             if (const auto& act = stores ? onStore : onRecall) act (n);
         };
+        slot->onMenu = [this, n, s = slot.get()] { openSnapshots (*s, n, n); };
         addAndMakeVisible (*slot);
     }
     instance.setTitle (TRANS ("Instance"));
     instance.onClick = [this] { openInstances(); };
     addChildComponent (instance);
-    all_slots.onClick = [this] { openSnapshots(); };
+    all_slots.onClick = [this] { openSnapshots (all_slots, 1, snapshot_count); };
     addChildComponent (all_slots);
     undo->onClick = [this] { document.undo(); };
     redo->onClick = [this] { document.redo(); };
@@ -175,21 +184,22 @@ void TopBar::placeCaption (juce::Rectangle<int> area)
     caption = area.getWidth() - width - 8 < for_trail ? juce::Rectangle<int>() : area.removeFromRight (width + 8).withTrimmedRight (8);
 }
 
-/// Each snapshot that is stored can be recalled, and each can be stored.
-void TopBar::openSnapshots()
+/// Each snapshot that is stored can be recalled and cleared, and each can be stored.
+void TopBar::openSnapshots (juce::Component& at, int first, int last)
 {
     juce::PopupMenu list;
-    const auto add = [&] (const juce::String& text, int n, const std::function<void (int)>& act) {
-        list.addItem (filled (text, n), [act, n] {
-            if (act) act (n);
-        });
+    const auto add = [&] (const char* stored, const char* empty, const std::function<void (int)>& act) {
+        for (int n = first; n <= last; ++n)
+            if (const auto* text = hasSnapshot (document.graph(), n) ? stored : empty; text != nullptr)
+                list.addItem (filled (juce::translate (text), n), [act, n] {
+                    if (act) act (n);
+                });
+        list.addSeparator();
     };
-    for (int n = 1; n <= snapshot_count; ++n)
-        if (hasSnapshot (document.graph(), n)) add (TRANS ("Recall snapshot %1"), n, onRecall);
-    list.addSeparator();
-    for (int n = 1; n <= snapshot_count; ++n)
-        add (hasSnapshot (document.graph(), n) ? TRANS ("Overwrite snapshot %1") : TRANS ("Store in snapshot %1"), n, onStore);
-    list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (all_slots));
+    add (NEEDS_TRANS ("Recall snapshot %1"), nullptr, onRecall);
+    add (NEEDS_TRANS ("Overwrite snapshot %1"), NEEDS_TRANS ("Store in snapshot %1"), onStore);
+    add (NEEDS_TRANS ("Clear snapshot %1"), nullptr, onClear);
+    list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (at));
 }
 
 void TopBar::openInstances()
@@ -265,7 +275,7 @@ void TopBar::mouseUp (const juce::MouseEvent& e)
 {
     const auto all = places();
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
-        if (all[i].contains (e.position) && onLeave) onLeave (i);
+        if (all[i].contains (e.position) && e.mods.isLeftButtonDown() && onLeave) onLeave (i);
 }
 
 }   // namespace tactus::host

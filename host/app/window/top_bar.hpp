@@ -39,7 +39,7 @@ public:
     juce::String savedText() const;
 
     std::function<void (std::size_t depth)> onLeave;
-    std::function<void (int number)> onRecall, onStore;   ///< receive the number of a snapshot, from 1
+    std::function<void (int number)> onRecall, onStore, onClear;   ///< receive the number of a snapshot, from 1
     std::function<void (int instance)> onInstance;
     std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;
@@ -55,7 +55,7 @@ private:
     void placeCaption (juce::Rectangle<int>);
 
     void openInstances();
-    void openSnapshots();
+    void openSnapshots (juce::Component& at, int first, int last);
 
     Document& document;
     std::optional<Instance> shown;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "set_row.hpp"
 
+#include <host/app/look/button.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
 
-class SetRow::Arrow final : public juce::Button
+class SetRow::Arrow final : public Button
 {
 public:
-    Arrow() : juce::Button (TRANS ("Reset"))
+    Arrow() : Button (TRANS ("Reset"))
     {
         setTooltip (TRANS ("Reset to default"));
         setMouseCursor (juce::MouseCursor::PointingHandCursor);

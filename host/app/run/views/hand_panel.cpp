@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_panel.hpp"
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/with_prefix.hpp>
@@ -22,7 +23,7 @@ constexpr int bar_height = 32, margin = 8, least_width_for_one_row = 360;
 }   // namespace
 
 /// A triangle while paused, two bars while playing.
-class HandPanel::PlayButton final : public juce::Button
+class HandPanel::PlayButton final : public Button
 {
 public:
     PlayButton() : Button (TRANS ("Play"))
@@ -49,7 +50,7 @@ public:
 };
 
 /// A loudspeaker, with waves while it is on.
-class HandPanel::SoundButton final : public juce::Button
+class HandPanel::SoundButton final : public Button
 {
 public:
     SoundButton() : Button (TRANS ("Sound")) { setTooltip (TRANS ("Plays the force through the sound card.")); }

@@ -88,7 +88,12 @@ public:
     void mouseDown (const juce::MouseEvent& e) override
     {
         too_soon = std::min (e.eventTime, juce::Time::getCurrentTime()) < shown_at + juce::RelativeTime (pause_before_start_s);
-        Button::mouseDown (e);
+        if (stops || e.mods.isLeftButtonDown()) Button::mouseDown (e);   // any click stops
+    }
+
+    void mouseDrag (const juce::MouseEvent& e) override
+    {
+        if (isDown()) Button::mouseDrag (e);
     }
 
     void paintButton (juce::Graphics& g, bool over, bool down) override

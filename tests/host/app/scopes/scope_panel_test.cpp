@@ -29,8 +29,9 @@ juce::MouseEvent mouse (juce::Component& c, juce::Point<float> at, juce::Point<f
 
 void clickAt (juce::Component& c, juce::Point<float> at)
 {
-    c.mouseDown (mouse (c, at, at, false));
-    c.mouseUp (mouse (c, at, at, false));
+    constexpr int left = juce::ModifierKeys::leftButtonModifier;
+    c.mouseDown (mouse (c, at, at, false, left));
+    c.mouseUp (mouse (c, at, at, false, left));
 }
 
 /// The number of pixels of roughly this colour.

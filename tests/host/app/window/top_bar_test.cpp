@@ -56,3 +56,24 @@ TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
     w.key ("ctrl + z");
     CHECK (lit() == "1");
 }
+
+TEST_CASE ("a right click on a snapshot moves no value, and offers to recall, to overwrite and to clear it", "[app][snapshots]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto middle = [&] { return w.middleOf (*w.titled ("Snapshot 1")); };
+    const auto mu = [&] { return w.graph().root.find ("drag")->params["mu"]; };
+    w.choose (middle(), 1);   // the only entry of an empty one
+    REQUIRE (hasSnapshot (w.graph(), 1));
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    w.choose (middle(), 1, juce::ModifierKeys::rightButtonModifier, "escape");
+    CHECK (mu() == 0.9);
+    w.choose (middle(), 2);
+    CHECK (isAtSnapshot (w.graph(), 1));
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.4) }));
+    w.choose (middle(), 1);
+    CHECK (mu() == 0.9);
+    w.choose (middle(), 3);
+    CHECK_FALSE (hasSnapshot (w.graph(), 1));
+    w.key ("ctrl + z");
+    CHECK (hasSnapshot (w.graph(), 1));
+}
