@@ -95,8 +95,10 @@ public:
     /// The view as it is now belongs to the latest edit: undoing the edit brings back the view from before.
     void endEdit();
 
-    /// Opens a text editor over part of the canvas.
-    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
+    /// Opens a text editor over part of the canvas. If `done` refuses the text, by false, Return leaves it for another try. Tab ends the editor and
+    /// calls `next`, Shift+Tab with -1 instead of 1.
+    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+                     std::function<void (int step)> next = {});
 
     void showLive (LiveState);   ///< call many times a second; repaints only what has changed
 
@@ -219,7 +221,8 @@ private:
     std::unique_ptr<Drag> drag;
     std::size_t drag_begins_at = 0;   // position in the history
     std::unique_ptr<juce::TextEditor> editor;
-    std::function<void (const juce::String&)> on_edited;
+    std::function<bool (const juce::String&)> on_edited;
+    std::function<void (int step)> on_tab;
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
     std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
     juce::Rectangle<float> framed_around;        // what the fitted view shows if it cannot show the whole patch readably; empty: it shows all

@@ -75,7 +75,7 @@ void zoom (Canvas& c)
     c.commands().zoomBy (static_cast<float> (percent) / 100.0f);
 }
 
-void addNode (Canvas& c) { c.commands().requestNode ({ c.commands().pointerOrCentre(), {}, 0 }); }
+void addNode (Canvas& c) { c.commands().requestNode ({ c.commands().placeOfNext(), {}, 0 }); }
 void undo (Canvas& c) { c.edited().undo(); }
 void redo (Canvas& c) { c.edited().redo(); }
 void copy (Canvas& c) { c.commands().copySelection(); }
@@ -205,6 +205,12 @@ juce::Point<float> CanvasCommands::pointerOrCentre() const
 {
     const auto pointer = canvas.getMouseXYRelative();
     return canvas.view().toCanvas ((canvas.getLocalBounds().contains (pointer) ? pointer : canvas.getLocalBounds().getCentre()).toFloat());
+}
+
+juce::Point<float> CanvasCommands::placeOfNext() const
+{
+    const auto* last = canvas.scene().find (added.node);
+    return last != nullptr && canvas.getMouseXYRelative() == added.pointer ? last->at : pointerOrCentre();
 }
 
 std::vector<std::string> CanvasCommands::selectedPorts() const

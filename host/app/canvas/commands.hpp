@@ -56,6 +56,9 @@ public:
     void zoomBy (float factor);
     juce::Point<float> pointerOrCentre() const;   ///< the position of the pointer if it is over the canvas, else the centre of the view
 
+    /// Where the next node goes: with the node that was added last if the pointer has not moved since then, otherwise pointerOrCentre().
+    juce::Point<float> placeOfNext() const;
+
     void removeSelection();
     void duplicateSelection();
     void copySelection() const;
@@ -90,10 +93,20 @@ public:
 
     void editParams();   ///< gives the keyboard focus to the parameters of the selected node
     void editParam (const SceneNode&, const Socket&);
-    void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
+    void editParamBeside (const PortId&, int step);
+    bool setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
 private:
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
+
+    /// The node that was added last, and where the pointer was.
+    struct Added
+    {
+        graph::Id node = 0;
+        juce::Point<int> pointer;
+    };
+
+    void moveClear (graph::Id made, const NodeRequest&);
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;
@@ -103,6 +116,7 @@ private:
 
     Canvas& canvas;
     Document& document;
+    Added added;
 };
 
 }   // namespace tactus::host

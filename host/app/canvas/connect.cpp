@@ -187,7 +187,13 @@ juce::Point<float> CanvasCommands::placeFor (const std::string& type, const Node
     const auto below = freePlace (canvas.scene(), request.at);
     if (request.start || request.wire != 0) return below;
     const auto beside = placeInRow (canvas.scene(), request.at, type == "device.position");
-    return canvas.isFitted() || canvas.getLocalBounds().toFloat().contains (canvas.view().toPixels (beside)) ? beside : below;
+    const auto window = canvas.getLocalBounds().toFloat();
+    if (beside == request.at) return beside;
+    if (! canvas.isFitted()) return window.contains (canvas.view().toPixels (beside)) ? beside : below;
+    const auto all = canvas.scene().bounds();
+    const auto wider = all.getUnion (juce::Rectangle<float> (240.0f, 96.0f).withPosition (beside));
+    if (wider.getWidth() * View::readable < 0.8f * window.getWidth()) return beside;
+    return freePlace (canvas.scene(), { all.getX(), request.at.y });   // the next row, because labels could not be read in a longer one
 }
 
 /// A new source of a param begins near the value that the param has. Before the wire, so that the param never gets another one.
@@ -200,14 +206,25 @@ void CanvasCommands::addValues (const SceneNode& driven, const FacePort& param, 
         commands.insert (commands.begin(), graph::SetParam { canvas.patch(), source.name, id, std::move (value) });
 }
 
+/// The size of a node is known once it is there: moves it to where it covers no other one. A node that is dropped from an input ends at the pointer.
+void CanvasCommands::moveClear (graph::Id made, const NodeRequest& request)
+{
+    const auto* node = canvas.scene().find (made);
+    if (node == nullptr) return;
+    auto box = node->bounds();
+    const bool is_source = request.start && request.start->role != Role::output;
+    if (is_source) box.setPosition ((juce::Point<float> (request.at.x - box.getWidth(), request.at.y) / Box::grid).roundToInt().toFloat() * Box::grid);
+    if (const auto to = freePlace (canvas.scene(), box, made); to != node->at)
+        perform (placeNodes (document.graph(), canvas.patch(), { { made, to } }), graph::Step::joined);
+}
+
 void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& request)
 {
     graph::Id made = 0;
     const auto at = placeFor (type, request);
     if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
-    if (const auto* added = canvas.scene().find (made))
-        if (const auto clear = freePlace (canvas.scene(), added->bounds(), made); clear != added->bounds().getPosition())
-            perform (placeNodes (document.graph(), canvas.patch(), { { made, clear } }), graph::Step::joined);
+    moveClear (made, request);
+    added = { made, canvas.getMouseXYRelative() };
     canvas.show (canvas.patch(), made);
     canvas.endEdit();   // undoing the edit brings back the view from before
     if (request.wire != 0)

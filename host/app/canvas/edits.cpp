@@ -315,20 +315,19 @@ void CanvasCommands::editNote (std::size_t i)
     const auto area = note.isRegion() ? note.area.withHeight (Box::header_height) : note.area;
     canvas.openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text) {
         auto notes = canvas.scene().notes();
-        if (i >= notes.size()) return;
+        if (i >= notes.size()) return true;
         notes[i].text = text.toStdString();
-        perform (setNotes (document.graph(), canvas.patch(), notes, NEEDS_TRANS ("edit note")));
+        return perform (setNotes (document.graph(), canvas.patch(), notes, NEEDS_TRANS ("edit note")));
     });
 }
 
-void CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
+bool CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
 {
     const auto* node = patchShown().find (shown_node.name);
-    if (node == nullptr) return;
-    if (auto command = changeParam (document.graph(), canvas.seen(), *node, port, value))
-        perform (std::move (*command), step);
-    else
-        canvas.notice (juce::String (outOfRangeText (document.graph(), canvas.seen(), *node, port)));
+    if (node == nullptr) return false;
+    if (auto command = changeParam (document.graph(), canvas.seen(), *node, port, value)) return perform (std::move (*command), step);
+    canvas.notice (juce::String (outOfRangeText (document.graph(), canvas.seen(), *node, port)));
+    return false;
 }
 
 void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
@@ -338,13 +337,32 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
     if (! socket.driver.empty()) return canvas.notice (drivenText (socket.driver));
     const PortId id { node.id, Role::param, socket.port->id };
     const juce::String before (socket.value);
-    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, [this, id, before] (const juce::String& text) {
+    const auto apply = [this, id, before] (const juce::String& text) {
         const auto param = canvas.scene().findPort (id);
-        if (text == before || ! param || param.port->sheet == nullptr) return;   // what is shown may be rounded
+        if (text == before || ! param || param.port->sheet == nullptr) return true;   // what is shown may be rounded
         const auto value = readTyped (text.trim().toStdString(), *param.port);
-        if (! value) return canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (value.error().text));
-        setParam (*param.node, *param.port, *value);
-    });
+        if (! value)
+        {
+            canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (value.error().text));
+            return false;
+        }
+        return setParam (*param.node, *param.port, *value);
+    };
+    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, apply, [this, id] (int step) { editParamBeside (id, step); });
+}
+
+/// Edits the next param of the node that can be typed, or with a step of -1 the previous one.
+void CanvasCommands::editParamBeside (const PortId& id, int step)
+{
+    const auto* node = canvas.scene().find (id.node);
+    if (node == nullptr) return;
+    std::vector<const Socket*> params;
+    for (const auto& s : node->box.sockets)
+        if (s.port->role == Role::param && s.port->sheet != nullptr && ! s.port->isChoice() && s.driver.empty()) params.push_back (&s);
+    const auto here = std::ranges::find (params, id.port, [] (const Socket* s) { return s->port->id; });
+    if (here == params.end()) return;
+    const auto count = std::ssize (params), next = (here - params.begin() + step + count) % count;
+    editParam (*node, *params[static_cast<std::size_t> (next)]);
 }
 
 }   // namespace tactus::host

@@ -113,6 +113,17 @@ void Canvas::mouseDrag (const juce::MouseEvent& e)
 void Canvas::mouseUp (const juce::MouseEvent& e)
 {
     if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
+    const bool is_click = ! e.source.hasMovedSignificantlySincePressed() && document.history().position() == drag_begins_at;
+    if (is_click && e.mods.isLeftButtonDown() && ! e.mods.isAnyModifierKeyDown() && highlights.selected.size() > 1)
+    {
+        // A drag moves the whole selection, but a click selects one of its nodes or notes.
+        const auto at = window.toCanvas (e.position);
+        const auto* node = shown->nodeAt (at);
+        const auto note = node == nullptr ? shown->noteAt (at) : std::nullopt;
+        graph::Id id = note ? noteId (*note) : 0;
+        if (node != nullptr) id = node->id;
+        if (highlights.selected.contains (id)) select ({ id });
+    }
     if (e.mods.isRightButtonDown() && ! e.source.hasMovedSignificantlySincePressed())   // however long it was held
     {
         const auto at = window.toCanvas (e.position);
@@ -195,6 +206,14 @@ void Canvas::mouseMagnify (const juce::MouseEvent& e, float factor)
 
 bool Canvas::keyPressed (const juce::KeyPress& key)
 {
+    if (editor && key.isKeyCode (juce::KeyPress::tabKey))
+    {
+        const auto next = on_tab;
+        closeEditor (true);
+        takeFocus (*this);
+        if (next) next (key.getModifiers().isShiftDown() ? -1 : 1);
+        return true;
+    }
     bool is_known = false;
     for (const auto& c : canvasCommands())
         for (const auto& keys : juce::StringArray::fromTokens (c.keys, "|", {}))
@@ -212,10 +231,12 @@ bool Canvas::keyPressed (const juce::KeyPress& key)
     return is_known;
 }
 
-void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done)
+void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+                         std::function<void (int)> next)
 {
     closeEditor (true);
     on_edited = std::move (done);
+    on_tab = std::move (next);
     editor = std::make_unique<juce::TextEditor>();
     editor->setMultiLine (several_lines);
     editor->setReturnKeyStartsNewLine (false);
@@ -223,8 +244,19 @@ void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, 
     editor->setText (text, false);
     const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
     editor->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
-    editor->onReturnKey = editor->onFocusLost = [this] { closeEditor (true); };
-    editor->onEscapeKey = [this] { closeEditor (false); };
+    editor->onFocusLost = [this] { closeEditor (true); };
+    editor->onReturnKey = [this] {   // JUCE calls it later: the editor may be gone
+        if (! editor) return;
+        const auto apply = on_edited;
+        if (apply (editor->getText())) return closeEditor (false);
+        if (! editor) return;
+        editor->setColour (juce::TextEditor::focusedOutlineColourId, themeOf (*this).stop);
+        editor->selectAll();
+    };
+    editor->onEscapeKey = [this] {
+        closeEditor (false);
+        notice ({});   // no longer why the text was refused
+    };
     addAndMakeVisible (*editor);
     takeFocus (*editor);
     editor->selectAll();

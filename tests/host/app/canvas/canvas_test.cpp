@@ -235,6 +235,65 @@ TEST_CASE ("W finds a node that does not exist yet by its name, after the nodes 
     CHECK (rig.choices.empty());
 }
 
+TEST_CASE ("Tab in a value of a node goes to the next one, and a refused value stays for another try", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto middle = [&] (const char* node, const char* param) {
+        const auto& n = rig.node (node);
+        const auto row = n.box.find (Role::param, param)->row.translated (n.at.x, n.at.y);
+        return rig.canvas->view().toPixels (row.getCentre());
+    };
+    const auto editor = [&]() -> juce::TextEditor* {
+        for (auto* c : rig.canvas->getChildren())
+            if (auto* e = dynamic_cast<juce::TextEditor*> (c)) return e;
+        return nullptr;
+    };
+    rig.hand().doubleClick (middle ("board", "stiffness"));
+    REQUIRE (editor() != nullptr);
+    const auto before = rig.text();
+    editor()->setText ("loud");
+    editor()->onReturnKey();
+    REQUIRE (editor() != nullptr);
+    CHECK (editor()->getText() == "loud");
+    CHECK (rig.text() == before);
+
+    const auto first = editor()->getY();
+    editor()->setText ("1 kN/m", false);
+    CHECK (rig.canvas->keyPressed (juce::KeyPress (juce::KeyPress::tabKey)));
+    INFO (rig.hint);
+    CHECK_FALSE (rig.request);   // for a new node
+    REQUIRE (editor() != nullptr);
+    CHECK (editor()->getY() != first);
+    CHECK (rig.text() != before);
+    CHECK (rig.canvas->keyPressed (juce::KeyPress (juce::KeyPress::tabKey, juce::ModifierKeys::shiftModifier, 0)));
+    REQUIRE (editor() != nullptr);
+    CHECK (editor()->getY() == first);
+    editor()->onEscapeKey();
+    CHECK (editor() == nullptr);
+}
+
+TEST_CASE ("a click on one of several selected nodes selects it alone, and a drag moves them all", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto id = [&] (const char* name) { return rig.node (name).id; };
+    const auto header = [&] (const char* name) {
+        const auto box = rig.node (name).bounds();
+        return rig.canvas->view().toPixels (box.getCentre().withY (box.getY() + 8.0f));
+    };
+    const Selection both { id ("board"), id ("drag") };
+    rig.canvas->select (both);
+    const auto before = rig.node ("board").at;
+    rig.hand().drag (header ("drag"), header ("drag").translated (0.0f, 40.0f));
+    CHECK (rig.canvas->selection() == both);
+    CHECK (rig.node ("board").at.y > before.y);
+    rig.hand().click (header ("drag"), Hand::left (juce::ModifierKeys::shiftModifier));
+    CHECK (rig.canvas->selection() == Selection { id ("board") });
+    rig.hand().click (header ("drag"), Hand::left (juce::ModifierKeys::shiftModifier));
+    CHECK (rig.canvas->selection() == both);
+    rig.hand().click (header ("drag"));
+    CHECK (rig.canvas->selection() == Selection { id ("drag") });
+}
+
 TEST_CASE ("nodes can be selected, wired and probed with only the keyboard", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

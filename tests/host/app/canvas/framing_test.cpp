@@ -310,6 +310,27 @@ TEST_CASE ("nodes that are added without a wire make a row that can be read, wit
     }
 }
 
+TEST_CASE ("nodes that are added with the keyboard make rows whose labels can be read", "[app][canvas]")
+{
+    CanvasRig rig;
+    rig.canvas->setSize (744, 400);
+    rig.canvas->frameStart();
+    std::vector<juce::Point<float>> places;
+    for (int i = 0; i < 8; ++i)
+    {
+        rig.hand().key ("spacebar");
+        REQUIRE (rig.request);
+        rig.canvas->commands().addNodeAt ("friction.elasto_plastic", *rig.request);
+        places.push_back (rig.canvas->scene().nodes().back().at);
+        CHECK (rig.canvas->view().zoom >= View::readable);
+    }
+    CHECK (places[0].y == places[1].y);
+    CHECK (places[1].y == places[2].y);
+    CHECK (places[0].x < places[1].x);
+    CHECK (places[1].x < places[2].x);
+    CHECK (places.back().y > places.front().y);
+}
+
 TEST_CASE ("a new node covers no other one, however large it is, and one undo removes it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

@@ -97,6 +97,19 @@ TEST_CASE ("dropping a wire on empty canvas requests a node, which is then conne
     CHECK (rig.document.history().names().size() == 1);   // one step
 }
 
+TEST_CASE ("a node that is dropped from an input ends where the wire was dropped", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto drop = rig.canvas->view().toPixels (rig.canvas->scene().bounds().getTopLeft()).translated (-20.0f, -40.0f);
+    rig.hand().drag (rig.port ("grain", Role::input, "position"), drop);
+    REQUIRE (rig.request);
+    rig.canvas->commands().addNodeAt ("device.position", *rig.request);
+    const auto made = rig.canvas->scene().nodes().back().bounds();
+    CHECK (std::abs (made.getRight() - rig.request->at.x) <= Box::grid);
+    CHECK (std::abs (made.getY() - rig.request->at.y) <= Box::grid);
+    CHECK (rig.document.history().names().size() == 1);
+}
+
 TEST_CASE ("a node that is dropped from a position or a resistance gets its other obvious wires in the same step", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
