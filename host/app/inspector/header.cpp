@@ -20,7 +20,7 @@ public:
         name.setTitle (TRANS ("Name of the node"));
         name.setTooltip (TRANS ("Node name: letters, digits and _"));
         name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to) {
-            if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);
+            if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.refuse();
         };
         bypass.onClick = [&document, patch = at.patch, n = node.name, this] {
             const auto value = bypass.getToggleState() ? std::nullopt : std::optional<Json> (true);

@@ -101,7 +101,11 @@ public:
         if (! has_no_effect) turnTo (grabbed + way.to (e) / pixels);
     }
 
-    void mouseUp (const juce::MouseEvent&) override { continues = false; }
+    void mouseUp (const juce::MouseEvent& e) override
+    {
+        continues = false;
+        if (! e.mods.isPopupMenu() && ! e.source.hasMovedSignificantlySincePressed() && ! field && ! has_no_effect) takeFocus (*this);   // to type a value
+    }
 
     /// One turn of the wheel is one step of the history.
     void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel) override

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fader.hpp"
 #include "gain_text.hpp"
+#include "strip_view.hpp"
 #include "taper.hpp"
 
 #include <algorithm>
@@ -115,6 +116,8 @@ std::unique_ptr<juce::AccessibilityHandler> Fader::createAccessibilityHandler()
 
 void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
+    const auto* view = findParentComponentOfClass<StripView>();
+    if (view != nullptr && view->isScrolling()) return juce::Component::mouseWheelMove (e, wheel);
     const auto now = juce::Time::getMillisecondCounter();
     const auto before = gain;
     dragged = now - turned_at < 500;   // one turn of the wheel is one step of the history

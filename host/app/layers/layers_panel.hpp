@@ -2,6 +2,7 @@
 #pragma once
 
 #include "strip.hpp"
+#include "strip_view.hpp"
 
 #include <host/app/text/filled.hpp>
 
@@ -70,7 +71,7 @@ private:
     ToolButton more { TRANS ("Other layer..."), ToolButton::Kind::framed, TRANS ("Add an empty layer, or one with another texture or vibration") };
     ToolButton first { TRANS ("Add a mixer before the motor"), ToolButton::Kind::framed };
     juce::String preview;   // what adding a mixer would do, or why it is not possible
-    juce::Viewport scroll;
+    StripView scroll;
     juce::Component row;   // contains the strips
     std::vector<std::unique_ptr<LayerStrip>> strips;
     std::unique_ptr<MixStrip> total;

@@ -80,7 +80,8 @@ std::string writeAutosave (const AutosavedDocument& d)
         { "changed", d.changed },
         { "at", d.at_s },
         { "graph", d.graph },
-        { "folder", d.folder.string() }
+        { "folder", d.folder.string() },
+        { "by_pointer", d.by_pointer }
     };
     return json.dump (2) + '\n';
 }
@@ -92,6 +93,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text)
     if (! is_whole) return Message::error ("recovery/damaged", {}, TRANS ("the file is damaged").toStdString());
     AutosavedDocument d { textAt (json, "file"), textAt (json, "preset"), json.value ("changed", Json (true)) == true, 0.0, json["graph"].get<std::string>() };
     d.folder = textAt (json, "folder");
+    d.by_pointer = json.value ("by_pointer", Json (false)) == true;
     if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
     return d;
 }

@@ -21,6 +21,7 @@ struct AutosavedDocument
     double at_s = 0.0;                    ///< when it was autosaved, in s since 1970
     std::string graph;                    ///< text of a graph file
     std::filesystem::path folder {};      ///< base of the relative paths in it; empty: that of the file or preset
+    bool by_pointer = false;              ///< true if the mouse moved the tool, so that nothing else does after the recovery
 };
 
 std::string writeAutosave (const AutosavedDocument&);

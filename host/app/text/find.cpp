@@ -52,6 +52,13 @@ constexpr std::pair<std::string_view, std::string_view> synonyms[] {
     { "buzz", "vibration hum hums rattle" },
     { "viscous", "liquid honey oil" },
     { "subgraph", "graph subgraphs" },
+    { "detent", "notch notched snap" },
+    { "click", "key detent button" },
+    { "pulse", "clip heartbeat shock" },
+    { "slippery", "glass viscous" },
+    { "squishy", "gel foam rubber tissue" },
+    { "jelly", "gel" },
+    { "water", "liquid" },
 };
 
 /// True if the letters of the word occur in the text in this order, and it begins with the first of them: "elpl" in "elasto plastic".

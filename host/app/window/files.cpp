@@ -289,7 +289,8 @@ void Files::restoreNext (bool runs)
     const auto saved = crashed.front().document();
     auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
-    show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, false);
+    show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, saved.by_pointer);
+    if (saved.by_pointer && (! runs || safe)) callbacks.usePointer();
     document.beginHistory();                                                                                  // undo must not lose what was recovered
     if (! saved.file.empty()) known_texts[saved.file] = readTextFile (saved.file).value_or (std::string());   // what changed it before is not known
     bool has_takes = true;
@@ -317,7 +318,9 @@ void Files::autosaveSoon()
 {
     is_dirty = ! autosaver->isIdle();
     if (is_dirty) return;
-    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder }, document.graph(), document.savedText() });
+    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder, callbacks.isByPointer() },
+                        document.graph(),
+                        document.savedText() });
 }
 
 void Files::finishAutosave()
@@ -335,7 +338,8 @@ bool Files::autosave()
     is_dirty = false;
     autosaver->finish();
     const auto& graph = document.graph();
-    const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder });
+    const auto saved = session->autosave (
+        { document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder, callbacks.isByPointer() });
     if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }
@@ -353,7 +357,8 @@ void Files::poll()
 {
     if (! session) return;
     const auto now = clock();
-    if (is_dirty) autosaveSoon();
+    const bool changes_hand = std::exchange (was_by_pointer, callbacks.isByPointer()) != was_by_pointer;
+    if (is_dirty || changes_hand) autosaveSoon();
     if (const auto problem = autosaver->takeProblem()) callbacks.notify (autosaveFailed (*problem));
     if (session->inTrial() && (now >= trial_until || ! callbacks.isRunning())) session->endTrial();
 }

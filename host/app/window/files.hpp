@@ -24,6 +24,8 @@ public:
         std::function<void()> stop;                  ///< called before another graph is opened
         std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
+        std::function<bool()> isByPointer;   ///< true if the mouse moves the tool
+        std::function<void()> usePointer;    ///< from the next run on, the mouse moves the tool, unless a device does
         std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
         std::function<void()> onSettings;                                   ///< called when the settings have changed and must be saved
 
@@ -93,7 +95,7 @@ private:
     std::map<std::filesystem::path, std::string> known_texts;   // of files, as they were last read or written here
     bool is_dirty = false;                                      // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
-    bool safe = false;
+    bool safe = false, was_by_pointer = false;
 };
 
 }   // namespace tactus::host

@@ -3,6 +3,7 @@
 #include "appearance.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
@@ -291,7 +292,8 @@ void MainView::documentChanged()
     wake();
     status.clearNotice();
     findMissing();
-    if (edited.identity() != shown_identity)
+    const bool is_other = edited.identity() != shown_identity;
+    if (is_other)
     {
         shown_identity = edited.identity();
         hand.view().letGo();   // it held the tool of the graph before
@@ -305,6 +307,7 @@ void MainView::documentChanged()
     const bool is_begun = edited.identity() != first_identity || edited.isChanged();
     if (welcome.isVisible() && is_begun) welcome.setVisible (false);
     showBeginnings();
+    if (is_other && left.isParentOf (getCurrentlyFocusedComponent())) takeFocus (patching);   // what is typed next is for this graph, not for a search
     std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
     const auto saved = top.savedText();
     if (onTitle) onTitle (trail.front() + (saved.isEmpty() ? saved : " (" + saved + ")"));

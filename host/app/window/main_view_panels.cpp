@@ -48,7 +48,6 @@ void MainView::startOpened (bool by_pointer)
 void MainView::openPreset (const Preset& p, bool is_own)
 {
     is_own ? files.open (p.file) : files.openCopy (p.file, false);
-    if (! question.isOpen()) takeFocus (patching);   // what the user types next is for the graph, not for the search
 }
 
 void MainView::chooseNode (const NodeRequest& request)

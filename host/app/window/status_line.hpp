@@ -49,7 +49,7 @@ public:
         g.setColour (look.theme().hairline);
         g.drawHorizontalLine (0, 0.0f, static_cast<float> (getWidth()));
         g.setFont (lineFont());
-        g.setColour (look.theme().dim);
+        g.setColour (text() == notice && refused != juce::Time() ? look.theme().warning : look.theme().dim);
         g.drawText (withFittedPath (text(), lineFont(), static_cast<float> (line().getWidth())), line(), juce::Justification::centredLeft, true);
     }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -73,7 +74,11 @@ TextField::TextField()
         const juce::Component::SafePointer<TextField> field (this);   // what is applied may delete the field, and this function with it
         // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): SafePointer also takes null, but this field is not
         apply();
-        if (field != nullptr) letGoOfFocus (*field);
+        if (field == nullptr) return;
+        if (refused)
+            selectAll();
+        else
+            letGoOfFocus (*field);
     };
     onEscapeKey = [this] {
         setText (shown, false);
@@ -89,10 +94,22 @@ void TextField::show (const juce::String& text)
 
 void TextField::apply()
 {
+    refused = false;
+    removeColour (focusedOutlineColourId);
     const auto text = getText();
     if (text == shown) return;
-    shown = text;
+    const auto before = std::exchange (shown, text);
+    const juce::Component::SafePointer<TextField> field (this);   // what is applied may delete the field
     if (onApply) onApply (text);
+    if (field == nullptr || ! refused) return;
+    shown = before;
+    if (! hasKeyboardFocus (true)) setText (before, false);
+}
+
+void TextField::refuse()
+{
+    refused = true;
+    setColour (focusedOutlineColourId, themeOf (*this).stop);
 }
 
 namespace
@@ -111,7 +128,12 @@ public:
             field.setMultiLine (true);
             field.setReturnKeyStartsNewLine (false);
         }
-        field.onApply = [set = std::move (set)] (const juce::String& text) { set (text); };
+        field.onApply = [this, set = std::move (set)] (const juce::String& text) {
+            const juce::Component::SafePointer<TextRow> row (this);   // what is set may delete the row
+            const auto before = get();
+            set (text);
+            if (row != nullptr && get() == before) field.refuse();
+        };
         addAndMakeVisible (field);
         TextRow::refresh (nullptr);
     }

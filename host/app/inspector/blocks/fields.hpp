@@ -41,11 +41,13 @@ public:
 
     void show (const juce::String&);   ///< no effect while the user is typing
     void apply();
+    void refuse();   ///< call it in onApply: the text stays for another try while the field has the keyboard, else the text from before comes back
 
     std::function<void (const juce::String&)> onApply;
 
 private:
     juce::String shown;
+    bool refused = false;
 };
 
 std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set,

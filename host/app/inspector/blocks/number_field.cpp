@@ -146,7 +146,13 @@ void NumberField::moveTo (const QuantityText& to)
     if (onChange) onChange (value.toJson(), continues);
 }
 
-void NumberField::mouseUp (const juce::MouseEvent&) { begun = false; }
+/// A click, but not a drag, gives the field the keyboard, so that a value can be typed.
+void NumberField::mouseUp (const juce::MouseEvent& e)
+{
+    begun = false;
+    if (! e.mods.isAltDown() && ! e.mods.isPopupMenu() && ! e.source.hasMovedSignificantlySincePressed() && ! isEditing() && ! isDriven())
+        takeFocus (*this);
+}
 
 void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 {

@@ -122,6 +122,34 @@ TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and
     CHECK_FALSE (changes[0].first);
 }
 
+TEST_CASE ("a turn of the wheel that scrolls the strips moves no fader that arrives under the pointer", "[layers]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    juce::Component row;
+    row.setSize (2000, 116);
+    Fader fader;
+    int changes = 0;
+    fader.onChange = [&] (std::optional<double>, bool) { ++changes; };
+    fader.show (1.0);
+    fader.setBounds (300, 0, 36, 116);
+    row.addAndMakeVisible (fader);
+    StripView view;
+    view.setBounds (0, 0, 200, 130);
+    view.setViewedComponent (&row, false);
+    const auto turn = [&] {
+        const juce::Point<float> at { 18.0f, 60.0f };
+        fader.mouseWheelMove (event (fader, at, at, {}), { .deltaX = 0.0f, .deltaY = -0.2f, .isReversed = false, .isSmooth = false, .isInertial = false });
+    };
+    turn();
+    CHECK (changes == 1);
+    view.setViewPosition (200, 0);
+    turn();
+    CHECK (changes == 1);
+    std::this_thread::sleep_for (std::chrono::milliseconds (600));
+    turn();
+    CHECK (changes == 2);
+}
+
 TEST_CASE ("a strip sets mute, solo, priority and name, and shows undone edits", "[layers]")
 {
     Rig rig ("bronze_bell.json");

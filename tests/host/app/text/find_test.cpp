@@ -85,6 +85,12 @@ TEST_CASE ("find: words that people type find what entries call otherwise, among
         g.graphs.emplace_back ("pad", graph::Patch {});
         CHECK_FALSE (searchPalette (word, g, catalogue(), {}).empty());
     }
+    const std::pair<const char*, const char*> found[] { { "squishy", "Soft pad" }, { "jelly", "Soft pad" }, { "water", "Honey" }, { "slippery", "Window pane" }, { "detent", "Key switch" }, { "click", "Tactile key" }, { "pulse", "Heartbeat" } };
+    for (const auto& [word, name] : found)
+    {
+        CAPTURE (word);
+        CHECK (isAmong (matching (presets(), word), name, 4));
+    }
     for (const auto& p : matching (presets(), "rough"))
         CHECK (p.name != "Liver cut");   // "through"
 }

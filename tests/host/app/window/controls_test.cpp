@@ -204,6 +204,31 @@ TEST_CASE ("on a knob with the keyboard focus, Return and digits open its value,
     CHECK (c.w->titled ("Value of the control") == nullptr);
 }
 
+TEST_CASE ("a click on a knob or a field gives it the keyboard, so that what is typed is its value", "[app][controls]")
+{
+    Cloth c;
+    c.select ("drag");
+    const auto& control = c.w->graph().controls[0];
+    c.w->stage->click (c.w->middleOf (c.w->view->inspected().knobs().knob (0)).translated (0.0f, -8.0f));
+    CHECK (control.value == Approx (0.7));
+    c.w->stage->type ("0.4");
+    c.key ("return");
+    CHECK (control.value == Approx (0.4));
+
+    auto* field = c.w->titled ("Stiffness");
+    REQUIRE (field != nullptr);
+    c.w->stage->click (c.w->middleOf (*field));
+    CHECK (WindowRig::focused() == field);
+    c.w->stage->type ("12");
+    c.key ("return");
+    CHECK (latestStep (c.w->view->document()) == "drag: Stiffness 0 -> 12 N/m");
+    c.key ("ctrl + z", 2);
+    CHECK (control.value == Approx (0.7));
+    CHECK_FALSE (c.node ("drag").params.contains ("stiffness"));
+    c.key ("escape");
+    CHECK (WindowRig::focused() == &c.w->view->canvas());
+}
+
 TEST_CASE ("one turn of the wheel over a knob is one step, and Shift+drag is fine", "[app][controls][undo]")
 {
     Cloth c;

@@ -54,6 +54,8 @@ struct Rig
                 by_pointer = pointer;
                 ++starts; },
             .isRunning = [this] { return runs; },
+            .isByPointer = [this] { return by_pointer; },
+            .usePointer = [this] { by_pointer = true; },
             .openTake = {},
             .onSettings = [] {},
             .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) {
@@ -408,6 +410,32 @@ TEST_CASE ("a recovered document is unsaved, and no undo takes it away")
     CHECK_FALSE (fs::exists (folder));
     d.files->end();
     CHECK (fs::is_empty (home / "sessions"));
+}
+
+TEST_CASE ("after a crash, nothing but the mouse moves the tool if the mouse moved it before")
+{
+    for (const bool by_pointer : { true, false })
+        for (const int answer : { 0, 1 })   // Recover, Recover without running
+        {
+            CAPTURE (by_pointer, answer);
+            TemporaryFolder home;
+            {
+                Rig d;
+                d.files->beginSession (home.path());
+                d.files->openCopy (wood, false);
+                REQUIRE (d.document.perform (graph::SetParam { "", "drag", "mu", Json (0.77) }));
+                d.by_pointer = by_pointer;   // chosen in the window, which is no edit
+                d.files->poll();
+                d.files->finishAutosave();
+                d.files->endSuddenly (true);
+            }
+            Rig d;
+            d.files->beginSession (home.path());
+            REQUIRE (d.files->recover());
+            d.question.answer (answer);
+            CHECK (d.runs == (answer == 0));
+            CHECK (d.by_pointer == by_pointer);
+        }
 }
 
 TEST_CASE ("a graph that was killed as it started does not run until START is pressed")

@@ -78,6 +78,32 @@ TEST_CASE ("a field that gets the focus is scrolled into view", "[app][keys]")
     }
 }
 
+TEST_CASE ("a name that is refused stays in its field, so that the next keys are no shortcuts", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    WindowRig::settle();
+    auto* name = dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"));
+    REQUIRE (name != nullptr);
+    w.stage->click (w.middleOf (*name));
+    w.stage->type ("Wood grip");
+    w.key ("return");
+    CHECK (name->hasKeyboardFocus (true));
+    CHECK (name->getText() == "Wood grip");
+    CHECK (w.graph().root.find ("drag") != nullptr);
+    w.stage->type ("wood_grip");   // the refused name is selected
+    w.key ("return");
+    CHECK (w.graph().root.find ("wood_grip") != nullptr);
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+
+    w.stage->click (w.middleOf (*w.titled ("Name of the node")));
+    w.stage->type ("Bad name");
+    w.key ("return");
+    w.key ("escape");
+    CHECK (dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"))->getText() == "wood_grip");
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+}
+
 TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to the canvas", "[app][keys]")
 {
     WindowRig w ("dry_wood.json");
@@ -88,7 +114,8 @@ TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to th
         canvas.select (has_node ? Selection { w.graph().root.find ("drag")->id } : Selection {});
         WindowRig::settle();
         const auto area = w.stage->getLocalArea (&w.view->inspected(), w.view->inspected().getLocalBounds());
-        for (int y = area.getY() + 4; y < area.getBottom(); y += 8)
+        const auto& knobs = w.view->inspected().knobs();
+        for (int y = area.getY() + 4; y < area.getBottom() - (knobs.isVisible() ? knobs.getHeight() : 0); y += 8)
         {
             INFO (y);
             w.stage->click (juce::Point<int> (area.getX() + 4, y).toFloat());
