@@ -24,8 +24,8 @@ public:
         std::function<void()> stop;                  ///< called before another graph is opened
         std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
-        std::function<bool()> isByPointer;   ///< true if the mouse moves the tool
-        std::function<void()> usePointer;    ///< from the next run on, the mouse moves the tool, unless a device does
+        std::function<bool()> isByPointer;                                  ///< true if the mouse moves the tool
+        std::function<void()> usePointer;                                   ///< from the next run on, the mouse moves the tool, unless a device does
         std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
         std::function<void()> onSettings;                                   ///< called when the settings have changed and must be saved
 
