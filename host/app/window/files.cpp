@@ -357,8 +357,8 @@ void Files::poll()
 {
     if (! session) return;
     const auto now = clock();
-    const bool changes_hand = std::exchange (was_by_pointer, callbacks.isByPointer()) != was_by_pointer;
-    if (is_dirty || changes_hand) autosaveSoon();
+    const bool by_pointer = callbacks.isByPointer();
+    if (is_dirty || std::exchange (was_by_pointer, by_pointer) != by_pointer) autosaveSoon();
     if (const auto problem = autosaver->takeProblem()) callbacks.notify (autosaveFailed (*problem));
     if (session->inTrial() && (now >= trial_until || ! callbacks.isRunning())) session->endTrial();
 }
