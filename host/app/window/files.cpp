@@ -14,6 +14,8 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <utility>
+
 namespace tactus::host
 {
 
