@@ -89,16 +89,17 @@ bool Quantities::joinProducts()
                 if (port.unit.kind != UnitRule::Kind::product || port.unit.b.empty()) continue;
                 const auto *a = node_ports.face.find (Role::input, port.unit.a), *b = node_ports.face.find (Role::input, port.unit.b);
                 if (a == nullptr || b == nullptr) continue;
-                const int product = numberOf (node_ports, &port);
-                const auto joinIf = [&, patch = patch] (const FacePort* factor, const FacePort* other) {
-                    const int x = root (product), y = root (numberOf (node_ports, other));
-                    const bool is_open = known[at (x)] == Quantity::any || known[at (y)] == Quantity::any;   // else, the graph has an error
-                    if (x == y || ! is_open || ! isPlainFactor (*patch, node_ports, *factor)) return;
-                    join (x, y);
-                    has_joined = true;
+                const int product = root (numberOf (node_ports, &port));
+                const auto joins = [&, patch = patch] (const FacePort* factor, const FacePort* other) {
+                    const int y = root (numberOf (node_ports, other));
+                    const bool is_open = known[at (product)] == Quantity::any || known[at (y)] == Quantity::any;   // else, the graph has an error
+                    if (! is_open || ! isPlainFactor (*patch, node_ports, *factor)) return false;
+                    join (product, y);
+                    return true;
                 };
-                joinIf (b, a);
-                joinIf (a, b);
+                // With one factor only: the other one is free to carry anything.
+                const bool is_joined = product == root (numberOf (node_ports, a)) || product == root (numberOf (node_ports, b));
+                if (! is_joined && (joins (b, a) || joins (a, b))) has_joined = true;
             }
     return has_joined;
 }

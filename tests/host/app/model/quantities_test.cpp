@@ -49,6 +49,19 @@ TEST_CASE ("a Scale carries what it scales, as long as its factor has no unit", 
     CHECK (outputOf (4) == Quantity::any);
 }
 
+TEST_CASE ("a factor that is wired first does not say what a Scale scales", "[quantities]")
+{
+    Sketch sketch;
+    sketch.node ("plane", "deform.plane").node ("touch", "contact.window").node ("scale", "vector.scale");
+    const auto of = [&] (Role role, const char* port) { return Quantities (sketch.graph, catalogue()).of (sketch.graph.root, 2, role, port); };
+    sketch.wire ("touch.gain -> scale.gain");
+    CHECK (of (Role::input, "gain") == Quantity::gain);
+    CHECK (of (Role::input, "in") == Quantity::any);   // so a force can be wired to it
+    sketch.wire ("plane.force -> scale.in");
+    CHECK (of (Role::input, "gain") == Quantity::gain);
+    CHECK (of (Role::output, "out") == Quantity::force);
+}
+
 TEST_CASE ("a subgraph that contains itself does not hang the propagation", "[quantities]")
 {
     Sketch sketch;
