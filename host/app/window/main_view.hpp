@@ -192,6 +192,7 @@ private:
     bool clutchKey (const juce::KeyPress&);
     bool hasClutchFocus();
     void attendClutch();
+    void endDrag();
     void nextPanel (int step);
     void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);

@@ -93,8 +93,21 @@ void MainView::globalFocusChanged (juce::Component* now)
     focused = now != this ? now : nullptr;
     if (focused != nullptr) focused->addKeyListener (this);
     if (focused != nullptr) inspector.reveal (*focused);
+    if (now == nullptr) endDrag();
     attendClutch();
     keepKeyboard();
+}
+
+/// Another program has the keyboard: it gets the release of a button, too, for example after the window was minimised. So a drag ends here, and the
+/// mouse does not go on pressing the tool without a button.
+void MainView::endDrag()
+{
+    auto* peer = getPeer();
+    const auto mouse = juce::Desktop::getInstance().getMainMouseSource();
+    if (peer == nullptr || peer->isFocused() || ! mouse.isDragging()) return;
+    const auto released = juce::ModifierKeys::currentModifiers = juce::ModifierKeys::currentModifiers.withoutMouseButtons();
+    peer->handleMouseEvent (juce::MouseInputSource::InputSourceType::mouse, peer->globalToLocal (mouse.getScreenPosition()), released,
+                            juce::MouseInputSource::defaultPressure, juce::MouseInputSource::defaultOrientation, juce::Time::currentTimeMillis());
 }
 
 /// What is typed counts before a button acts, because that may undo, store a snapshot or make a file. `focused` is the field still: a press takes the

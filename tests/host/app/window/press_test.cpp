@@ -7,6 +7,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -151,4 +152,35 @@ TEST_CASE ("a tool that H holds is let go when another graph opens", "[app][mous
     WindowRig::settle (100);
     CHECK_FALSE (w.view->handPanel().view().isHeld());
     w.view->run().letGo();
+}
+
+TEST_CASE ("a drag ends when another program gets the keyboard, because the window may not hear of the release", "[app][mouse][hand]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& run = w.view->run();
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = w.middleOf (*surface);
+    w.stage->move (at);
+    w.stage->press();
+    w.stage->move (at.translated (5.0f, 0.0f));
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.tool() && run.tool()->position.z() < 0.0; }));
+    w.stage->loseKeyboard();
+    WindowRig::settle();
+    CHECK (waitFor ([&] { return run.tool() && run.tool()->position.z() > 0.0; }));
+
+    // Nor does a drag on the canvas go on.
+    w.stage->release();
+    w.stage->regainKeyboard();
+    auto& canvas = w.view->canvas();
+    const auto& board = *std::ranges::find (canvas.scene().nodes(), "board", &SceneNode::name);
+    const auto header = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (board.bounds().getCentre().withY (board.bounds().getY() + 8.0f)));
+    w.stage->move (header);
+    w.stage->press();
+    w.stage->loseKeyboard();
+    WindowRig::settle();
+    const auto before = w.view->document().history().position();
+    w.stage->move (header.translated (40.0f, 40.0f));
+    CHECK (w.view->document().history().position() == before);
+    w.stage->release();
 }
