@@ -81,7 +81,8 @@ std::string writeAutosave (const AutosavedDocument& d)
         { "at", d.at_s },
         { "graph", d.graph },
         { "folder", d.folder.string() },
-        { "by_pointer", d.by_pointer }
+        { "by_pointer", d.by_pointer },
+        { "file_hash", d.file_hash }
     };
     return json.dump (2) + '\n';
 }
@@ -93,6 +94,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text)
     if (! is_whole) return Message::error ("recovery/damaged", {}, TRANS ("the file is damaged").toStdString());
     AutosavedDocument d { textAt (json, "file"), textAt (json, "preset"), json.value ("changed", Json (true)) == true, 0.0, json["graph"].get<std::string>() };
     d.folder = textAt (json, "folder");
+    d.file_hash = textAt (json, "file_hash");
     d.by_pointer = json.value ("by_pointer", Json (false)) == true;
     if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
     return d;

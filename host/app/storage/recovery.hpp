@@ -22,6 +22,7 @@ struct AutosavedDocument
     std::string graph;                    ///< text of a graph file
     std::filesystem::path folder {};      ///< base of the relative paths in it; empty: that of the file or preset
     bool by_pointer = false;              ///< true if the mouse moved the tool, so that nothing else does after the recovery
+    std::string file_hash {};             ///< contentHash() of the file as it was last read or written; empty if none
 };
 
 std::string writeAutosave (const AutosavedDocument&);

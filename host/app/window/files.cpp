@@ -12,6 +12,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/run/log/content_hash.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <utility>
@@ -135,7 +136,7 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), true, by_pointer);
-    if (! document.file().empty()) known_texts[document.file()] = text.value_or (std::string());
+    if (! document.file().empty()) known_files[document.file()] = contentHash (text.value_or (std::string()));
     callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
 }
 
@@ -199,9 +200,9 @@ void Files::save (std::function<void()> then)
 /// True if a file is there and is no longer what this window has read or written.
 bool Files::wasChangedElsewhere (const fs::path& file) const
 {
-    const auto known = known_texts.find (file);
+    const auto known = known_files.find (file);
     const auto now = readTextFile (file);
-    return known != known_texts.end() && now && *now != known->second;
+    return known != known_files.end() && now && contentHash (*now) != known->second;
 }
 
 void Files::saveAs (std::function<void()> then)
@@ -246,7 +247,7 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     const auto messages = document.save (file, carriedTo (file.parent_path(), document.graph()));
     if (! messages.empty() && name != before) document.call (before);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
-    known_texts[file] = readTextFile (file).value_or (std::string());
+    known_files[file] = contentHash (readTextFile (file).value_or (std::string()));
     autosave();
     settings.noteRecent (file);
     callbacks.onSettings();
@@ -293,8 +294,8 @@ void Files::restoreNext (bool runs)
     const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
     show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, saved.by_pointer);
     if (saved.by_pointer && (! runs || safe)) callbacks.usePointer();
-    document.beginHistory();                                                                                  // undo must not lose what was recovered
-    if (! saved.file.empty()) known_texts[saved.file] = readTextFile (saved.file).value_or (std::string());   // what changed it before is not known
+    document.beginHistory();   // undo must not lose what was recovered
+    if (! saved.file.empty()) known_files[saved.file] = saved.file_hash;
     bool has_takes = true;
     for (const auto& take : crashed.front().takes())
         has_takes = callbacks.openTake (take) && has_takes;
@@ -315,12 +316,19 @@ void Files::documentChanged()
     if (callbacks.isRunning()) beforeRun();   // the change itself may crash the program
 }
 
+/// The hash of the document's file as this session knows it; empty if it has none.
+std::string Files::knownHash() const
+{
+    const auto known = known_files.find (document.file());
+    return known == known_files.end() ? std::string() : known->second;
+}
+
 /// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
 void Files::autosaveSoon()
 {
     is_dirty = ! autosaver->isIdle();
     if (is_dirty) return;
-    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder, callbacks.isByPointer() },
+    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder, callbacks.isByPointer(), knownHash() },
                         document.graph(),
                         document.savedText() });
 }
@@ -341,7 +349,7 @@ bool Files::autosave()
     autosaver->finish();
     const auto& graph = document.graph();
     const auto saved = session->autosave (
-        { document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder, callbacks.isByPointer() });
+        { document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder, callbacks.isByPointer(), knownHash() });
     if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }

@@ -68,6 +68,7 @@ public:
 
 private:
     void documentChanged() override;
+    std::string knownHash() const;
     void autosaveSoon();
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer);
@@ -92,7 +93,7 @@ private:
     std::filesystem::path home;
     std::vector<CrashedSession> crashed;
     std::optional<Autosaver> autosaver;                         // declared after the session, which it uses
-    std::map<std::filesystem::path, std::string> known_texts;   // of files, as they were last read or written here
+    std::map<std::filesystem::path, std::string> known_files;   // hashes of files, as they were last read or written here
     bool is_dirty = false;                                      // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
     bool safe = false, was_by_pointer = false;

@@ -129,8 +129,8 @@ public:
             field.setReturnKeyStartsNewLine (false);
         }
         field.onApply = [this, set = std::move (set)] (const juce::String& text) {
-            const juce::Component::SafePointer<TextRow> row (this);   // what is set may delete the row
             const auto before = get();
+            const juce::Component::SafePointer<TextRow> row (this);   // what is set may delete the row
             set (text);
             if (row != nullptr && get() == before) field.refuse();
         };

@@ -412,10 +412,40 @@ TEST_CASE ("a recovered document is unsaved, and no undo takes it away")
     CHECK (fs::is_empty (home / "sessions"));
 }
 
+TEST_CASE ("after a crash, what another program has written into the file meanwhile is not replaced without a question")
+{
+    for (const bool is_changed : { true, false })
+    {
+        CAPTURE (is_changed);
+        TemporaryFolder home, mine;
+        const auto file = mine / "mine.json";
+        fs::copy_file (wood, file);
+        {
+            Rig d;
+            d.files->beginSession (home.path());
+            d.files->open (file);
+            REQUIRE (d.document.perform (graph::SetParam { "", "drag", "mu", Json (0.77) }));
+            d.files->finishAutosave();
+            d.files->endSuddenly();
+        }
+        auto other = loadGraph (wood).graph;
+        other.name = "by another program";
+        if (is_changed) REQUIRE (writeTextFile (file, writeGraph (other)));
+        Rig d;
+        d.files->beginSession (home.path());
+        REQUIRE (d.files->recover());
+        d.question.answer (1);
+        REQUIRE_FALSE (d.question.isOpen());
+        d.files->save();
+        CHECK (d.question.isOpen() == is_changed);
+        CHECK ((loadGraph (file).graph.name == "by another program") == is_changed);
+    }
+}
+
 TEST_CASE ("after a crash, nothing but the mouse moves the tool if the mouse moved it before")
 {
     for (const bool by_pointer : { true, false })
-        for (const int answer : { 0, 1 })   // Recover, Recover without running
+        for (const std::size_t answer : { 0U, 1U })   // Recover, Recover without running
         {
             CAPTURE (by_pointer, answer);
             TemporaryFolder home;

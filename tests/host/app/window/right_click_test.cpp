@@ -2,6 +2,8 @@
 // Only the left button clicks: a right or middle click moves no force and changes nothing.
 #include "host/app/support/window_rig.hpp"
 
+#include <tactus/file/graph_file.hpp>
+
 #include <catch2/catch.hpp>
 
 using namespace tactus;
