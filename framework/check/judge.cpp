@@ -194,7 +194,11 @@ private:
             c, responses, [&] (const auto* r) { return largestRadius (*r, numbers, period_s); },
             [&] (const auto* r, double factor) { return comesToRest (scaled (*r, factor), numbers, period_s); });
         if (c.verdict == Verdict::broken) return;
-        if (const auto best = strongestChange (*responses.front(), numbers, period_s, isDragged (responses.front())); best && best->room > c.may_grow)
+        const auto best = strongestChange (*responses.front(), numbers, period_s, isDragged (responses.front()));
+        if (! best || best->room <= c.may_grow) return;
+        if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
+            c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
+        else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
     }
 

@@ -208,6 +208,12 @@ TEST_CASE ("the change with the largest effect on a wall does what is said of it
     CHECK (faster.room == Approx (roomOf (damped (20e3, 20.0, 2e3), 20e3)).epsilon (0.01));
     CHECK (stiffnessOf (damped (7e3, 1.0, 1e3), resting (arm, 7e3)).remedy.find ("largest effect on the loop: a hold.predictive") == 0);
 
+    // A contact that is far too stiff is not helped by half of its stiffness.
+    const auto far = stiffnessOf (damped (7e5, 1.0, 1e3), resting (arm, 7e5));
+    CHECK (far.verdict == check::Verdict::unstable);
+    CHECK (far.remedy.find ("at most 0.0") == 0);
+    CHECK (far.remedy.find ("times this stiffness and virtual damping") != std::string::npos);
+
     auto late = numbersOf (arm);
     late.delay.emplace();
     late.delay->value = 5.0;
