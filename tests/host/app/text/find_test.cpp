@@ -85,7 +85,18 @@ TEST_CASE ("find: words that people type find what entries call otherwise, among
         g.graphs.emplace_back ("pad", graph::Patch {});
         CHECK_FALSE (searchPalette (word, g, catalogue(), {}).empty());
     }
-    const std::pair<const char*, const char*> found[] { { "squishy", "Soft pad" }, { "jelly", "Soft pad" }, { "water", "Honey" }, { "slippery", "Window pane" }, { "detent", "Key switch" }, { "click", "Tactile key" }, { "pulse", "Heartbeat" }, { "button", "Tactile key" }, { "fabric", "Layered cloth" }, { "rough", "Sandpaper" } };
+    const std::pair<const char*, const char*> found[] {
+        { "squishy", "Soft pad" },
+        { "jelly", "Soft pad" },
+        { "water", "Honey" },
+        { "slippery", "Window pane" },
+        { "detent", "Key switch" },
+        { "click", "Tactile key" },
+        { "pulse", "Heartbeat" },
+        { "button", "Tactile key" },
+        { "fabric", "Layered cloth" },
+        { "rough", "Sandpaper" },
+    };
     for (const auto& [word, name] : found)
     {
         CAPTURE (word);

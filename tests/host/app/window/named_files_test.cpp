@@ -113,7 +113,12 @@ TEST_CASE ("an unsaved graph that is recovered finds its clip again", "[app][fil
         Document document { graph::Graph {} };
         Question question;
         Settings settings;
-        Files files { document, question, settings, { [] (const juce::String&) {}, [] {}, [] (bool) {}, [] { return false; }, [] { return false; }, {}, {}, [] {}, {} } };
+        Files::Callbacks callbacks {};
+        callbacks.notify = [] (const juce::String&) {};
+        callbacks.stop = callbacks.onSettings = [] {};
+        callbacks.run = [] (bool) {};
+        callbacks.isRunning = callbacks.isByPointer = [] { return false; };
+        Files files { document, question, settings, std::move (callbacks) };
         files.beginSession (home.path());
         files.open (heart);   // a graph that plays it, without a file
         REQUIRE (document.perform (graph::SetHeader { .name = "Mine" }));
