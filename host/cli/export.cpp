@@ -93,7 +93,8 @@ void addExport (const Command& app)
     command.addOption ("-o,--out", options->folder, "The folder to write: new, empty, or an earlier export, which is replaced").required();
     command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test; c-api, the same with a C interface; arduino, a "
                                                 "library for boards; fmu, a unit for simulators (FMI 2.0); wasm, a WebAssembly module for "
-                                                "browsers, with its JavaScript; smartknob, no code: the detents of a SmartKnob, which accepts no torque commands")
+                                                "browsers, with its JavaScript; smartknob, no code: the detents of a SmartKnob, which accepts no "
+                                                "torque commands")
         .type ("cpp|c-api|arduino|fmu|wasm|smartknob");
     command.addOption ("--input", options->inputs, "Make these ports inputs of the class, such as drag.mu or drag.position.x").separatedBy (',');
     command.addOption ("--record", options->records, "Make these ports outputs of the class; default: the inputs of every sink").separatedBy (',');

@@ -209,7 +209,8 @@ void run (const FakeOptions& o)
 #if defined(TACTUS_SERVICES)
     if (o.profile == inverse3 || o.profile == vest)
     {
-        if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()) throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
+        if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty())
+            throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
         return o.profile == inverse3 ? runInverse3 (o) : runVest (o);
     }
 #endif

@@ -75,8 +75,9 @@ def main():
     lines = [
         "# Instructions per tick", "",
         "This page lists how many instructions one tick of each node takes. `./test.sh --figures` generates it.", "",
-        f"The instructions were counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: the hand strokes and presses three times, a hit arrives "
-        f"every 0.1 s, and other inputs oscillate. Parameters and settings have their defaults. The numbers are means over all ticks. They include gathering "
+        f"The instructions were counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: "
+        f"the hand strokes and presses three times, a hit arrives every 0.1 s, and other inputs oscillate. Parameters and settings "
+        f"have their defaults. The numbers are means over all ticks. They include gathering "
         f"the inputs and writing the outputs, but not the call itself ({nothing:.0f} instructions).", "",
         "| family | node | instructions |", "|---|---|---:|",
     ]

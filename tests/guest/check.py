@@ -312,7 +312,8 @@ if os.path.exists(os.path.join(folder, "joystick.board.csv")):
         since = next(t for how, t, _ in silent.rows if how == "quiet")
         later = [int.from_bytes(r[2:4], "little", signed=True) for how, t, r in silent.rows if how == "out" and r[0] == 5 and since + 0.3 < t < since + 1.0]
         check(len(later) > 50 and all((f != 0) == (answers == 1) for f in later), f"a silent joystick {what}: {later[:1]} to {later[-1:]}")
-    check("asked for" in text("quiet_1.play.err") and "sends no report while nothing changes" in text("quiet_0.play.err"), "a silent joystick: the summary says so")
+    check("asked for" in text("quiet_1.play.err") and "sends no report while nothing changes" in text("quiet_0.play.err"),
+          "a silent joystick: the summary says so")
 
     killed = Joystick("joystick_killed")
     check(sum(1 for f in killed.forces if f) > 20 and killed.rests(), "joystick: when its program is killed, all effects are stopped")

@@ -69,7 +69,8 @@ public:
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        if (e.mods.isLeftButtonDown() && ! e.source.hasMovedSignificantlySincePressed() && list.onShow) list.onShow (locationOf (list.document.graph(), message));
+        const bool is_click = e.mods.isLeftButtonDown() && ! e.source.hasMovedSignificantlySincePressed();
+        if (is_click && list.onShow) list.onShow (locationOf (list.document.graph(), message));
     }
 
 private:

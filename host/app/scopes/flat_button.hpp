@@ -30,7 +30,8 @@ public:
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        if (onCross && e.mods.isLeftButtonDown() && e.position.x >= static_cast<float> (getWidth() - cross_width) && getLocalBounds().contains (e.getPosition())) onCross();
+        const bool is_on_cross = getLocalBounds().removeFromRight (cross_width).contains (e.getPosition());
+        if (onCross && is_on_cross && e.mods.isLeftButtonDown()) onCross();
         Button::mouseUp (e);
     }
 

@@ -400,7 +400,8 @@ std::vector<std::pair<std::string, std::string>> knobFiles (const std::string& s
                 { "text", config.text } };
     std::string readme = "# " + stem + "\n\n";
     readme += "Detents for a [SmartKnob](https://github.com/scottbez1/smartknob), from a graph of Tactus. The firmware of the knob accepts no torque\n";
-    readme += "commands: it computes its own torque from `" + stem + ".json` (its `SmartKnobConfig`, protocol version 1). `" + stem + ".bin` is the message that sets it,\n";
+    readme += "commands: it computes its own torque from `" + stem + ".json` (its `SmartKnobConfig`, protocol version 1).\n";
+    readme += "`" + stem + ".bin` is the message that sets it,\n";
     readme += "with a leading 0, which switches the knob to this protocol:\n\n";
     readme += "```sh\nstty -F /dev/ttyUSB0 115200 raw -echo\ncat " + stem + ".bin > /dev/ttyUSB0\n```\n\n| | |\n|---|---|\n";
     readme += "| largest torque of the graph | " + inMillinewtons (fit.largest) + " |\n";
