@@ -33,9 +33,9 @@ def outer(environment, window):
     return (x - left, y - top, x + width + right, y + height + bottom) if top > 0 else None
 
 
-def until(so):
+def until(so, patience=PATIENCE):
     """Waits for a value that is not None."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + patience
     while time.monotonic() < end:
         value = so()
         if value is not None:
@@ -44,18 +44,43 @@ def until(so):
     return None
 
 
+def with_window_manager(size, home, log, programs):
+    """The environment of a new screen on which openbox runs. Starts Xvfb and openbox again if either ends or does not answer."""
+    for attempt in range(3):
+        read, write = os.pipe()
+        name = f":{1000 + (os.getpid() + attempt * 101) % 50000}"  # never :0, which other tests would open
+        # -noreset: otherwise the server would start again, without openbox, whenever it has no client.
+        words = ["Xvfb", name, "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp", "-noreset"]
+        server = subprocess.Popen(words, pass_fds=[write], stderr=log)
+        programs.append(server)
+        os.close(write)
+        with os.fdopen(read) as told:
+            display = told.readline().strip()
+        if not display:
+            continue
+        environment = dict(os.environ, DISPLAY=f":{display}", HOME=home, TACTUS_HOME=home)
+        manager = subprocess.Popen(["openbox", "--sm-disable"], env=environment, stdout=log, stderr=log)
+        programs.append(manager)
+
+        def state():
+            if manager.poll() is not None or server.poll() is not None:
+                return False
+            return "window id" in output(environment, "xprop", "-root", "_NET_SUPPORTING_WM_CHECK") or None
+
+        if until(state, PATIENCE / 3):
+            return environment
+        print(f"attempt {attempt + 1}: openbox has exit code {manager.poll()}, Xvfb {server.poll()}")
+    return None
+
+
 def check(host, size):
-    read, write = os.pipe()
-    name = f":{1000 + os.getpid() % 50000}"  # never :0, which other tests would open
-    server = subprocess.Popen(["Xvfb", name, "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp"], pass_fds=[write], stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as told, tempfile.TemporaryDirectory(prefix="tactus-frame-") as home:
-        programs = [server]
+    with tempfile.TemporaryDirectory(prefix="tactus-frame-") as home, tempfile.TemporaryFile("w+") as log:
+        programs = []
         try:
-            environment = dict(os.environ, DISPLAY=f":{told.readline().strip()}", HOME=home, TACTUS_HOME=home)
-            programs.append(subprocess.Popen(["openbox", "--sm-disable"], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
-            if until(lambda: "window id" in output(environment, "xprop", "-root", "_NET_SUPPORTING_WM_CHECK") or None) is None:
-                return "the window manager does not start"
+            environment = with_window_manager(size, home, log, programs)
+            if environment is None:
+                log.seek(0)
+                return f"the window manager does not start. Xvfb and openbox print: {log.read().strip() or 'nothing'}"
             programs.append(subprocess.Popen([host, "--safe", "--osc", "off"], env=environment))
             width, height = map(int, size.split("x"))
             seen = []
