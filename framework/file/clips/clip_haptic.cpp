@@ -122,7 +122,7 @@ std::vector<ClipPoint> pointsFor (const ClipTrack& track)
         points.push_back ({ track.taps.empty() ? 0.1 : track.taps.back().time + after_tap_s, 0.0 });
     }
     if (points.front().time > 0.0) points.insert (points.begin(), { { 0.0, 0.0 }, { points.front().time, 0.0 } });
-    if (points.size() < 2) points.push_back ({ points.back().time + 0.1, 0.0 });
+    if (! (points.back().time > points.front().time)) points.push_back ({ points.back().time + 0.1, 0.0 });   // an envelope needs a duration
     return points;
 }
 }   // namespace
