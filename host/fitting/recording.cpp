@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "recording.hpp"
 #include "recorded_text.hpp"
+#include "surface_preset.hpp"
 
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
@@ -189,9 +190,18 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
                                    "say what 1 in this column means, such as --unit \"" + wanted.role + "=1 " + wanted.unit + "\"");
         factor = *known;
     }
+    constexpr double largest = 1e30;   // beyond it, squares in a fit would overflow
     std::vector<double> values;
     for (std::size_t r = 0; r < table.rows(); ++r)
-        values.push_back (factor * table.at (r, *found));
+    {
+        const auto value = table.at (r, *found), scaled = factor * value;
+        if (std::isfinite (value) && ! (std::abs (scaled) <= largest))
+            return Message::error ("fit/range", file,
+                                   "row " + std::to_string (r + 1) + " of the column " + quote (name) + " is " + shortNumber (value)
+                                       + ", which no sensor measures",
+                                   "correct the row, or check the unit of the column");
+        values.push_back (scaled);
+    }
     return values;
 }
 

@@ -216,6 +216,8 @@ TEST_CASE ("fit: recordings and options that cannot be used are refused, and not
     const auto refused = [&] (const std::vector<std::string>& arguments, int status, const char* words) { checkRefused (arguments, status, words, preset); };
     refused ({ "fit", "modes", csv, "-o", preset }, 1, "[fit/column]");
     refused ({ "fit", "friction", scratch.write ("inch.csv", strokes ("x_kg,force,load")), "-o", preset }, 1, "[fit/unit]");
+    refused ({ "fit", "curve", scratch.write ("huge.csv", table ("depth,force", 60, [] (std::ostream& out, int i) { out << i << ",1e300"; })), "-o", preset },
+             1, "row 1 of the column 'force' is 1e+300");
     refused ({ "fit", "friction", scratch.write ("still.csv", table ("x,force", 100, [] (std::ostream& out, int i) { out << "1," << i; })), "-o", preset }, 1,
              "[fit/no_motion]");
     refused ({ "fit", "friction", csv, "-o", preset, "--load", "2 m" }, 2, "--load");
