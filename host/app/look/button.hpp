@@ -7,19 +7,28 @@ namespace tactus::host
 {
 
 /// A button for the left mouse button. JUCE's buttons take a right or middle click for a click.
-class Button : public juce::Button
+template <typename Kind>
+class LeftButton : public Kind
 {
 public:
-    using juce::Button::Button;
+    using Kind::Kind;
 
     void mouseDown (const juce::MouseEvent& e) override
     {
-        if (e.mods.isLeftButtonDown() && ! e.mods.isPopupMenu()) juce::Button::mouseDown (e);
+        if (e.mods.isLeftButtonDown() && ! e.mods.isPopupMenu()) Kind::mouseDown (e);
     }
     void mouseDrag (const juce::MouseEvent& e) override
     {
-        if (isDown()) juce::Button::mouseDrag (e);
+        if (this->isDown()) Kind::mouseDrag (e);
     }
 };
+
+class Button : public LeftButton<juce::Button>
+{
+public:
+    using LeftButton::LeftButton;
+};
+
+using TextButton = LeftButton<juce::TextButton>;
 
 }   // namespace tactus::host

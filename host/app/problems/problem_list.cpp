@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problem_list.hpp"
 
+#include <host/app/look/button.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -28,7 +29,7 @@ public:
         const auto fix = fixOf (list.document.graph(), message);
         const bool lacks_file = ! fix && missingFileOf (list.document.graph(), message);
         if (! fix && ! lacks_file) return;
-        button = std::make_unique<juce::TextButton> (fix ? fromUtf8 (fix->label) : TRANS ("Choose file ..."));
+        button = std::make_unique<TextButton> (fix ? fromUtf8 (fix->label) : TRANS ("Choose file ..."));
         button->onClick = [this, lacks_file] {
             if (lacks_file && list.onChooseFile) return list.onChooseFile (message);
             // The graph may have changed since the button was made.
@@ -85,7 +86,7 @@ private:
     ProblemList& list;
     const Message message;
     const juce::String text, remedy;
-    std::unique_ptr<juce::TextButton> button;
+    std::unique_ptr<TextButton> button;
     int button_width = 0;
 };
 
