@@ -23,6 +23,7 @@ bool hasOneNode (const Canvas& c) noexcept { return c.commands().selectedNodes()
 bool hasClip (const Canvas& c) noexcept { return hasOneNode (c) && c.commands().selectedNodes()[0]->type == clip_type; }
 bool hasTwoNodes (const Canvas& c) noexcept { return c.commands().selectedNodes().size() > 1; }
 bool hasNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
+bool hasOneNameOrNote (const Canvas& c) noexcept { return hasOneNode (c) || hasNote (c); }
 bool hasSomeNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
 bool isInside (const Canvas& c) noexcept { return ! c.breadcrumbs().empty(); }
 bool isInsideWithNode (const Canvas& c) noexcept { return isInside (c) && hasOneNode (c); }
@@ -110,6 +111,7 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Group into subgraph"), "g", hasNode, call<&CanvasCommands::groupSelection> },
     { NEEDS_TRANS ("Ungroup subgraph"), "shift + g", hasSubgraph, call<&CanvasCommands::expandSelection> },
     { NEEDS_TRANS ("Enter subgraph"), "return", hasSubgraph, call<&CanvasCommands::enterSelection> },
+    { NEEDS_TRANS ("Rename"), "F2", hasOneNameOrNote, call<&CanvasCommands::renameSelection> },
     { NEEDS_TRANS ("Edit parameters"), "return|shift + return", hasSelection, call<&CanvasCommands::editParams> },
     { NEEDS_TRANS ("Leave subgraph"), "u", isInside, leave },
     { NEEDS_TRANS ("Expose or hide port..."), "o", isInsideWithNode, call<&CanvasCommands::exposeFromSelection>, true },
@@ -142,6 +144,7 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Zoom out"), "-", always, zoom<80>, false, false },
     { NEEDS_TRANS ("Actual size"), "0", always, resetZoom, false, false },
     { NEEDS_TRANS ("Show or hide minimap"), "m", always, view<&Canvas::toggleMap> },
+    { NEEDS_TRANS ("Menu of the selection"), "shift + F10", always, view<&Canvas::showMenuOfSelection>, false, false },
 };
 }   // namespace
 

@@ -51,6 +51,7 @@ public:
 
     std::vector<const SceneNode*> selectedNodes() const;
     void selectAll();
+    void renameSelection();                           ///< opens the field for the name of the selected node, or for the text of the selected note
     void selectNext (juce::Point<float> direction);   ///< selects the nearest node in that direction
     void frameSelection();
     void zoomBy (float factor);

@@ -321,6 +321,20 @@ void CanvasCommands::editNote (std::size_t i)
     });
 }
 
+void CanvasCommands::renameSelection()
+{
+    const auto nodes = selectedNodes();
+    for (std::size_t i = 0; nodes.empty() && i < canvas.scene().notes().size(); ++i)
+        if (canvas.selection().contains (noteId (i))) return editNote (i);
+    if (nodes.size() != 1) return;
+    const auto done = [this, id = nodes[0]->id] (const juce::String& text) {
+        const auto* node = canvas.scene().find (id);
+        const auto name = asNodeName (text);
+        return node == nullptr || name == node->name || perform (graph::RenameNode { canvas.patch(), node->name, name });
+    };
+    canvas.openEditor (nodes[0]->bounds().withHeight (Box::header_height), juce::String (nodes[0]->name), false, done);
+}
+
 bool CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
 {
     const auto* node = patchShown().find (shown_node.name);

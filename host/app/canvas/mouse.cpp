@@ -132,13 +132,22 @@ void Canvas::mouseUp (const juce::MouseEvent& e)
         graph::Id id = wire != nullptr ? wire->id : 0;
         if (node != nullptr) id = node->id;
         if (id != 0 && ! highlights.selected.contains (id)) select ({ id });
-        showMenu (at);
+        showMenu (at, juce::PopupMenu::Options().withMousePosition());
     }
     repaint();
 }
 
+void Canvas::showMenuOfSelection()
+{
+    auto at = getLocalBounds().getCentre().toFloat();
+    if (const auto nodes = edits.selectedNodes(); ! nodes.empty()) at = window.toPixels (nodes[0]->bounds().getTopLeft());
+    at = getLocalBounds().toFloat().getConstrainedPoint (at);
+    const auto place = localAreaToGlobal (juce::Rectangle<int> (at.roundToInt(), at.roundToInt()).expanded (1));
+    showMenu (window.toCanvas (at), juce::PopupMenu::Options().withTargetScreenArea (place).withInitiallySelectedItem (1));
+}
+
 /// On a param: its menu, with the commands of the canvas in a submenu.
-void Canvas::showMenu (juce::Point<float> at)
+void Canvas::showMenu (juce::Point<float> at, const juce::PopupMenu::Options& place)
 {
     juce::PopupMenu menu, of_param;
     const auto* node = shown->nodeAt (at);
@@ -168,7 +177,7 @@ void Canvas::showMenu (juce::Point<float> at)
         of_param.addSubMenu (TRANS ("Node"), menu);
         menu = of_param;
     }
-    menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
+    menu.showMenuAsync (place.withParentComponent (getTopLevelComponent()));
 }
 
 void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
@@ -253,8 +262,8 @@ void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, 
         editor->setColour (juce::TextEditor::focusedOutlineColourId, themeOf (*this).stop);
         editor->selectAll();
     };
-    editor->onEscapeKey = [this] {
-        closeEditor (false);
+    editor->onEscapeKey = [this, several_lines] {
+        closeEditor (several_lines);   // of a note, much may have been typed; undo discards it
         notice ({});   // no longer why the text was refused
     };
     addAndMakeVisible (*editor);

@@ -3,6 +3,7 @@
 
 #include <host/app/look/glyph.hpp>
 #include <host/app/look/tool_button.hpp>
+#include <host/app/model/fragment.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
@@ -18,9 +19,9 @@ public:
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
         name.setTitle (TRANS ("Name of the node"));
-        name.setTooltip (TRANS ("Node name: letters, digits and _"));
+        name.setTooltip (TRANS ("Node name: lower-case letters, digits and _"));
         name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to) {
-            if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.refuse();
+            if (! document.perform (graph::RenameNode { patch, before, asNodeName (to) })) name.refuse();
         };
         bypass.onClick = [&document, patch = at.patch, n = node.name, this] {
             const auto value = bypass.getToggleState() ? std::nullopt : std::optional<Json> (true);

@@ -56,6 +56,8 @@ std::string usualName (const std::string& type)
     return type.substr (cut == std::string::npos ? 0 : cut + 1);
 }
 
+std::string asNodeName (const juce::String& typed) { return typed.trim().toLowerCase().replaceCharacters (" -", "__").toStdString(); }
+
 std::string freeName (const graph::Patch& patch, const std::set<std::string>& also_taken, const std::string& wanted)
 {
     const auto taken = [&] (const std::string& name) { return patch.find (name) != nullptr || also_taken.contains (name); };

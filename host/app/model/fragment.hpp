@@ -32,6 +32,9 @@ std::string usualName (const std::string& type);
 /// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
 
+/// The name of a node for what the user types: "soft_pad" for "Soft pad".
+std::string asNodeName (const juce::String& typed);
+
 /// Exposes a port of a node inside a subgraph under a free name, or hides it again.
 graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
 

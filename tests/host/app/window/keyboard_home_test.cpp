@@ -86,7 +86,7 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     {
         auto* more = w.titled ("Menu");
         REQUIRE (more != nullptr);
-        w.choose (w.middleOf (*more), 9, juce::ModifierKeys::leftButtonModifier, end);   // the theme
+        w.choose (w.middleOf (*more), 10, juce::ModifierKeys::leftButtonModifier, end);   // the theme
         d.checkKeys (std::string ("the menu of the window, ") + end);
     }
 
@@ -109,6 +109,14 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     w.key ("escape");
     WindowRig::settle();
     d.checkKeys ("the menu of a node");
+
+    d.select ("scrub");
+    w.key ("shift + F10");
+    WindowRig::settle();
+    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
+    w.key ("escape");
+    WindowRig::settle();
+    d.checkKeys ("the menu that a key opens");
 
     // If a field is deleted while it has the keyboard, the component next to it does not get it.
     d.select ("scrub");
