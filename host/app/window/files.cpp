@@ -122,7 +122,7 @@ void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, st
     });
 }
 
-void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
+void Files::load (const fs::path& file, Document::Source source, bool by_pointer, bool runs)
 {
     if (isClipExtension (file)) return loadClipGraph (file, by_pointer);
     const auto text = readTextFile (file);   // before it is read as a graph, so that a change in between is noticed
@@ -135,7 +135,7 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
         callbacks.onSettings();
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
-    show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), true, by_pointer);
+    show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), runs, by_pointer);
     if (! document.file().empty()) known_files[document.file()] = contentHash (text.value_or (std::string()));
     callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
 }
@@ -194,7 +194,15 @@ void Files::save (std::function<void()> then)
                   TRANS ("Another program has changed the file since it was opened or saved here. Saving overwrites those changes."),
                   { { TRANS ("Save as ..."), [this, then] { saveAs (then); } },
                     { TRANS ("Replace"), [this, file, then] { saveTo (file, then); } },
+                    { TRANS ("Reload the file"), [this] { reload(); } },
                     { TRANS ("Cancel"), {} } });
+}
+
+void Files::reload()
+{
+    endTyping();
+    const auto file = document.file();
+    if (! file.empty()) load (file, { .file = file }, callbacks.isByPointer(), callbacks.isRunning());
 }
 
 /// True if a file is there and is no longer what this window has read or written.

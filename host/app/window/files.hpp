@@ -49,6 +49,7 @@ public:
     void openGraph (graph::Graph, const std::string& step, bool is_work, std::function<void()> then = {});
     void save (std::function<void()> then = {});
     void saveAs (std::function<void()> then = {});
+    void reload();   ///< opens the file of the graph again; undo brings back what was not saved; runs only if the graph was running, by the same hand
 
     /// Calls the function once unsaved changes are saved or discarded.
     void whenSaved (const juce::String& why, std::function<void()>);
@@ -71,7 +72,7 @@ private:
     std::string knownHash() const;
     void autosaveSoon();
     bool autosave();
-    void load (const std::filesystem::path&, Document::Source, bool by_pointer);
+    void load (const std::filesystem::path&, Document::Source, bool by_pointer, bool runs = true);
     void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< opens a graph that plays a clip file
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened

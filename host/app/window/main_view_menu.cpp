@@ -147,6 +147,9 @@ juce::PopupMenu MainView::windowMenu()
     menu.addSubMenu (TRANS ("Open recent"), recent, ! settings.recent.empty());
     menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
     menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
+    auto revert = menuItem (TRANS ("Reload from the file"), {}, [this] { files.reload(); });
+    revert.isEnabled = ! edited.file().empty();
+    menu.addItem (revert);
     menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
     menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();

@@ -60,6 +60,9 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
     const auto search = [&canvas, &catalogue, recent, request, beginnings] (const std::string& query) {
         auto found = searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
+        if (found.empty() && (request.start || request.wire != 0))
+            if (const auto all = searchPalette (query, canvas.edited().graph(), catalogue, {}, {}, canvas.patch()); ! all.empty())
+                found.push_back ({ {}, filled (TRANS ("%1 has no port for this wire"), all[0].name.empty() ? all[0].type : all[0].name).toStdString(), {} });
         if (beginnings.empty()) return found;
         auto all = withName (beginnings, query);
         if (! juce::String (query).trim().isEmpty())   // what the user types is the name of a node first

@@ -210,6 +210,24 @@ TEST_CASE ("a file that another program has changed is replaced only if the pers
         d.files->save();
         CHECK_FALSE (d.question.isOpen());
     }
+    SECTION ("the file can be reloaded: it runs by the same hand if the graph ran, and undo brings back what was not saved")
+    {
+        const bool ran = GENERATE (false, true), by_pointer = GENERATE (false, true);
+        d.runs = ran;
+        d.by_pointer = by_pointer;
+        const int starts = d.starts;
+        d.files->save();
+        REQUIRE (d.question.isOpen());
+        d.question.answer (2);
+        CHECK (d.starts == starts + (ran ? 1 : 0));
+        CHECK (d.by_pointer == by_pointer);
+        CHECK (*readTextFile (file) == theirs);
+        CHECK_FALSE (d.document.isChanged());
+        CHECK (d.document.file() == file);
+        CHECK (d.document.graph().root.find ("drag")->params["mu"] == 0.5);
+        d.document.undo();
+        CHECK (d.document.graph().root.find ("drag")->params["mu"] == 0.6);
+    }
     SECTION ("a file that is gone is written again")
     {
         fs::remove (file);

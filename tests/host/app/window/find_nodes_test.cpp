@@ -214,6 +214,22 @@ TEST_CASE ("a wire that is dropped from an input offers what the input is made f
         CHECK (std::ranges::any_of (texts, [from = "Connect " + juce::String (port) + " from"] (const auto& t) { return t.text == from; }));
         CHECK (palette->entries()[0].name == "Fits best");
         CHECK (std::ranges::count (palette->entries(), std::string (type), &PaletteEntry::type) == 1);   // not listed again
+
+        if (std::string (port) == "position")   // there are such nodes, but they make forces
+        {
+            d.w.stage->type ("hunt");
+            WindowRig::settle();
+            REQUIRE (palette->entries().size() == 1);
+            CHECK (palette->entries()[0].isTitle());
+            CHECK (palette->entries()[0].name.ends_with ("has no port for this wire"));
+            CHECK (tactus::host::test::cutOff (tactus::host::test::readTexts (*palette), palette->getLocalBounds().toFloat()).isEmpty());
+            d.w.key ("return");
+            CHECK (palette->isVisible());
+            CHECK (d.w.graph().root.nodes.size() == count);
+            for (int i = 0; i < 4; ++i)
+                d.w.key ("backspace");
+            WindowRig::settle();
+        }
         d.w.key ("return");
         WindowRig::settle();
         REQUIRE (d.w.graph().root.nodes.size() == count + 1);
