@@ -143,7 +143,7 @@ void Canvas::showMenuOfSelection()
     if (const auto nodes = edits.selectedNodes(); ! nodes.empty()) at = window.toPixels (nodes[0]->bounds().getTopLeft());
     at = getLocalBounds().toFloat().getConstrainedPoint (at);
     const auto place = localAreaToGlobal (juce::Rectangle<int> (at.roundToInt(), at.roundToInt()).expanded (1));
-    showMenu (window.toCanvas (at), juce::PopupMenu::Options().withTargetScreenArea (place).withInitiallySelectedItem (1));
+    showMenu (window.toCanvas (at), juce::PopupMenu::Options().withTargetScreenArea (place));
 }
 
 /// On a param: its menu, with the commands of the canvas in a submenu.
