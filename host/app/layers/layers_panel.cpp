@@ -92,16 +92,20 @@ void LayersPanel::rebuild()
     scroll.setVisible (! all.empty());
     first.setVisible (false);
     preview = {};
-    if (all.empty())
-    {
-        const auto added = addMixer (graph, catalogue);
-        preview = added ? juce::String (added->description) : filled (TRANS ("Cannot add a mixer: %1."), messageText (added.error()));
-        first.setVisible (added.has_value());
-        for (auto& b : kinds)
-            b->setEnabled (added.has_value());
-    }
+    if (isVisible()) proposeMixer();
     resized();
     repaint();
+}
+
+/// In a graph without a mixer, says where one would go. It looks at all nodes, so it is not done while the panel is hidden.
+void LayersPanel::proposeMixer()
+{
+    if (! all.empty()) return;
+    const auto added = addMixer (document.graph(), catalogue);
+    preview = added ? juce::String (added->description) : filled (TRANS ("Cannot add a mixer: %1."), messageText (added.error()));
+    first.setVisible (added.has_value());
+    for (auto& b : kinds)
+        b->setEnabled (added.has_value());
 }
 
 void LayersPanel::rebuildNames()
@@ -173,6 +177,9 @@ void LayersPanel::visibilityChanged()
 {
     probes = most_probes;
     requestTraces();
+    if (! isVisible()) return;
+    proposeMixer();
+    resized();
 }
 
 void LayersPanel::refresh()

@@ -52,6 +52,7 @@ private:
     void documentChanged() override { rebuild(); }
     void typesChanged() override { rebuildStrips (strips.size()); }   // their fields point into the datasheet of the mixer
     void rebuild();
+    void proposeMixer();
     void rebuildNames();
     void rebuildStrips (std::size_t layers);
     void requestTraces();
