@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "deadbeat_loop.hpp"
 #include "sampled_loop.hpp"
+#include "spectral_radius.hpp"
 
 #include <tactus/kit/signal/held_step.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +117,7 @@ std::optional<double> deadbeatRadius (const DeadbeatPlan& plan, const DeviceNumb
     for (Index i = 0; i < loop.size(); ++i)
         all.col (i) = loop.after (Eigen::VectorXd::Unit (loop.size(), i));
     if (! all.allFinite()) return std::nullopt;
-    return std::sqrt (Eigen::EigenSolver<Eigen::MatrixXd> (all, false).eigenvalues().cwiseAbs().maxCoeff());
+    return std::sqrt (spectralRadius (all));
 }
 
 }   // namespace tactus::check

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sampled_loop.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "spectral_radius.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace tactus::check
@@ -119,7 +119,7 @@ std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span
             loop (past (i, ago), past (i, ago - 1)) = 1.0;
     }
     if (! loop.allFinite()) return std::nullopt;
-    return Eigen::EigenSolver<LoopMatrix> (loop, false).eigenvalues().cwiseAbs().maxCoeff();
+    return spectralRadius (std::move (loop));
 }
 }   // namespace
 

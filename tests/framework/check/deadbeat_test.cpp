@@ -179,6 +179,19 @@ TEST_CASE ("a tool that is pressed into a deadbeat wall begins to swing where it
     });
 }
 
+TEST_CASE ("a swing in a deadbeat wall grows and shrinks as its loop says", "[check]")
+{
+    const Trial heavy { .rate_hz = 7896.15, .mass = 0.354825, .turn = 0.0224565, .loss = 0.00334528, .delay = 3 };
+    const Trial late { .rate_hz = 5469.52, .mass = 0.271037, .turn = 0.11424, .loss = 0.0236659, .delay = 4 };
+    for (const auto& [t, off] : { std::pair { heavy, 0.305 }, { heavy, 0.332 }, { heavy, 0.345 }, { late, 0.0497 }, { late, 0.0501 } })
+    {
+        INFO (t << ", mass off by " << off);
+        const auto [third, fourth] = t.swings (off);
+        constexpr double ticks = 15'000.0;
+        CHECK (std::log (fourth / third) / ticks == Approx (std::log (t.radius (off))).margin (1e-6));
+    }
+}
+
 TEST_CASE ("with a delay, a low rate and little damping, a deadbeat wall whose mass is larger than assumed never comes to rest", "[check]")
 {
     for (const auto& [delay, turn, rests] : { std::tuple { 5, 0.022, false }, { 2, 0.0441, false }, { 5, 0.0107937, true }, { 5, 0.00915, true } })
