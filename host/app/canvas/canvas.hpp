@@ -90,7 +90,7 @@ public:
     void frameAll();
     void frameStart();   ///< as frameAll(), but labels stay readable: of a large patch, it shows the part around the hand, or around the first node
     void toggleMap();
-    void showMenuOfSelection();   ///< at the first selected node, wire or note, else in the middle; with the keyboard
+    void showMenuOfSelection();                                     ///< at the first selected node, wire or note, else in the middle; with the keyboard
     bool isFitted() const { return framed && *framed == window; }   ///< the user has not moved the view since it was fitted to the patch
 
     /// The view as it is now belongs to the latest edit: undoing the edit brings back the view from before.

@@ -264,7 +264,7 @@ void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, 
     };
     editor->onEscapeKey = [this, several_lines] {
         closeEditor (several_lines);   // of a note, much may have been typed; undo discards it
-        notice ({});   // no longer why the text was refused
+        notice ({});                   // no longer why the text was refused
     };
     addAndMakeVisible (*editor);
     takeFocus (*editor);
