@@ -296,7 +296,8 @@ void MainView::documentChanged()
     if (is_other)
     {
         shown_identity = edited.identity();
-        hand.view().letGo();   // it held the tool of the graph before
+        hand.view().letGo();                               // it held the tool of the graph before
+        if (! run().isRunning()) run().traces().clear();   // they are of the graph before
         patching.leaveTo (0);
         patching.select ({});
         patching.frameStart();

@@ -27,6 +27,7 @@ void HandView::refresh()
     const auto before = tool.value_or (LiveRun::Tool {});
     by_pointer = run.hand().kind == LiveRun::Hand::Kind::pointer;
     held = held && by_pointer;
+    if (held && ! run.isWanted()) letGo();   // the next START must not press
     tool = run.tool();
     if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // an unstable loop may throw the tool anywhere
     const auto status = run.status();
