@@ -150,7 +150,8 @@ void Canvas::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (14.0f));
-        g.drawText (TRANS ("Press Space or double-click to add a node."), getLocalBounds(), juce::Justification::centred, true);
+        const auto above = getLocalBounds().reduced (8, 0).withHeight (hint_bottom.value_or (getHeight() / 2 + 10));
+        g.drawFittedText (TRANS ("Press Space or double-click to add a node."), above, juce::Justification::centredBottom, 3, 1.0f);
     }
     if (! has_backdrop) paintBelow (g, *shown, window, look, highlights);
     paintAbove (g, *shown, window, look, highlights);
@@ -158,6 +159,11 @@ void Canvas::paint (juce::Graphics& g)
     if (file_over) paintFileOver (g);
     if (drag) return drag->paint (g);
     if (const auto& card = highlights.live.card) paintCard (g, *card, boundsOf (*card, window.toPixels (card->where.at), getLocalBounds()), look);
+}
+
+void Canvas::placeHint (int bottom)
+{
+    if (std::exchange (hint_bottom, bottom) != bottom && shown->nodes().empty()) repaint();
 }
 
 void Canvas::resized()

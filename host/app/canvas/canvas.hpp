@@ -87,6 +87,8 @@ public:
     std::optional<Instance> instance() const;   ///< empty if the subgraph has no `count`
     void chooseInstance (int number);
 
+    void placeHint (int bottom);   ///< where the hint on an empty canvas ends, in px; by default just below the middle
+
     void frameAll();
     void frameStart();   ///< as frameAll(), but labels stay readable: of a large patch, it shows the part around the hand, or around the first node
     void toggleMap();
@@ -235,6 +237,7 @@ private:
     std::vector<ViewPair> views;
     std::size_t seen_position;         // of the history
     juce::Rectangle<float> laid_out;   // of the last layout; the view stays fitted until the user moves it, then keeps its centre
+    std::optional<int> hint_bottom;
     bool with_map = true;
 };
 

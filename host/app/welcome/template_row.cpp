@@ -9,6 +9,11 @@
 namespace tactus::host
 {
 
+namespace
+{
+constexpr int between = 8, title_height = 20, button_height = 28, line_step = button_height + between;
+}
+
 std::vector<Preset> templatesIn (const std::filesystem::path& presets, const Catalogue& catalogue)
 {
     constexpr std::array first { "Press", "Stroke", "Tap", "Cut", "Clip" };
@@ -34,18 +39,42 @@ void TemplateRow::show (const std::vector<Preset>& all)
     resized();
 }
 
+/// The buttons line by line, each line no wider than this, if it has more than one button.
+std::vector<std::vector<PlainButton*>> TemplateRow::linesFor (int width) const
+{
+    std::vector<std::vector<PlainButton*>> lines;
+    int left = 0;
+    for (const auto& b : buttons)
+    {
+        const int needs = b->widthFor() + between;
+        if (lines.empty() || needs > left + between)
+        {
+            lines.emplace_back();
+            left = width;
+        }
+        lines.back().push_back (b.get());
+        left -= needs;
+    }
+    return lines;
+}
+
+int TemplateRow::heightFor (int width) const { return title_height + line_step * static_cast<int> (linesFor (width).size()); }
+
 void TemplateRow::resized()
 {
-    constexpr int gap = 8, row = 28;
-    auto area = getLocalBounds().withTrimmedTop (20);
-    int width = -gap;
-    for (const auto& b : buttons)
-        width += b->widthFor() + gap;
-    area = area.withSizeKeepingCentre (std::min (width, area.getWidth()), area.getHeight()).removeFromTop (row);
-    for (auto& b : buttons)
+    auto area = getLocalBounds().withTrimmedTop (title_height);
+    for (const auto& line : linesFor (getWidth()))
     {
-        b->setBounds (area.removeFromLeft (std::min (area.getWidth(), b->widthFor())));
-        area.removeFromLeft (gap);
+        int width = -between;
+        for (const auto* b : line)
+            width += b->widthFor() + between;
+        auto place = area.removeFromTop (line_step);
+        place = place.withSizeKeepingCentre (std::min (width, place.getWidth()), place.getHeight()).removeFromTop (button_height);
+        for (auto* b : line)
+        {
+            b->setBounds (place.removeFromLeft (std::min (place.getWidth(), b->widthFor())));
+            place.removeFromLeft (between);
+        }
     }
 }
 
@@ -55,7 +84,7 @@ void TemplateRow::paint (juce::Graphics& g)
     const auto& look = lookOf (*this);
     g.setColour (look.theme().dim);
     g.setFont (look.font (14.0f));
-    g.drawText (TRANS ("Or begin with one of these:"), getLocalBounds().removeFromTop (20), juce::Justification::centred, true);
+    g.drawText (TRANS ("Or begin with one of these:"), getLocalBounds().removeFromTop (title_height), juce::Justification::centred, true);
 }
 
 }   // namespace tactus::host

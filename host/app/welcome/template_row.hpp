@@ -20,6 +20,8 @@ class TemplateRow final : public juce::Component
 public:
     TemplateRow() { setInterceptsMouseClicks (false, true); }
 
+    int heightFor (int width) const;   ///< with as many lines of buttons as they need
+
     void show (const std::vector<Preset>&);
     const std::vector<Preset>& all() const noexcept { return templates; }
 
@@ -29,6 +31,8 @@ public:
     void resized() override;
 
 private:
+    std::vector<std::vector<PlainButton*>> linesFor (int width) const;
+
     std::vector<Preset> templates;
     std::vector<std::unique_ptr<PlainButton>> buttons;
 };

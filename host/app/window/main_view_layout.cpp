@@ -100,16 +100,7 @@ void MainView::resized()
     strip.setBounds (area.removeFromTop (SafetyStrip::height));
     top.setBounds (area.removeFromTop (TopBar::height));
     status.setBounds (area.removeFromBottom (StatusLine::height));
-    if (isSmall())
-    {
-        layOutPages (area);
-        templates.setBounds (patching.getBounds().withTop (patching.getBounds().getCentreY()).removeFromTop (56));
-    }
-    else
-    {
-        layOutPanels (area);
-        templates.setBounds (area.withTop (area.getCentreY() + 20).removeFromTop (56));
-    }
+    isSmall() ? layOutPages (area) : layOutPanels (area);
     showBeginnings();
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (isSmall() ? area.getBottom() : hand.getBottom()).reduced (isSmall() ? 4 : 16));

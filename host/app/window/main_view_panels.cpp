@@ -72,7 +72,14 @@ void MainView::noteType (const std::string& type)
     saveSettingsSoon();
 }
 
-void MainView::showBeginnings() { templates.setVisible (edited.graph().root.nodes.empty() && patching.patch().empty() && patching.isVisible()); }
+void MainView::showBeginnings()
+{
+    const auto canvas = patching.getBounds();
+    const int height = templates.heightFor (canvas.getWidth()), top = std::min (canvas.getHeight() / 2 + 20, canvas.getHeight() - height);
+    templates.setBounds (canvas.withTrimmedTop (top).withHeight (height));
+    patching.placeHint (top - 10);
+    templates.setVisible (edited.graph().root.nodes.empty() && patching.patch().empty() && patching.isVisible());
+}
 
 void MainView::savePictureAs()
 {

@@ -5,6 +5,7 @@
 
 #include <host/app/scopes/scope_view.hpp>
 #include <host/app/storage/settings.hpp>
+#include <host/app/welcome/template_row.hpp>
 
 #include <array>
 
@@ -74,6 +75,38 @@ void turnTo (WindowRig& w, const juce::String& title)
     FAIL ("no tab " << title);
 }
 }   // namespace
+
+TEST_CASE ("on an empty canvas, all templates are in view, and below the hint", "[app][small]")
+{
+    const auto [width, height] = GENERATE (std::pair { small_width, small_height }, std::pair { 640, 400 }, std::pair { 800, 500 }, std::pair { 1280, 720 });
+    INFO (width << " by " << height);
+    WindowRig w ({}, width, height);
+    w.key ("ctrl + n");
+    WindowRig::settle();
+    auto& canvas = w.view->canvas();
+    REQUIRE (canvas.isShowing());
+    const auto area = w.stage->getLocalArea (&canvas, canvas.getLocalBounds());
+    int count = 0;
+    for (auto* row : shown<TemplateRow> (*w.view))
+    {
+        for (auto* b : row->getChildren())
+        {
+            const auto place = w.stage->getLocalArea (b, b->getLocalBounds());
+            CHECK (area.contains (place));
+            CHECK (b->getWidth() >= dynamic_cast<PlainButton&> (*b).widthFor());
+            ++count;
+        }
+    }
+    CHECK (count == 5);
+
+    const auto* row = shown<TemplateRow> (*w.view).front();
+    const auto texts = tactus::host::test::readTexts (canvas);
+    const auto hint = std::ranges::find_if (texts, [] (const auto& t) { return t.text.startsWith ("Press Space"); });
+    REQUIRE (hint != texts.end());
+    CHECK (hint->place.getY() >= 0.0f);
+    CHECK (hint->place.getBottom() <= static_cast<float> (canvas.getLocalPoint (row, juce::Point<int>()).y));
+    CHECK (tactus::host::test::cutOff (texts, canvas.getLocalBounds().toFloat()).isEmpty());
+}
 
 TEST_CASE ("a window of 1024 by 700 at 200 % has a canvas, a hand and a scope that can be used", "[app][small]")
 {
