@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace tactus::check
@@ -119,7 +118,7 @@ std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span
             loop (past (i, ago), past (i, ago - 1)) = 1.0;
     }
     if (! loop.allFinite()) return std::nullopt;
-    return spectralRadius (std::move (loop));
+    return spectralRadius (loop);
 }
 }   // namespace
 

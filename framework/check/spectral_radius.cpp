@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <utility>
 
 namespace tactus::check
 {
@@ -30,8 +29,9 @@ bool balance (Eigen::MatrixXd& m, Eigen::Index i)
 }
 }   // namespace
 
-double spectralRadius (Eigen::MatrixXd m)
+double spectralRadius (const Jacobian& matrix)
 {
+    Eigen::MatrixXd m = matrix;
     constexpr int most_rounds = 100;   // a few are enough
     bool changes = true;
     for (int round = 0; changes && round < most_rounds; ++round)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include "measure.hpp"
 
 namespace tactus::check
 {
@@ -10,6 +10,6 @@ namespace tactus::check
 ///
 /// Rows and columns are balanced first, by powers of two (Parlett and Reinsch, Numerische Mathematik 13, 1969): the states of a loop are metres, metres per
 /// second and newtons, so its entries differ by many powers of ten, and almost equal eigenvalues would be wrong by 1e-4.
-double spectralRadius (Eigen::MatrixXd);
+double spectralRadius (const Jacobian&);
 
 }   // namespace tactus::check
