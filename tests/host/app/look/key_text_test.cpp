@@ -19,8 +19,9 @@ TEST_CASE ("keys are written in one way: Ctrl+S, Shift+Esc, Space", "[app][keys]
     CHECK (keyText ("alt + shift + cursor right") == "Alt+Shift+Right");
     CHECK (keyText ("spacebar") == "Space");
     CHECK (keyText ("return") == "Enter");
+    CHECK (keyText ("shift + F10") == "Shift+F10");
     CHECK (keyText ("+") == "+");
-    const std::regex one ("((Ctrl|Alt|Shift)\\+)*([A-Z]|[-+=0]|\\[|\\]|Space|Tab|Enter|Delete|Backspace|Home|Left|Right|Up|Down)");
+    const std::regex one ("((Ctrl|Alt|Shift)\\+)*([A-Z]|[-+=0]|\\[|\\]|Space|Tab|Enter|Delete|Backspace|Home|Left|Right|Up|Down|F[0-9]{1,2})");
     for (const auto& c : canvasCommands())
         for (const auto& keys : juce::StringArray::fromTokens (c.keys, "|", {}))
         {

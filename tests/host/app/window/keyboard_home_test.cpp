@@ -6,7 +6,6 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::Stage;
 using tactus::host::test::WindowRig;
 
 namespace

@@ -86,10 +86,10 @@ TEST_CASE ("a name that is refused stays in its field, so that the next keys are
     auto* name = dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"));
     REQUIRE (name != nullptr);
     w.stage->click (w.middleOf (*name));
-    w.stage->type ("Wood grip");
+    w.stage->type ("2 Wood grips");
     w.key ("return");
     CHECK (name->hasKeyboardFocus (true));
-    CHECK (name->getText() == "Wood grip");
+    CHECK (name->getText() == "2 Wood grips");
     CHECK (w.graph().root.find ("drag") != nullptr);
     w.stage->type ("wood_grip");   // the refused name is selected
     w.key ("return");
@@ -97,7 +97,7 @@ TEST_CASE ("a name that is refused stays in its field, so that the next keys are
     CHECK (w.view->canvas().hasKeyboardFocus (true));
 
     w.stage->click (w.middleOf (*w.titled ("Name of the node")));
-    w.stage->type ("Bad name");
+    w.stage->type ("2 bad names");
     w.key ("return");
     w.key ("escape");
     CHECK (dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"))->getText() == "wood_grip");
