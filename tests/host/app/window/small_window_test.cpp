@@ -275,7 +275,7 @@ TEST_CASE ("the labels of a take are whole in a small window", "[app][small][tak
     WindowRig w ("dry_wood.json", width, height, false);
     auto& panel = w.view->takePanel();
     w.click ("Take");
-    const auto checkLabels = [&] (std::vector<std::array<juce::String, 2>> wanted) {
+    const auto checkLabels = [&] (const std::vector<std::array<juce::String, 2>>& wanted) {
         const auto texts = host::test::readTexts (panel);
         CHECK (host::test::cutOff (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
         CHECK (host::test::overlaps (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");

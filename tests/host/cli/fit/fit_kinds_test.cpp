@@ -198,7 +198,7 @@ TEST_CASE ("fit: a recording with too little information gets a poor verdict tha
 {
     const Scratch scratch;
     auto text = cut();
-    text.resize (text.find ("\n", text.size() / 8) + 1);   // ends before the burst
+    text.resize (text.find ('\n', text.size() / 8) + 1);   // ends before the burst
     const auto preset = scratch.path ("short.json");
     const auto ran = runTactus ({ "fit", "blade", scratch.write ("cut.csv", text), "-o", preset });
     INFO (ran.out << ran.err);
@@ -263,7 +263,7 @@ TEST_CASE ("fit: every kind can be cancelled, before it begins and while it runs
         for (const double share : { 0.1, 0.5, 0.75 })
         {
             FitCourse course;
-            std::jthread other ([&] (std::stop_token done) {
+            std::jthread other ([&] (const std::stop_token& done) {
                 while (course.share < share && ! done.stop_requested())
                     std::this_thread::yield();
                 course.cancelled = true;
