@@ -23,7 +23,7 @@ bool hasOneNode (const Canvas& c) noexcept { return c.commands().selectedNodes()
 bool hasClip (const Canvas& c) noexcept { return hasOneNode (c) && c.commands().selectedNodes()[0]->type == clip_type; }
 bool hasTwoNodes (const Canvas& c) noexcept { return c.commands().selectedNodes().size() > 1; }
 bool hasNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
-bool hasOneNameOrNote (const Canvas& c) noexcept { return hasOneNode (c) || hasNote (c); }
+bool hasOneNodeOrNote (const Canvas& c) noexcept { return hasOneNode (c) || hasNote (c); }
 bool hasSomeNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
 bool isInside (const Canvas& c) noexcept { return ! c.breadcrumbs().empty(); }
 bool isInsideWithNode (const Canvas& c) noexcept { return isInside (c) && hasOneNode (c); }
@@ -77,8 +77,20 @@ void zoom (Canvas& c)
 }
 
 void addNode (Canvas& c) { c.commands().requestNode ({ c.commands().placeOfNext(), {}, 0 }); }
-void undo (Canvas& c) { c.edited().undo(); }
-void redo (Canvas& c) { c.edited().redo(); }
+/// Ends a drag here as Esc does, and says whether there is one, here or in a field. If a drag went on after an undo, it would replace the steps that
+/// can be redone.
+bool endsDrag (Canvas& c) { return c.cancelDrag() || juce::ModifierKeys::currentModifiers.isAnyMouseButtonDown(); }
+
+void undo (Canvas& c)
+{
+    if (! endsDrag (c)) c.edited().undo();
+}
+
+void redo (Canvas& c)
+{
+    if (! endsDrag (c)) c.edited().redo();
+}
+
 void copy (Canvas& c) { c.commands().copySelection(); }
 void leave (Canvas& c) { c.leaveTo (c.breadcrumbs().size() - 1); }
 void resetZoom (Canvas& c) { c.commands().zoomBy (1.0f / c.view().zoom); }
@@ -111,7 +123,7 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Group into subgraph"), "g", hasNode, call<&CanvasCommands::groupSelection> },
     { NEEDS_TRANS ("Ungroup subgraph"), "shift + g", hasSubgraph, call<&CanvasCommands::expandSelection> },
     { NEEDS_TRANS ("Enter subgraph"), "return", hasSubgraph, call<&CanvasCommands::enterSelection> },
-    { NEEDS_TRANS ("Rename"), "F2", hasOneNameOrNote, call<&CanvasCommands::renameSelection> },
+    { NEEDS_TRANS ("Rename"), "F2", hasOneNodeOrNote, call<&CanvasCommands::renameSelection> },
     { NEEDS_TRANS ("Edit parameters"), "return|shift + return", hasSelection, call<&CanvasCommands::editParams> },
     { NEEDS_TRANS ("Leave subgraph"), "u", isInside, leave },
     { NEEDS_TRANS ("Expose or hide port..."), "o", isInsideWithNode, call<&CanvasCommands::exposeFromSelection>, true },

@@ -137,6 +137,41 @@ TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][
     run.letGo();
 }
 
+TEST_CASE ("Ctrl+Z during a drag ends the drag, and the drag replaces no step that can be redone", "[app][mouse]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& document = w.view->document();
+    const auto mu = [&] { return document.graph().root.find ("drag")->params["mu"]; };
+    REQUIRE (document.perform (graph::SetParam { {}, "drag", "mu", Json (0.9) }));
+    WindowRig::settle();
+    const auto steps = document.history().position();
+    auto& canvas = w.view->canvas();
+    const auto node = [&]() -> const SceneNode& { return *std::ranges::find (canvas.scene().nodes(), "grain", &SceneNode::name); };
+    const auto place = node().at;
+    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (place + juce::Point<float> (40.0f, 14.0f)));
+    w.stage->move (at);
+    w.stage->press();
+    w.stage->move (at.translated (30.0f, 20.0f));
+    w.stage->move (at.translated (60.0f, 40.0f));
+    REQUIRE (node().at != place);
+    w.key ("ctrl + z");
+    CHECK (node().at == place);
+    w.stage->move (at.translated (90.0f, 60.0f));
+    w.stage->release();
+    CHECK (node().at == place);
+    CHECK (document.history().position() == steps);
+    CHECK (mu() == Json (0.9));
+
+    // While a button is down elsewhere, such as in a field that is dragged.
+    const auto before = juce::ModifierKeys::currentModifiers;
+    juce::ModifierKeys::currentModifiers = before.withFlags (juce::ModifierKeys::leftButtonModifier);
+    w.view->canvas().keyPressed (juce::KeyPress::createFromDescription ("ctrl + z"));
+    CHECK (document.history().position() == steps);
+    juce::ModifierKeys::currentModifiers = before;
+    w.view->canvas().keyPressed (juce::KeyPress::createFromDescription ("ctrl + z"));
+    CHECK (document.history().position() == steps - 1);
+}
+
 TEST_CASE ("a tool that H holds is let go when another graph opens", "[app][mouse]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
