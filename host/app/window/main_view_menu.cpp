@@ -213,8 +213,8 @@ void MainView::askWhereToSave (const SaveWords& words, const std::filesystem::pa
         std::error_code failed;
         if (! std::filesystem::exists (file, failed)) return chosen (file);
         question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
-                      { { TRANS ("Replace"), [chosen, file] { chosen (file); } },
-                        { TRANS ("Choose another name ..."), [this, words, file, chosen] { askWhereToSave (words, file, chosen); } },
+                      { { TRANS ("Choose another name ..."), [this, words, file, chosen] { askWhereToSave (words, file, chosen); } },   // the default
+                        { TRANS ("Replace"), [chosen, file] { chosen (file); } },
                         { TRANS ("Cancel"), {} } });
     };
     launchChooser (words.title, words.patterns, fileAt (begin), Choice::saveMode | Choice::canSelectFiles, ask);
