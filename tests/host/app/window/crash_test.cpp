@@ -66,7 +66,7 @@ TEST_CASE ("writing an autosave does not keep the thread of the window")
     d.files->open (wood);
     d.runs = false;
     d.files->finishAutosave();
-    // A pipe in place of the file that is written: whoever writes it waits for a reader.
+    // A pipe takes the place of the file: the thread that writes it waits until somebody reads.
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (d.folder / "sessions", failed))
     {
