@@ -55,6 +55,8 @@ struct Screen
     std::string name;
 };
 
+// NOLINTBEGIN(cert-env33-c): these commands are of the tests themselves
+
 /// Runs a hidden test case of this program in its own process, on a virtual screen. JUCE opens its display once per process.
 inline void onScreen (const char* test)
 {
@@ -69,6 +71,7 @@ inline void onScreen (const char* test)
 }
 
 inline void xdo (const std::string& what) { REQUIRE (std::system (("xdotool " + what).c_str()) == 0); }
+// NOLINTEND(cert-env33-c)
 
 /// Starts JUCE as in an application: it then ignores the X errors that a screen without a window manager causes.
 struct Application

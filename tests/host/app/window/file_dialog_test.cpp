@@ -173,7 +173,8 @@ TEST_CASE ("a new folder of the dialog for files has the name that is typed at o
 TEST_CASE ("a film is saved under the typed name", "[app][files][film]")
 {
     const TemporaryFolder own;
-    const std::string home = std::getenv ("HOME") == nullptr ? "" : std::getenv ("HOME");
+    const auto* home_before = std::getenv ("HOME");
+    const std::string home = home_before == nullptr ? "" : home_before;
     setenv ("HOME", own.path().c_str(), 1);
     {
         WindowRig w ("dry_wood.json", 1280, 720, false);
