@@ -6,28 +6,29 @@
 namespace tactus::host
 {
 
-/// The field of a dialog for files in which the name is typed.
-inline juce::TextEditor* nameField (juce::Component& in)
+/// The first component of a type inside another. Leaves out combo boxes, which have fields of their own.
+template <typename Wanted>
+Wanted* firstInside (juce::Component& in)
 {
     for (auto* child : in.getChildren())
     {
-        if (auto* field = dynamic_cast<juce::TextEditor*> (child)) return field;
-        if (dynamic_cast<juce::ComboBox*> (child) != nullptr) continue;   // the folder
-        // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): no child is null, though the casts before it would also take null
-        if (auto* found = nameField (*child)) return found;
+        if (child == nullptr || dynamic_cast<juce::ComboBox*> (child) != nullptr) continue;
+        if (auto* wanted = dynamic_cast<Wanted*> (child)) return wanted;
+        if (auto* wanted = firstInside<Wanted> (*child)) return wanted;
     }
     return nullptr;
+}
+
+/// The field of a dialog for files in which the name is typed.
+inline juce::TextEditor* nameField (juce::Component& in)
+{
+    return firstInside<juce::TextEditor> (in);
 }
 
 /// The list of a dialog for files.
 inline juce::FileBrowserComponent* browserIn (juce::Component& in)
 {
-    for (auto* child : in.getChildren())
-    {
-        if (auto* browser = dynamic_cast<juce::FileBrowserComponent*> (child)) return browser;
-        if (auto* found = browserIn (*child)) return found;
-    }
-    return nullptr;
+    return firstInside<juce::FileBrowserComponent> (in);
 }
 
 }   // namespace tactus::host
