@@ -15,6 +15,7 @@
 #include <tactus/run/turn.hpp>
 
 #include <iterator>
+#include <memory>
 
 namespace tactus::host
 {
@@ -313,11 +314,13 @@ void CanvasCommands::editNote (std::size_t i)
     if (i >= canvas.scene().notes().size()) return;
     const auto& note = canvas.scene().notes()[i];
     const auto area = note.isRegion() ? note.area.withHeight (Box::header_height) : note.area;
-    canvas.openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text) {
+    const auto typed = std::make_shared<TypedStep> (document);
+    canvas.openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i, typed] (const juce::String& text) {
         auto notes = canvas.scene().notes();
-        if (i >= notes.size()) return true;
+        if (i >= notes.size() || notes[i].text == text.toStdString()) return true;
         notes[i].text = text.toStdString();
-        return perform (setNotes (document.graph(), canvas.patch(), notes, NEEDS_TRANS ("edit note")));
+        const auto command = setNotes (document.graph(), canvas.patch(), notes, NEEDS_TRANS ("edit note"));
+        return typed->perform ([&] (graph::Step step) { return perform (command, step); });
     });
 }
 

@@ -266,6 +266,11 @@ void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, 
         closeEditor (several_lines);   // of a note, much may have been typed; undo discards it
         notice ({});                   // no longer why the text was refused
     };
+    if (several_lines)
+        typing.emplace (*editor, [this] {
+            const auto apply = on_edited;
+            apply (editor->getText());
+        });
     addAndMakeVisible (*editor);
     takeFocus (*editor);
     editor->selectAll();
@@ -275,6 +280,8 @@ void Canvas::closeEditor (bool keep)
 {
     const std::shared_ptr<juce::TextEditor> ended = std::move (editor);
     if (! ended) return;
+    typing.reset();
+    ended->onTextChange = nullptr;
     ended->onFocusLost = nullptr;
     removeChildComponent (ended.get());
     juce::MessageManager::callAsync ([ended] {});   // deletes the editor after the current event, which may come from the editor itself

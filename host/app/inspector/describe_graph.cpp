@@ -7,6 +7,7 @@
 #include <tactus/graph/endpoint_text.hpp>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace tactus::host
@@ -71,16 +72,17 @@ void describeGraph (const InspectorContext& at, Column& column)
     const auto& graph = document.graph();
     column.add (graph.name.empty() ? TRANS ("Untitled graph") : fromUtf8 (graph.name), TextBlock::Kind::title);
 
-    const auto header = [&document] (auto set) {
+    const auto header = [&document, typed = std::make_shared<TypedStep> (document)] (auto set, bool is_typed = false) {
         graph::SetHeader h;
         set (h);
-        document.perform (std::move (h));
+        const auto perform = [&] (graph::Step step) { return document.perform (std::move (h), step); };
+        is_typed ? typed->perform (perform) : perform (graph::Step::own);
     };
     const auto row = [&] (const juce::String& label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to,
                           const juce::String& help, int lines) {
         column.add (textRow (
             label, [&document, member] { return fromUtf8 (document.graph().*member); },
-            [header, to] (const juce::String& t) { header ([&] (auto& h) { h.*to = t.trim().toStdString(); }); },
+            [header, to, lines] (const juce::String& t) { header ([&] (auto& h) { h.*to = t.trim().toStdString(); }, lines > 2); },
             help, lines));
     };
     row (TRANS ("name"), &graph::Graph::name, &graph::SetHeader::name, TRANS ("The name of the graph"), 1);

@@ -9,6 +9,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -17,8 +18,7 @@ namespace
 {
 constexpr int most_probes = 18;     // components. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
-constexpr int introduction_height = 132, short_introduction_height = 88, button_line = 28;
-constexpr int least_width_for_introduction = 440;   // a narrower panel says less, and its buttons are in several lines
+constexpr int button_line = 28;
 juce::String headingOf (std::string_view family)
 {
     if (family == "texture") return TRANS ("Textures");
@@ -339,13 +339,7 @@ void LayersPanel::paint (juce::Graphics& g)
     g.fillAll (theme.panel);
     if (all.empty())
     {
-        auto area = getLocalBounds().reduced (24, 16);
-        juce::AttributedString text;
-        text.setWordWrap (juce::AttributedString::byWord);
-        text.append (TRANS ("No layer mixer in this graph") + "\n", look.font (14.0f, true), theme.text);
-        if (getWidth() >= least_width_for_introduction) text.append (juce::translate (introduction) + "\n\n", look.font (13.0f), theme.dim);
-        text.append (preview, look.font (13.0f), theme.text);
-        text.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
+        introductionText (introduction_parts).draw (g, introductionArea().toFloat());
         return;
     }
     if (scroll.getX() == 0) return;   // the head is behind the strips
@@ -384,34 +378,49 @@ void LayersPanel::layOutHead (juce::Rectangle<int> head)
         n->setBounds (head.removeFromTop (26).withTrimmedBottom (2));
 }
 
+juce::Rectangle<int> LayersPanel::introductionArea() const
+{
+    const auto area = getLocalBounds().reduced (24, 16);
+    return area.withWidth (std::min (area.getWidth(), 560));
+}
+
+juce::AttributedString LayersPanel::introductionText (int parts) const
+{
+    const auto& look = lookOf (*this);
+    juce::AttributedString text;
+    text.setWordWrap (juce::AttributedString::byWord);
+    if (parts > 0) text.append (TRANS ("No layer mixer in this graph") + "\n", look.font (14.0f, true), look.theme().text);
+    if (parts > 2) text.append (juce::translate (introduction) + "\n\n", look.font (13.0f), look.theme().dim);
+    if (parts > 1) text.append (preview, look.font (13.0f), look.theme().text);
+    return text;
+}
+
+/// As much of the text as leaves room for all buttons, and the buttons below it, in as many lines as they need.
 void LayersPanel::layOutIntroduction()
 {
     constexpr int gap = 4;
     placeIn (*this, kinds);
-    if (getWidth() < least_width_for_introduction)
-    {
-        juce::Point<int> at { 24, 16 + short_introduction_height };
+    const auto area = introductionArea();
+    const auto placeButtons = [&] (int top) {
+        juce::Point<int> at { area.getX(), top };
         const auto put = [&] (ToolButton& b) {
-            if (at.x > 24 && at.x + b.bestWidth() > getWidth() - 24) at = { 24, at.y + button_line + gap };
+            if (! b.isVisible()) return;
+            if (at.x > area.getX() && at.x + b.bestWidth() > getWidth() - area.getX()) at = { area.getX(), at.y + button_line + gap };
             b.setBounds (at.x, at.y, b.bestWidth(), button_line);
             at.x += b.bestWidth() + gap;
         };
         put (first);
         for (auto& b : kinds)
             put (*b);
-        return;
-    }
-    auto area = getLocalBounds().reduced (24, 16).withTop (std::min (16 + introduction_height, std::max (0, getHeight() - 40))).withHeight (button_line);
-    int wanted = first.bestWidth();
-    for (const auto& b : kinds)
-        wanted += gap + b->bestWidth();
-    const int spare = std::clamp ((area.getWidth() - wanted) / (1 + static_cast<int> (kinds.size())), 0, 8);   // wider than their texts need
-    first.setBounds (area.removeFromLeft (first.bestWidth() + spare));
-    for (auto& b : kinds)
+        return at.y + button_line;
+    };
+    for (introduction_parts = 3; introduction_parts > 0; --introduction_parts)
     {
-        area.removeFromLeft (gap);
-        b->setBounds (area.removeFromLeft (b->bestWidth() + spare));
+        juce::TextLayout text;
+        text.createLayout (introductionText (introduction_parts), static_cast<float> (area.getWidth()));
+        if (placeButtons (area.getY() + static_cast<int> (std::ceil (text.getHeight())) + 12) <= getHeight() - gap) return;
     }
+    placeButtons (gap);
 }
 
 void LayersPanel::resized()

@@ -59,6 +59,8 @@ private:
     void attendLeftOut();
     void openMenu();
     void layOutHead (juce::Rectangle<int>);
+    juce::Rectangle<int> introductionArea() const;
+    juce::AttributedString introductionText (int parts) const;
     void layOutIntroduction();
     void drag (int layer, int x, bool let_go);
 
@@ -71,7 +73,8 @@ private:
     std::vector<std::unique_ptr<ToolButton>> kinds;   // one button for each kind of layer
     ToolButton more { TRANS ("Other layer..."), ToolButton::Kind::framed, TRANS ("Add an empty layer, or one with another texture or vibration") };
     ToolButton first { TRANS ("Add a mixer before the motor"), ToolButton::Kind::framed };
-    juce::String preview;   // what adding a mixer would do, or why it is not possible
+    juce::String preview;         // what adding a mixer would do, or why it is not possible
+    int introduction_parts = 0;   // of the text about mixers; a small panel has room for fewer
     StripView scroll;
     juce::Component row;   // contains the strips
     std::vector<std::unique_ptr<LayerStrip>> strips;

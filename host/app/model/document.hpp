@@ -7,6 +7,7 @@
 #include <tactus/text/message.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -135,6 +136,27 @@ private:
     mutable std::optional<bool> differs;   // from the file; empty until somebody asks
     std::uint64_t changes = 0;             // for version()
     bool is_stepping = false;
+};
+
+/// Makes the edits of one text one undo step, though the text is applied whenever typing pauses. A step between them begins a new one. [main thread]
+class TypedStep
+{
+public:
+    explicit TypedStep (const Document& d) : document (d) {}
+
+    /// `edit` performs an edit as this kind of step, and returns false if it was refused.
+    template <typename Edit>
+    bool perform (Edit&& edit)
+    {
+        const bool continues = last == document.history().position();
+        if (! edit (continues ? graph::Step::joined : graph::Step::own)) return false;
+        last = document.history().position();
+        return true;
+    }
+
+private:
+    const Document& document;
+    std::optional<std::size_t> last;   // the position after the last edit
 };
 
 }   // namespace tactus::host

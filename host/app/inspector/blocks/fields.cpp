@@ -4,10 +4,12 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/tool_button.hpp>
+#include <host/app/look/typing_pause.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace tactus::host
@@ -128,11 +130,12 @@ public:
             field.setMultiLine (true);
             field.setReturnKeyStartsNewLine (false);
         }
+        if (stacked) typing.emplace (field, [this] { field.apply(); });
         field.onApply = [this, set = std::move (set)] (const juce::String& text) {
             const auto before = get();
             const juce::Component::SafePointer<TextRow> row (this);   // what is set may delete the row
             set (text);
-            if (row != nullptr && get() == before) field.refuse();
+            if (row != nullptr && get() == before && text.trim() != before.trim()) field.refuse();
         };
         addAndMakeVisible (field);
         TextRow::refresh (nullptr);
@@ -155,6 +158,7 @@ private:
     std::function<juce::String()> get;
     int lines;
     TextField field;
+    std::optional<TypingPause> typing;   // of a long text
 };
 
 class ChoiceRow final : public SetRow

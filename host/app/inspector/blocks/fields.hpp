@@ -33,7 +33,7 @@ Json parseText (const juce::String&);
 /// A value as the user edits it: text without quotes, anything else as JSON. Empty for null.
 juce::String editText (const Json&);
 
-/// A text field, single or multi-line. Return or losing focus applies the text; Esc reverts it.
+/// A text field, single or multi-line. Return or losing focus applies the text; Esc reverts what was typed since it was last applied.
 class TextField final : public juce::TextEditor
 {
 public:
@@ -50,6 +50,7 @@ private:
     bool refused = false;
 };
 
+/// A text field with a label. A text of more than two lines is also applied whenever typing pauses.
 std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set,
                                 const juce::String& about, int lines = 1);
 std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get,

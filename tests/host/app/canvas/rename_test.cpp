@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using host::test::waitFor;
 
 namespace
 {
@@ -43,6 +45,24 @@ TEST_CASE ("F2 renames the selected node where it is, and makes a name of what i
     rig.hand().key ("ctrl + z");
     CHECK (rig.graph().root.find ("drag") != nullptr);
     CHECK (rig.document.history().names().size() == 1);
+}
+
+TEST_CASE ("the text of a note is in the graph when typing pauses, as one step of the history", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().key ("n");
+    const auto isText = [&] (const std::string& text) { return rig.canvas->scene().notes().at (0).text == text; };
+    for (const char* text : { "a thought", "a thought, and another" })
+    {
+        REQUIRE (editorOn (rig) != nullptr);
+        editorOn (rig)->setText (text);
+        CHECK (waitFor ([&] { return isText (text); }));
+    }
+    CHECK (rig.document.history().names() == std::vector<std::string> { "add note", "edit note" });
+    rig.hand().key ("tab");   // ends the editor
+    CHECK (editorOn (rig) == nullptr);
+    rig.document.undo();
+    CHECK (isText (""));
 }
 
 TEST_CASE ("Esc keeps the text of a note, and leaves a value as it was", "[app][canvas]")

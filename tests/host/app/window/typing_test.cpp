@@ -133,6 +133,23 @@ TEST_CASE ("what is being typed into a field is an unsaved change, and never get
     CHECK_FALSE (w.view->document().isChanged());
 }
 
+TEST_CASE ("the words about a graph are in it when typing pauses, and one goes on to type", "[app][keyboard][files]")
+{
+    Desk d;
+    auto& w = *d.w;
+    const auto steps = w.view->document().history().position();
+    d.type ("about", "It squeaks");
+    CHECK (waitFor ([&] { return w.graph().about == "It squeaks"; }));
+    w.stage->type (" ");
+    w.stage->type ("a lot");
+    CHECK (waitFor ([&] { return w.graph().about == "It squeaks a lot"; }));
+    CHECK (w.view->document().history().position() == steps + 1);
+    w.key ("escape");
+    CHECK (w.graph().about == "It squeaks a lot");
+    w.key ("ctrl + z");
+    CHECK (w.graph().about == d.saved().about);
+}
+
 TEST_CASE ("F5 starts the graph with what is being typed into a field", "[app][keyboard]")
 {
     Desk d;
