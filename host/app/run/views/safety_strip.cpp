@@ -79,6 +79,10 @@ public:
         setButtonText (label);
         stops = in_red;
         shown_at = juce::Time::getCurrentTime();
+        // Until then it is dim, as it ignores a click.
+        juce::Timer::callAfterDelay (juce::roundToInt (1e3 * pause_before_start_s) + 1, [safe = SafePointer (this)] {
+            if (safe != nullptr) safe->repaint();
+        });
     }
 
     /// True if the latest click came so soon after a change of the text that it was meant for the old text.
@@ -87,7 +91,7 @@ public:
     /// JUCE's event times can lie in the future if the first event had to wait.
     void mouseDown (const juce::MouseEvent& e) override
     {
-        too_soon = std::min (e.eventTime, juce::Time::getCurrentTime()) < shown_at + juce::RelativeTime (pause_before_start_s);
+        too_soon = isFresh (std::min (e.eventTime, juce::Time::getCurrentTime()));
         if (stops || e.mods.isLeftButtonDown()) Button::mouseDown (e);   // any click stops
     }
 
@@ -100,8 +104,8 @@ public:
     {
         const auto& look = lookOf (*this);
         const auto colour = stops ? look.theme().stop : look.theme().accent;
-        const float lit = over ? 1.15f : 1.0f;
-        g.setColour (colour.withMultipliedBrightness (down ? 0.8f : lit));
+        const float lit = over ? 1.15f : 1.0f, opacity = stops || ! isFresh (juce::Time::getCurrentTime()) ? 1.0f : 0.4f;
+        g.setColour (colour.withMultipliedBrightness (down ? 0.8f : lit).withMultipliedAlpha (opacity));
         g.fillRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f);
         g.setColour (look.theme().is_dark && ! stops ? look.theme().canvas : juce::Colours::white);
         g.setFont (look.font (14.0f, true));
@@ -109,6 +113,8 @@ public:
     }
 
 private:
+    bool isFresh (juce::Time now) const noexcept { return now < shown_at + juce::RelativeTime (pause_before_start_s); }
+
     juce::Time shown_at;   // when the text last changed
     bool stops;
     bool too_soon = false;
