@@ -311,6 +311,7 @@ void HandPanel::showTransport (const LiveRun& run)
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
     if (! run.isRunning() && run.edited().root.nodes.empty()) return TRANS ("Nothing to feel yet: choose a preset, or add a node.");
+    if (run.isWaiting()) return TRANS ("Starts once the problems are solved: see Problems.");
     if (! run.isRunning()) return hasErrors (run.messages()) ? TRANS ("Cannot run: see Problems.") : TRANS ("Not running. Press START at the top right.");
     if (run.hand().kind != LiveRun::Hand::Kind::pointer)
         return is_scene ? TRANS ("Drag: turn. Shift+drag: move. Wheel: zoom.") : TRANS ("The tool follows its device.");

@@ -53,6 +53,12 @@ juce::String runningText (const LiveRun& run)
     return text;
 }
 
+/// Of a graph with errors that does not run.
+juce::String whyNot (const LiveRun& run)
+{
+    return run.isWaiting() ? TRANS ("starts once the problems are solved") : TRANS ("cannot run: see Problems");
+}
+
 juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
@@ -121,7 +127,7 @@ private:
 };
 
 SafetyStrip::SafetyStrip (Playback& p)
-    : playback (p), button (std::make_unique<StopButton> (TRANS ("STOP"), true)), rearm (std::make_unique<StopButton> (TRANS ("REARM"), false))
+    : playback (p), button (std::make_unique<StopButton> (TRANS ("START"), false)), rearm (std::make_unique<StopButton> (TRANS ("REARM"), false))
 {
     setOpaque (true);
     setTitle (TRANS ("Safety"));
@@ -158,19 +164,19 @@ SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
 {
     const bool has_errors = hasErrors (run.messages());
     Status now;
-    now.running = run.isRunning();
+    now.running = run.isRunning() || run.isWaiting();   // STOP also ends the waiting
     now.stopped_for_good = run.isStoppedForGood();
     const auto status = run.status();
     if (! status)
     {
         now.alarmed = now.has_errors = has_errors;
-        now.state = has_errors ? TRANS ("cannot run: see Problems") : TRANS ("stopped");
+        now.state = has_errors ? whyNot (run) : TRANS ("stopped");
         return now;
     }
     now.has_errors = has_errors;
     const bool halting = status->phase == RunStatus::Phase::halting;
     if (has_errors)
-        now.state = now.running && ! halting ? TRANS ("edit has errors; still running the last valid version") : TRANS ("cannot run: see Problems");
+        now.state = run.isRunning() && ! halting ? TRANS ("edit has errors; still running the last valid version") : whyNot (run);
     else if (! now.running)
         now.state = reason (*status, run);
     else

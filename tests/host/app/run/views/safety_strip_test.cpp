@@ -132,3 +132,49 @@ TEST_CASE ("while an edit has errors, the strip says that the last valid version
     CHECK (shown == 1);
     strip.setLookAndFeel (nullptr);
 }
+
+TEST_CASE ("a graph with errors that was started says that it waits, and STOP ends the waiting", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    graph::Wire back;   // closes a loop without a delay
+    back.from = { "grain_felt", "out" };
+    back.to = { "grain_felt", "in" };
+    REQUIRE (rig.document.perform (graph::AddWire { "", back }));
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    SafetyStrip strip { playback };
+    Look look;
+    strip.setLookAndFeel (&look);
+    strip.setSize (1280, SafetyStrip::height);
+    const auto runs = [&] {
+        for (int i = 0; i < 200 && ! playback.run().isRunning(); ++i)
+        {
+            playback.poll();
+            std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        }
+        strip.refresh();
+        return playback.run().isRunning();
+    };
+    playback.run().start ({});
+    CHECK_FALSE (runs());
+    CHECK (strip.text() == "starts once the problems are solved");
+    REQUIRE (buttonCalled (strip, "STOP"));
+    CHECK_FALSE (strip.stopPlace().isEmpty());
+    SECTION ("it starts when they are")
+    {
+        rig.document.undo();
+        CHECK (runs());
+    }
+    SECTION ("after STOP it does not")
+    {
+        buttonCalled (strip, "STOP")->onClick();
+        strip.refresh();
+        CHECK (strip.text() == "cannot run: see Problems");
+        CHECK (buttonCalled (strip, "START"));
+        rig.document.undo();
+        CHECK_FALSE (runs());
+        CHECK (strip.text() == "stopped");
+    }
+    strip.setLookAndFeel (nullptr);
+}
