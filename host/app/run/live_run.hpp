@@ -102,7 +102,7 @@ public:
     void keepLimits (std::map<std::string, GuardLimits> limits) { kept_limits = std::move (limits); }
 
     bool isRunning() const noexcept { return session && session->isRunning(); }
-    bool isWanted() const noexcept { return wanted; }                  ///< started and not stopped since; it may still fail to compile
+    bool isWanted() const noexcept { return wanted; }                 ///< started and not stopped since; it may still fail to compile
     bool isWaiting() const noexcept { return wanted && ! session; }   ///< started, but the graph does not compile yet: an edit may start it
     const Hand& hand() const noexcept { return moved_by; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_panel.hpp"
+#include "scope_file.hpp"
 
 #include <host/app/look/focus.hpp>
 #include <host/app/look/size_in_view.hpp>
@@ -57,7 +58,7 @@ public:
 
     void mouseDown (const juce::MouseEvent&) override
     {
-        before = panel.copies();
+        before = copiesOf (panel.model);
         grabbed = panel.views[right - 1]->getWidth();
     }
 
@@ -73,7 +74,7 @@ public:
 
     void mouseDoubleClick (const juce::MouseEvent&) override
     {
-        before = panel.copies();
+        before = copiesOf (panel.model);
         const double both = before[right - 1].share + before[right].share;
         size (0.5 * both, both);
         panel.addStep (NEEDS_TRANS ("size scopes"), before);
@@ -127,14 +128,14 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
             v->redraw();
     };
     document.add (*this);
-    suggest();
+    showOwn();
 }
 
 void ScopePanel::offer (ScopeKind kind)
 {
     if (model.scopes.size() < most_scopes)
     {
-        const auto before = copies();
+        const auto before = copiesOf (model);
         add (kind);
         addStep (NEEDS_TRANS ("add scope"), before);
     }
@@ -152,16 +153,31 @@ void ScopePanel::openAdders()
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more));
 }
 
-void ScopePanel::suggest()
+void ScopePanel::showOwn()
 {
     listPorts();
-    restore (suggestedScopes (document.graph(), catalogue));
+    const auto kept = readScopes (document.graph());
+    restore (kept ? *kept : suggestedScopes (document.graph(), catalogue));
+    suggested.reset();
+    if (kept) return;
+    suggested.emplace();
+    for (const auto& s : model.scopes)
+        suggested->scopes.push_back (std::make_unique<ScopeSpec> (*s));
 }
 
-ScopePanel::Scopes ScopePanel::copies() const
+void ScopePanel::keepIn (graph::Graph& graph) const
+{
+    auto scopes = writeScopes (copiesOf (model));
+    if (suggested && scopes == writeScopes (copiesOf (*suggested))) return;
+    auto& ui = graph.extra["ui"];
+    if (! ui.is_object()) ui = Json::object();
+    ui["scopes"] = std::move (scopes);
+}
+
+ScopePanel::Scopes ScopePanel::copiesOf (const ScopeModel& of)
 {
     Scopes all;
-    for (const auto& s : model.scopes)
+    for (const auto& s : of.scopes)
         all.push_back (*s);
     return all;
 }
@@ -187,7 +203,7 @@ void ScopePanel::restore (const Scopes& to)
 /// Makes a step of the history of what has changed since these scopes.
 void ScopePanel::addStep (const char* name, const Scopes& before)
 {
-    const auto now = copies();
+    const auto now = copiesOf (model);
     const auto isSame = [] (const ScopeSpec& a, const ScopeSpec& b) { return a.kind == b.kind && a.ports == b.ports && a.share == b.share; };
     if (std::ranges::equal (before, now, isSame)) return;
     const auto to = [safe = juce::Component::SafePointer (this)] (const Scopes& scopes) {
@@ -218,6 +234,7 @@ void ScopePanel::documentChanged()
         const auto before = std::exchange (context.ports, {});
         listPorts();
         follow (model, before, context.ports);
+        if (suggested) follow (*suggested, before, context.ports);
     }
     requestPorts();
     resized();
@@ -239,7 +256,7 @@ void ScopePanel::showView (ScopeSpec& s)
     v.onClose = [this, &s] {
         juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s] {
             if (safe == nullptr) return;
-            const auto before = safe->copies();
+            const auto before = safe->copiesOf (safe->model);
             safe->close (*which);
             safe->addStep (NEEDS_TRANS ("close scope"), before);
         });
@@ -294,7 +311,7 @@ void ScopePanel::close (const ScopeSpec& s)
 bool ScopePanel::probe (const std::string& port)
 {
     const auto scopes_before = model.scopes.size();
-    const auto before = copies();
+    const auto before = copiesOf (model);
     const bool is_shown = model.probe (port);
     const bool is_new = model.scopes.size() > scopes_before;
     if (is_new) showView (*model.scopes.back());
@@ -501,7 +518,7 @@ void ScopePanel::mouseDown (const juce::MouseEvent& e)
             model.active = &v->shown();
             if (v.get() != e.eventComponent) continue;
             moved = model.active;   // its title
-            before_drag = copies();
+            before_drag = copiesOf (model);
         }
 }
 

@@ -20,8 +20,11 @@ public:
     /// Updates the scopes. Call 30 times a second while visible.
     void refresh();
 
-    /// Replaces all scopes with those that suit the graph, which has just been opened.
-    void suggest();
+    /// Replaces all scopes with those that the file of the graph keeps, or else with those that suit the graph, which has just been opened.
+    void showOwn();
+
+    /// Keeps the scopes in a graph that is about to be written, if the user has changed them.
+    void keepIn (graph::Graph&) const;
 
     /// Toggles a port as a trace. Returns true if it is shown now.
     bool probe (const std::string& port);
@@ -60,7 +63,7 @@ private:
     class Edge;
     using Scopes = std::vector<ScopeSpec>;
 
-    Scopes copies() const;
+    static Scopes copiesOf (const ScopeModel&);
     void restore (const Scopes&);
     void addStep (const char* name, const Scopes& before);
     void moveTo (std::size_t place);
@@ -85,6 +88,7 @@ private:
     ScopeContext context;
     std::optional<std::uint64_t> listed;   // the version of the document whose ports are listed
     ScopeModel model;
+    std::optional<ScopeModel> suggested;   // as first shown; empty if the file has kept them
     ScopeRow scope_row;
     juce::Viewport scroll;
     std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model

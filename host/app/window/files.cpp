@@ -252,7 +252,9 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
         return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
     const auto before = document.graph().name, name = nameIn (file);
     if (name != before) document.call (name);
-    const auto messages = document.save (file, carriedTo (file.parent_path(), document.graph()));
+    auto written = carriedTo (file.parent_path(), document.graph());
+    if (callbacks.onWrite) callbacks.onWrite (written);
+    const auto messages = document.save (file, written);
     if (! messages.empty() && name != before) document.call (before);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     known_files[file] = contentHash (readTextFile (file).value_or (std::string()));

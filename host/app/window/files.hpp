@@ -28,6 +28,7 @@ public:
         std::function<void()> usePointer;                                   ///< from the next run on, the mouse moves the tool, unless a device does
         std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
         std::function<void()> onSettings;                                   ///< called when the settings have changed and must be saved
+        std::function<void (graph::Graph&)> onWrite;                        ///< called with what is about to be written; may change its `ui`
 
         /// Asks for a file to open or save, and calls back with it unless the user cancels.
         std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> choose;

@@ -301,7 +301,7 @@ void MainView::documentChanged()
         patching.leaveTo (0);
         patching.select ({});
         patching.frameStart();
-        scopes.suggest();
+        scopes.showOwn();
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }
     nodes.refresh();

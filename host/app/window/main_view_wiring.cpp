@@ -23,6 +23,7 @@ Files::Callbacks MainView::fileCallbacks()
         .onSettings = [this] {
             saveSettingsSoon();
             presets.reload(); },
+        .onWrite = [this] (graph::Graph& graph) { scopes.keepIn (graph); },
         .choose = [this] (bool saves, const std::filesystem::path& begin,
                           std::function<void (const std::filesystem::path&)> chosen) { chooseFile (saves, begin, std::move (chosen)); }
     };

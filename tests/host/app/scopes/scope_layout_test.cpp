@@ -14,7 +14,7 @@ TEST_CASE ("scopes in a narrow panel keep a readable width, and a new one is scr
     for (const int width : { 240, 480, 640, 1600 })
     {
         b.panel->setSize (width, 180);
-        b.panel->suggest();
+        b.panel->showOwn();
         while (b.panel->shown().size() < 6)
         {
             const auto& added = b.panel->add (ScopeKind::spectrum);
@@ -54,7 +54,7 @@ TEST_CASE ("scopes: without a graph, the panel does not speak of wires to select
 {
     Bench b;
     b.document.open ({}, {}, "new graph");
-    b.panel->suggest();
+    b.panel->showOwn();
     REQUIRE (b.panel->shown().empty());
     juce::String all;
     for (const auto& t : tactus::host::test::readTexts (*b.panel))

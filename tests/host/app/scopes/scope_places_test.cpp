@@ -57,7 +57,7 @@ TEST_CASE ("scopes in a high panel are in a grid, all in view and none over anot
         {
             INFO (scopes << " scopes, " << height);
             b.panel->setSize (1000, height);
-            b.panel->suggest();
+            b.panel->showOwn();
             while (static_cast<int> (b.panel->shown().size()) < scopes)
                 b.panel->add (ScopeKind::spectrum);
             std::set<int> rows;

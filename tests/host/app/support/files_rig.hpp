@@ -58,6 +58,7 @@ struct FilesRig
             .usePointer = [this] { by_pointer = true; },
             .openTake = {},
             .onSettings = [] {},
+            .onWrite = {},
             .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) {
                 if (! chosen.empty()) then (chosen); }
         };

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scope_model.hpp"
+
+#include <tactus/graph/graph.hpp>
+
+namespace tactus::host
+{
+
+/// The scopes that the user has made for a graph, as its file keeps them: the list "scopes" under `ui`. Cursors and zoomed ranges are not kept.
+Json writeScopes (const std::vector<ScopeSpec>&);
+
+/// Reads them. Empty if the graph has no such list. Entries that are no scopes are left out, and numbers out of range are replaced.
+std::optional<std::vector<ScopeSpec>> readScopes (const graph::Graph&);
+
+}   // namespace tactus::host

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/window_rig.hpp"
+#include "scope_bench.hpp"
+
+#include <host/app/scopes/scope_file.hpp>
+#include <support/property.hpp>
+#include <tactus/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::Bench;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+graph::Graph withScopes (Json scopes)
+{
+    graph::Graph g;
+    g.extra["ui"]["scopes"] = std::move (scopes);
+    return g;
+}
+}   // namespace
+
+TEST_CASE ("scopes: what a file keeps of them is read as it was written", "[app][scopes]")
+{
+    ScopeSpec over;
+    over.kind = ScopeKind::over;
+    over.x = "hand.position";
+    over.y = "drag.force";
+    over.state = "drag.state";
+    over.component = 1;
+    over.seconds = 2.5;
+    over.share = 0.5;
+    ScopeSpec time;
+    time.ports = { "motor.force", "fingers[2]/drag.force" };
+    time.trigger = { ScopeTrigger::Edge::falling, -0.25 };
+    ScopeSpec spectrum;
+    spectrum.kind = ScopeKind::spectrum;
+    spectrum.in_decibels = false;
+    ScopeSpec tool;
+    tool.kind = ScopeKind::tool;
+    tool.node = "drag";
+    tool.has_normal = true;
+    const std::vector<ScopeSpec> all { over, time, spectrum, tool };
+    CHECK (readScopes (withScopes (writeScopes (all))) == all);
+    CHECK (readScopes (withScopes (Json::array())) == std::vector<ScopeSpec> {});
+    CHECK_FALSE (readScopes (graph::Graph {}));
+}
+
+TEST_CASE ("scopes: whatever a file says about them, what is read can be shown", "[app][scopes]")
+{
+    const auto g = withScopes (*Json::tryParse (R"([ 3, {}, { "kind": "radar" }, { "kind": "time", "seconds": -1e300, "share": 1e300, "component": 77, "ports": [ 1, "", "no.port" ],
+        "edge": "sideways", "level": "high", "decibels": 3 }, { "kind": "spectrogram", "up_to_hz": -5, "ports": "motor.force" }, { "kind": "tool", "node": [] } ])"));
+    const auto scopes = readScopes (g);
+    REQUIRE (scopes);
+    REQUIRE (scopes->size() == 3);
+    CHECK (scopes->front().seconds == ScopeSpec::least_s);
+    CHECK (scopes->front().component == 2);
+    CHECK (scopes->front().ports == std::vector<std::string> { "", "no.port" });
+
+    Bench b;
+    auto graph = b.document.graph();
+    graph.extra["ui"]["scopes"] = g.extra.at ("ui").at ("scopes");
+    b.document.open (graph, {}, "open");
+    b.panel->showOwn();
+    CHECK (b.panel->shown().size() == 3);
+    b.panel->refresh();
+    CHECK (b.panel->createComponentSnapshot (b.panel->getLocalBounds()).isValid());
+}
+
+TEST_CASE ("the scopes that the user adds, closes or sets are saved with the graph, and others are not", "[app][scopes][files]")
+{
+    TemporaryFolder folder;
+    const auto file = folder / "mine.json";
+    std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
+    const auto kinds = [] (const graph::Graph& g) {
+        std::vector<ScopeKind> all;
+        for (const auto& s : readScopes (g).value_or (std::vector<ScopeSpec> {}))
+            all.push_back (s.kind);
+        return all;
+    };
+    {
+        WindowRig w (file.string(), 1280, 1000);
+        w.key ("ctrl + s");
+        CHECK_FALSE (readScopes (loadGraph (file).graph));
+        w.click ("+ Spectrum");
+        w.key ("ctrl + s");
+        CHECK (kinds (loadGraph (file).graph) == std::vector { ScopeKind::time, ScopeKind::over, ScopeKind::energy, ScopeKind::spectrum });
+        CHECK_FALSE (w.view->document().isChanged());
+    }
+    {
+        WindowRig w (file.string(), 1280, 1000);
+        CHECK (w.titled ("Spectrum") != nullptr);
+        w.key ("ctrl + s");
+        CHECK (kinds (loadGraph (file).graph).size() == 4);
+    }
+}
