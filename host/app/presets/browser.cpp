@@ -51,9 +51,10 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
         if (onLeave) onLeave();
     };
     query.onReturnKey = [this] {
-        for (int i = 0; i < getNumRows(); ++i)
-            if (rowAt (i)->preset != nullptr) return openRow (i);
+        const int selected = list.getSelectedRow();
+        openRow (selected >= 0 ? selected : presetFrom (0, 1));
     };
+    query.addKeyListener (this);
     chips.onChange = [this] { update(); };
     chips.onResize = [this] { resized(); };
     list.setTitle (TRANS ("Presets"));
@@ -89,6 +90,24 @@ void PresetBrowser::reload()
     }
     own.insert (own.begin(), std::make_move_iterator (latest.begin()), std::make_move_iterator (latest.end()));
     update();
+}
+
+/// The first row with a preset, from this one on.
+int PresetBrowser::presetFrom (int row, int step) const
+{
+    while (rowAt (row) != nullptr && rowAt (row)->preset == nullptr)
+        row += step;
+    return rowAt (row) == nullptr ? -1 : row;
+}
+
+/// In the search, the arrow keys choose what Return opens.
+bool PresetBrowser::keyPressed (const juce::KeyPress& key, juce::Component*)
+{
+    const bool is_down = key == juce::KeyPress::downKey;
+    if (! is_down && key != juce::KeyPress::upKey) return false;
+    const int step = is_down ? 1 : -1, selected = list.getSelectedRow();
+    if (const int to = presetFrom (selected >= 0 ? selected + step : 0, selected >= 0 ? step : 1); to >= 0) list.selectRow (to);
+    return true;
 }
 
 void PresetBrowser::beginSearch()
@@ -170,6 +189,7 @@ void PresetBrowser::fillRows()
     hovered = -1;
     list.deselectAllRows();
     list.updateContent();
+    if (! query.isEmpty()) list.selectRow (presetFrom (0, 1));   // what Return opens
     list.repaint();
 }
 

@@ -13,7 +13,7 @@ namespace tactus::host
 {
 
 /// Lists the user's own graphs, the latest first, and the presets, with a description and a force plot. A click opens one.
-class PresetBrowser final : public juce::Component, private juce::ListBoxModel
+class PresetBrowser final : public juce::Component, private juce::ListBoxModel, private juce::KeyListener
 {
 public:
     PresetBrowser (const Catalogue&, Settings&, PictureStore&);
@@ -58,11 +58,14 @@ private:
     void listBoxItemClicked (int row, const juce::MouseEvent&) override;
     void returnKeyPressed (int row) override { openRow (row); }
     void selectedRowsChanged (int) override { repaint(); }
+    using juce::Component::keyPressed;
+    bool keyPressed (const juce::KeyPress&, juce::Component*) override;   // of the search
 
     void update();
     void fillRows();
     void openRow (int row);
     const Row* rowAt (int) const;
+    int presetFrom (int row, int step) const;
 
     /// The clickable parts of a row.
     enum class Part

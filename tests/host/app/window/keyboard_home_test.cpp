@@ -208,6 +208,32 @@ TEST_CASE ("the keyboard alone leads from the welcome page to a force, and throu
     w.view->run().letGo();
 }
 
+TEST_CASE ("in the search for presets, what Return opens is selected, and the arrow keys choose another", "[app][keyboard]")
+{
+    WindowRig w;
+    auto* rows = dynamic_cast<juce::ListBox*> (w.titled ("Presets"));
+    for (auto* child : w.titled ("Search presets")->getParentComponent()->getChildren())
+        if (auto* list = dynamic_cast<juce::ListBox*> (child)) rows = list;
+    REQUIRE (rows != nullptr);
+    const auto name = [&] (int row) { return rows->getModel()->getNameForRow (row).toStdString(); };
+    w.key ("ctrl + f");
+    CHECK (rows->getSelectedRow() < 0);
+    w.stage->type ("wood");
+    WindowRig::settle();
+    REQUIRE (rows->getModel()->getNumRows() > 2);
+    CHECK (rows->getSelectedRow() == 0);
+    w.key ("cursor up");
+    CHECK (rows->getSelectedRow() == 0);
+    w.key ("cursor down");
+    w.key ("cursor down");
+    CHECK (rows->getSelectedRow() == 2);
+    w.key ("cursor up");
+    const auto second = name (1);
+    w.key ("return");
+    CHECK (w.graph().name == second);
+    w.view->run().letGo();
+}
+
 TEST_CASE ("keys reach the buttons of the welcome page, and every tab", "[app][keyboard]")
 {
     WindowRig w;
