@@ -104,7 +104,7 @@ void describeGraph (const InspectorContext& at, Column& column)
     const Limits limits { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } };
     const auto rate = sheetOfNumber ("rate_hz", unit::hertz, lasting (TRANS ("the tick rate; takes effect at the next start")), limits, usual_rate_hz);
     const Binding rate_binding { [&document] { return Json (document.graph().rate_hz); },
-                                 [&document, rate] (std::optional<Json> v, bool continues) {
+                                 [&document, rate] (const std::optional<Json>& v, bool continues) {
                                      graph::SetHeader h;
                                      h.rate_hz = std::round (siOf (v.value_or (Json (usual_rate_hz)), rate, usual_rate_hz));
                                      document.perform (std::move (h), continues ? graph::Step::joined : graph::Step::own);
