@@ -136,7 +136,8 @@ private:
             for (std::size_t k = 0; k < boxes.size(); ++k)
                 if (placed[k] && k != at (l.from) && k != at (l.to)) obstacles.push_back (boxes[k]);
             const auto path = curveThrough (from, routeAround (from, to, boxOf (l.from), boxOf (l.to), obstacles), to);
-            return std::ranges::any_of (obstacles, [&] (const auto& o) { return path.getBounds().intersects (o) && runsThrough (path, o); });
+            const PathPoints points (path);
+            return std::ranges::any_of (obstacles, [&] (const auto& o) { return points.areIn (o); });
         });
     }
 

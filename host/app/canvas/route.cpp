@@ -17,15 +17,34 @@ void curveTo (juce::Path& path, juce::Point<float> from, juce::Point<float> to)
     const float reach = std::clamp (std::abs (to.x - from.x) / 2, bend, 160.0f);
     path.cubicTo (from.translated (reach, 0.0f), to.translated (-reach, 0.0f), to);
 }
-
 }   // namespace
 
-bool runsThrough (const juce::Path& path, juce::Rectangle<float> box)
+PathPoints::PathPoints (const juce::Path& path)
 {
     constexpr float step = 8.0f;
-    const float length = path.getLength();
-    for (float at = 0.0f; at < length; at += step)
-        if (box.contains (path.getPointAlongPath (at))) return true;
+    float next = 0.0f;   // the distance to the next point, from the start of the piece
+    for (juce::PathFlatteningIterator i (path); i.next();)
+    {
+        const juce::Point<float> a (i.x1, i.y1), way { i.x2 - i.x1, i.y2 - i.y1 };
+        const float length = way.getDistanceFromOrigin();
+        for (; next < length; next += step)
+            points.push_back (a + way * (next / length));
+        next -= length;
+    }
+    for (std::size_t i = 0; i < points.size(); i += in_group)
+        groups.push_back (juce::Rectangle<float>::findAreaContainingPoints (points.data() + i, static_cast<int> (std::min (in_group, points.size() - i))));
+}
+
+bool PathPoints::areIn (juce::Rectangle<float> box) const
+{
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+        const auto& area = groups[g];   // may have no width or height, so that intersects() does not do
+        if (area.getX() > box.getRight() || area.getRight() < box.getX() || area.getY() > box.getBottom() || area.getBottom() < box.getY()) continue;
+        const auto end = std::min (points.size(), (g + 1) * in_group);
+        for (auto i = g * in_group; i < end; ++i)
+            if (box.contains (points[i])) return true;
+    }
     return false;
 }
 
@@ -110,18 +129,8 @@ namespace
 /// How many of the boxes a path leads through.
 int countMet (const juce::Path& path, const std::vector<juce::Rectangle<float>>& boxes)
 {
-    constexpr float step = 8.0f;
-    std::vector<juce::Point<float>> points;
-    for (juce::PathFlatteningIterator i (path); i.next();)
-    {
-        const juce::Point<float> a (i.x1, i.y1), b (i.x2, i.y2);
-        const int parts = std::max (1, static_cast<int> (a.getDistanceFrom (b) / step));
-        for (int k = 0; k < parts; ++k)
-            points.push_back (a + (b - a) * (static_cast<float> (k) / static_cast<float> (parts)));
-    }
-    return static_cast<int> (std::ranges::count_if (boxes, [&] (const juce::Rectangle<float>& box) {
-        return std::ranges::any_of (points, [&] (juce::Point<float> p) { return box.contains (p); });
-    }));
+    const PathPoints points (path);
+    return static_cast<int> (std::ranges::count_if (boxes, [&] (const juce::Rectangle<float>& box) { return points.areIn (box); }));
 }
 
 /// The bends of a wire that runs back to the left: below both nodes, or, if one of them is above the other and would be in the way, between them or above.
@@ -174,11 +183,12 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
     {
         const auto path = curveThrough (from, by, to);
         const auto reach = path.getBounds().expanded (clearance);
+        const PathPoints points (path);
         bool is_clear = true;
         for (const auto& o : obstacles)
         {
             const auto box = o.expanded (2.0f);
-            if (! o.intersects (reach) || std::ranges::count (met, box) > 0 || ! runsThrough (path, box)) continue;
+            if (! o.intersects (reach) || std::ranges::count (met, box) > 0 || ! points.areIn (box)) continue;
             const bool is_at_start = box.getX() < from.x;
             const bool is_at_end = box.getRight() > to.x;
             if (is_at_start && is_at_end) continue;

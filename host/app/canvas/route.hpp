@@ -14,7 +14,18 @@ namespace tactus::host
 std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
                                              const std::vector<juce::Rectangle<float>>& obstacles);
 
-bool runsThrough (const juce::Path&, juce::Rectangle<float> box);
+/// Points every 8 units along a path, to find which of many boxes it leads through.
+class PathPoints
+{
+public:
+    explicit PathPoints (const juce::Path&);
+    bool areIn (juce::Rectangle<float> box) const;   ///< true if one of them is
+
+private:
+    static constexpr std::size_t in_group = 16;
+    std::vector<juce::Point<float>> points;
+    std::vector<juce::Rectangle<float>> groups;   // the bounds of each 16 points
+};
 
 /// A smooth curve through all of these points, which is level at each of them.
 juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to);

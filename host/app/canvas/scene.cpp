@@ -297,13 +297,16 @@ void Scene::routeWires()
         joined[at (w.start)] = joined[at (w.end)] = true;
     // Parallel wires run side by side.
     constexpr float apart = 6.0f;
-    std::vector<std::pair<juce::Point<float>, juce::Point<float>>> taken;
+    std::map<int, std::vector<std::pair<juce::Point<float>, juce::Point<float>>>> taken;   // by level
+    const auto levelOf = [] (juce::Point<float> p) { return static_cast<int> (std::floor (p.y / apart)); };
     const auto isTaken = [&] (juce::Point<float> a, juce::Point<float> b) {
         const auto overlaps = [&] (const auto& t) {
             const bool is_level = std::abs (t.first.y - a.y) < apart - 1.0f;
             return is_level && std::min (t.first.x, t.second.x) < std::max (a.x, b.x) && std::min (a.x, b.x) < std::max (t.first.x, t.second.x);
         };
-        return std::ranges::any_of (taken, overlaps);
+        for (int level = levelOf (a) - 1; level <= levelOf (a) + 1; ++level)
+            if (const auto at = taken.find (level); at != taken.end() && std::ranges::any_of (at->second, overlaps)) return true;
+        return false;
     };
     for (auto& w : all_wires)
     {
@@ -318,7 +321,7 @@ void Scene::routeWires()
             const float step = a.y < (w.from.y + w.to.y) / 2 ? -apart : apart;
             for (; isTaken (a, b); b.y += step)
                 a.y += step;
-            taken.emplace_back (a, b);
+            taken[levelOf (a)].emplace_back (a, b);
         }
     }
 }

@@ -164,3 +164,24 @@ TEST_CASE ("a wire that runs back to a node above or below its own runs behind n
                 CHECK_FALSE (touches (path, end));
             }
 }
+
+TEST_CASE ("the points along a path find each box that the path leads through", "[app][route]")
+{
+    tactus::test::property ("points every 8 units, as JUCE finds them one by one", [] {
+        const auto place = [] { return Point<float> (between (-2000, 2000), between (-500, 500)); };
+        const auto from = place(), to = place();
+        const auto path = curveThrough (from, { place(), place() }, to);
+        const auto corner = place();
+        const Box2 box { corner.x, corner.y, between (20, 600), between (20, 300) };
+        bool is_inside = false, is_near = false;
+        for (float at = 0.0f; at < path.getLength(); at += 8.0f)
+        {
+            const auto p = path.getPointAlongPath (at);
+            is_inside = is_inside || box.reduced (0.5f).contains (p);
+            is_near = is_near || box.expanded (0.5f).contains (p);
+        }
+        const bool is_found = PathPoints (path).areIn (box);
+        RC_ASSERT (is_found || ! is_inside);
+        RC_ASSERT (is_near || ! is_found);
+    });
+}
