@@ -5,7 +5,7 @@
 #include "minimap.hpp"
 #include "paint/backdrop.hpp"
 
-#include <host/app/look/typing_pause.hpp>
+#include <host/app/look/typing_timer.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/palette/search.hpp>
 
@@ -225,7 +225,7 @@ private:
     std::unique_ptr<Drag> drag;
     std::size_t drag_begins_at = 0;   // position in the history
     std::unique_ptr<juce::TextEditor> editor;
-    std::optional<TypingPause> typing;   // of an editor of several lines
+    std::optional<TypingTimer> typing;   // of an editor of several lines
     std::function<bool (const juce::String&)> on_edited;
     std::function<void (int step)> on_tab;
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas

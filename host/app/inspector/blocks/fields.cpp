@@ -4,7 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/tool_button.hpp>
-#include <host/app/look/typing_pause.hpp>
+#include <host/app/look/typing_timer.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -158,7 +158,7 @@ private:
     std::function<juce::String()> get;
     int lines;
     TextField field;
-    std::optional<TypingPause> typing;   // of a long text
+    std::optional<TypingTimer> typing;   // of a long text
 };
 
 class ChoiceRow final : public SetRow

@@ -50,7 +50,7 @@ private:
     bool refused = false;
 };
 
-/// A text field with a label. A text of more than two lines is also applied whenever typing pauses.
+/// A text field with a label. A text of more than two lines is also applied while it is being typed.
 std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set,
                                 const juce::String& about, int lines = 1);
 std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get,

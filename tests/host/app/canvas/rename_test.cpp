@@ -47,7 +47,7 @@ TEST_CASE ("F2 renames the selected node where it is, and makes a name of what i
     CHECK (rig.document.history().names().size() == 1);
 }
 
-TEST_CASE ("the text of a note is in the graph when typing pauses, as one step of the history", "[app][canvas]")
+TEST_CASE ("the text of a note is in the graph while it is typed, as one step of the history", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().key ("n");

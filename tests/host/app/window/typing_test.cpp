@@ -133,7 +133,7 @@ TEST_CASE ("what is being typed into a field is an unsaved change, and never get
     CHECK_FALSE (w.view->document().isChanged());
 }
 
-TEST_CASE ("the words about a graph are in it when typing pauses, and one goes on to type", "[app][keyboard][files]")
+TEST_CASE ("the words about a graph are in it while they are typed", "[app][keyboard][files]")
 {
     Desk d;
     auto& w = *d.w;
