@@ -138,7 +138,8 @@ private:
     bool is_stepping = false;
 };
 
-/// Makes the edits of one text one undo step, though the text is applied again and again while it is being typed. A step between them begins a new one. [main thread]
+/// Makes the edits of one text one undo step, though the text is applied again and again while it is being typed. A step between them begins a
+/// new one. [main thread]
 class TypedStep
 {
 public:

@@ -49,8 +49,9 @@ TEST_CASE ("scopes: what a file keeps of them is read as it was written", "[app]
 
 TEST_CASE ("scopes: whatever a file says about them, what is read can be shown", "[app][scopes]")
 {
-    const auto g = withScopes (*Json::tryParse (R"([ 3, {}, { "kind": "radar" }, { "kind": "time", "seconds": -1e300, "share": 1e300, "component": 77, "ports": [ 1, "", "no.port" ],
-        "edge": "sideways", "level": "high", "decibels": 3 }, { "kind": "spectrogram", "up_to_hz": -5, "ports": "motor.force" }, { "kind": "tool", "node": [] } ])"));
+    const auto g = withScopes (*Json::tryParse (R"([ 3, {}, { "kind": "radar" },
+        { "kind": "time", "seconds": -1e300, "share": 1e300, "component": 77, "ports": [ 1, "", "no.port" ], "edge": "sideways", "level": "high" },
+        { "kind": "spectrogram", "up_to_hz": -5, "ports": "motor.force", "decibels": 3 }, { "kind": "tool", "node": [] } ])"));
     const auto scopes = readScopes (g);
     REQUIRE (scopes);
     REQUIRE (scopes->size() == 3);
