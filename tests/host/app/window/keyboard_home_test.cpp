@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The keyboard is never lost: after everything that takes it for a while, the keys of the canvas work again.
+#include "host/app/support/wait_for.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -103,16 +105,14 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     const auto& scene = w.view->canvas().scene();
     const auto at = w.view->canvas().view().toPixels (scene.nodes().front().bounds().getCentre());
     w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), at), juce::ModifierKeys::rightButtonModifier);
-    WindowRig::settle();
-    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
+    REQUIRE (waitFor ([] { return juce::Component::getNumCurrentlyModalComponents() == 1; }));
     w.key ("escape");
     WindowRig::settle();
     d.checkKeys ("the menu of a node");
 
     d.select ("scrub");
     w.key ("shift + F10");
-    WindowRig::settle();
-    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
+    REQUIRE (waitFor ([] { return juce::Component::getNumCurrentlyModalComponents() == 1; }));
     w.key ("escape");
     WindowRig::settle();
     d.checkKeys ("the menu that a key opens");
