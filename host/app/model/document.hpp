@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -149,15 +150,17 @@ public:
     template <typename Edit>
     bool perform (Edit&& edit)
     {
-        const bool continues = last == document.history().position();
-        if (! edit (continues ? graph::Step::joined : graph::Step::own)) return false;
-        last = document.history().position();
+        if (! edit (last == now() ? graph::Step::joined : graph::Step::own)) return false;
+        last = now();
         return true;
     }
 
 private:
+    /// The position alone would not do: after an undo, another edit brings it back.
+    std::pair<std::size_t, std::uint64_t> now() const { return { document.history().position(), document.version() }; }
+
     const Document& document;
-    std::optional<std::size_t> last;   // the position after the last edit
+    std::optional<std::pair<std::size_t, std::uint64_t>> last;   // after the last edit
 };
 
 }   // namespace tactus::host

@@ -148,6 +148,16 @@ TEST_CASE ("the words about a graph are in it while they are typed", "[app][keyb
     CHECK (w.graph().about == "It squeaks a lot");
     w.key ("ctrl + z");
     CHECK (w.graph().about == d.saved().about);
+
+    // Another edit is now where that of the text was, and is no part of the next one.
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.7) }));
+    CHECK (w.view->document().history().position() == steps + 1);
+    d.type ("about", "It hums");
+    w.key ("return");
+    CHECK (w.graph().about == "It hums");
+    w.key ("ctrl + z");
+    CHECK (w.graph().about == d.saved().about);
+    CHECK (w.graph().root.find ("drag")->params.at ("mu") == 0.7);
 }
 
 TEST_CASE ("F5 starts the graph with what is being typed into a field", "[app][keyboard]")

@@ -22,19 +22,32 @@ juce::Button* buttonCalled (juce::Component& in, const juce::String& text)
         if (auto* button = dynamic_cast<juce::Button*> (child); button != nullptr && button->isVisible() && button->getButtonText() == text) return button;
     return nullptr;
 }
+
+/// A strip of 1280 units, and what it shows and controls.
+struct StripRig
+{
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback;
+    Look look;
+    SafetyStrip strip { playback };
+
+    explicit StripRig (CanvasRig& rig) : playback (rig.document, catalogue(), sound, setup, [] {})
+    {
+        strip.setLookAndFeel (&look);
+        strip.setSize (1280, SafetyStrip::height);
+    }
+    ~StripRig() { strip.setLookAndFeel (nullptr); }
+};
 }   // namespace
 
 TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    Sound sound;
-    DeviceSetup setup;
-    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    StripRig seen { rig };
+    auto& playback = seen.playback;
+    auto& strip = seen.strip;
     auto& run = playback.run();
-    SafetyStrip strip { playback };
-    Look look;
-    strip.setLookAndFeel (&look);
-    strip.setSize (1280, SafetyStrip::height);
     const auto until = [&] (auto isSo) {
         for (int i = 0; i < 2000; ++i)
         {
@@ -80,7 +93,6 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     run.emergencyStop();
     buttonCalled (strip, "STOP")->onClick();
     CHECK (until ([&] { return ! run.isRunning(); }));
-    strip.setLookAndFeel (nullptr);
 }
 
 TEST_CASE ("while an edit has errors, the strip says that the last valid version runs, and a click on that shows the problems", "[app][run]")
@@ -89,13 +101,9 @@ TEST_CASE ("while an edit has errors, the strip says that the last valid version
         "nodes": { "hand": { "type": "device.position", "role": "tip" }, "a": { "type": "signal.slew" }, "b": { "type": "signal.slew" } },
         "wires": [ "a.out -> b.in" ] })")
                         .graph };
-    Sound sound;
-    DeviceSetup setup;
-    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
-    SafetyStrip strip { playback };
-    Look look;
-    strip.setLookAndFeel (&look);
-    strip.setSize (1280, SafetyStrip::height);
+    StripRig seen { rig };
+    auto& playback = seen.playback;
+    auto& strip = seen.strip;
     int shown = 0;
     strip.onProblems = [&] { ++shown; };
     const auto refresh = [&] {
@@ -130,7 +138,6 @@ TEST_CASE ("while an edit has errors, the strip says that the last valid version
     CHECK (strip.text().contains ("still running the last valid version"));
     click();
     CHECK (shown == 1);
-    strip.setLookAndFeel (nullptr);
 }
 
 TEST_CASE ("a graph with errors that was started says that it waits, and STOP ends the waiting", "[app][run]")
@@ -140,13 +147,9 @@ TEST_CASE ("a graph with errors that was started says that it waits, and STOP en
     back.from = { "grain_felt", "out" };
     back.to = { "grain_felt", "in" };
     REQUIRE (rig.document.perform (graph::AddWire { "", back }));
-    Sound sound;
-    DeviceSetup setup;
-    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
-    SafetyStrip strip { playback };
-    Look look;
-    strip.setLookAndFeel (&look);
-    strip.setSize (1280, SafetyStrip::height);
+    StripRig seen { rig };
+    auto& playback = seen.playback;
+    auto& strip = seen.strip;
     const auto runs = [&] {
         for (int i = 0; i < 200 && ! playback.run().isRunning(); ++i)
         {
@@ -176,5 +179,4 @@ TEST_CASE ("a graph with errors that was started says that it waits, and STOP en
         CHECK_FALSE (runs());
         CHECK (strip.text() == "stopped");
     }
-    strip.setLookAndFeel (nullptr);
 }
