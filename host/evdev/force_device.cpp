@@ -27,7 +27,8 @@ constexpr double rumble_hold = 12.5e-3;         // s, as for rumble motors with 
 constexpr Seconds between_rumbles { 10e-3 };
 constexpr double track_step = 1e-4, longest_gap = 0.1;             // s
 constexpr double rumble_slew = 6300.0;                             // per s: a tone of full scale at 1 kHz
-constexpr double longest_between = 0.25, new_share = 1.0 / 16.0;   // of the measured rate: s between updates that belong together
+constexpr double longest_between = 0.25;   // of the measured rate: s between updates that belong together
+constexpr int averaged = 16;               // of those intervals
 
 /// In the form of readGuardLimits.
 Json jsonOf (const GuardLimits& g)
@@ -257,8 +258,9 @@ void ForceDevice::measure (Clock::time_point now)
     const double passed = updated ? Seconds (now - *updated).count() : 0.0;
     updated = now;
     if (passed <= 0.0 || passed > longest_between) return;
-    mean_interval += mean_interval > 0.0 ? new_share * (passed - mean_interval) : passed;
-    reached_hz.store (1.0 / mean_interval, std::memory_order_relaxed);
+    intervals = std::min (intervals + 1, averaged);
+    mean_interval += (passed - mean_interval) / intervals;
+    if (intervals == averaged) reached_hz.store (1.0 / mean_interval, std::memory_order_relaxed);   // a zero follows at once: one interval says little
 }
 
 int ForceDevice::pushTo (double effort, Clock::time_point now)

@@ -98,6 +98,7 @@ private:
     ff_effect effect {};   // as the kernel has it, once it has been uploaded
     std::optional<Clock::time_point> busy_until, started, updated, tracked;
     double mean_interval = 0.0;
+    int intervals = 0;   // in that mean
     std::array<hid::VibrationTracker, 2> amplitudes;
 
     std::atomic<double> reached_hz = 0.0;

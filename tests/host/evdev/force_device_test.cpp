@@ -217,6 +217,26 @@ TEST_CASE ("a force at an event device is its level, rounded, and never beyond w
     });
 }
 
+TEST_CASE ("the measured rate of an event device is a mean of many updates", "[evdev]")
+{
+    auto info = FakeEvents::wheel();
+    info.update_interval_s = 10e-3;
+    Opened w { info };
+    int at = 0;
+    const auto shown = [&] {
+        w.events.move (w.on, ++at);
+        REQUIRE (w.read() == TACTUS_DEVICE_OK);
+        return w.stamp.reached_hz;
+    };
+    REQUIRE (w.write (0.5, 10ms) == 0);
+    REQUIRE (w.write (0.0, 1ms) == 0);   // a zero waits for nothing
+    CHECK (shown() == 0.0);              // one interval of 1 ms is not 1000 Hz
+    for (int i = 1; i <= 20; ++i)
+        REQUIRE (w.write (0.01 * i, 20ms) == 0);
+    CHECK (shown() > 45.0);
+    CHECK (shown() < 60.0);
+}
+
 TEST_CASE ("updates of a force come no faster than the port takes them, the newest counts, and the end waits for nothing", "[evdev]")
 {
     auto info = FakeEvents::wheel();
