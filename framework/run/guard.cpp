@@ -300,7 +300,9 @@ void Guard::rearm() noexcept
 {
     // A limit that was exceeded on the last tick takes effect on the next one, and only then can it be rearmed.
     const bool has_effect = latched == Stop::emergency || ! is_news;
-    if (isLatched() && has_effect) forget();
+    if (! isLatched() || ! has_effect) return;
+    forget();
+    has_rearmed = true;
 }
 
 /// Forgets latched stops, and what the watches have counted.
@@ -514,7 +516,12 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     if (reason != Stop::none) saved = 0.0;   // time that was left during a stop does not make the force rise faster after it
 
     withheld = std::max (0.0, withheld - step_s / fade_s);
-    if (reason == Stop::none && enabled < 1.0) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
+    if (reason == Stop::none && enabled < 1.0)
+    {
+        const double ramp = limits.ramp > 0.0 || ! has_rearmed ? limits.ramp : rearm_ramp_s;
+        enabled = ramp > 0.0 ? std::min (1.0, enabled + rising_s / ramp) : 1.0;
+    }
+    if (enabled == 1.0) has_rearmed = false;
     enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
     return last;
 }

@@ -100,7 +100,7 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 /// Good to know
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
-///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
+///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows; after rearm(), within rearm_ramp_s.
 ///  - Limits count seconds, not ticks. Ticks that come too fast count as the time that has passed, so a device that reports faster than its
 ///    profile says gains nothing. Missing ticks count too: for the watchdog, impulse, energy, speed, and the end of a stop.
 ///  - Whatever rises (the slew, the ramp) advances by at most one period a tick, and by no more in total than the time that has passed. What
@@ -119,6 +119,9 @@ public:
     /// Duration of a stop, unless a slew limit requires longer. Short for a hand (the fastest reflex takes about 30 ms),
     /// long compared with a tick, so that the stop itself does not jolt the device.
     static constexpr double fade_s = 0.005;
+
+    /// Time from 0 to full effort after rearm(), in s, where the limits have no ramp of their own.
+    static constexpr double rearm_ramp_s = 0.2;
 
     enum class Stop : std::uint32_t
     {
@@ -249,6 +252,7 @@ private:
     double behind = 0.0;   // lost time that has not been made up by as much time with ticks, in s
     bool is_starved = false;
     double enabled = 1.0;    // progress of the enable ramp, 0…1
+    bool has_rearmed = false;   // `enabled` is 0, or rises, after rearm()
     double withheld = 0.0;   // fraction of `at_stop` that is still on the device, 1…0
     Effort at_stop;
     Effort last;

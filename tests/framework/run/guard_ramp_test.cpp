@@ -63,3 +63,37 @@ TEST_CASE ("guard: after a stop, a push beyond the limits returns along the ramp
         }
     });
 }
+
+TEST_CASE ("guard: after rearm(), an effort without a ramp of its own rises within 0.2 s", "[framework][guard][safety]")
+{
+    const double ramp = GENERATE (0.0, 0.1);
+    const double lasts = ramp > 0.0 ? ramp : Guard::rearm_ramp_s;
+    CAPTURE (ramp);
+    Guard guard;
+    guard.prepare ({ .ramp = ramp }, dt);
+    const auto force = [&] (bool is_valid = true) { return guard (pushOf (3.0), { .valid = is_valid }).force.x(); };
+    const auto rest = [&] (bool is_valid) {
+        for (int k = 0; k < 10; ++k)
+            force (is_valid);
+        REQUIRE (force (is_valid) == 0.0);
+    };
+    for (int k = 0; k < 200; ++k)
+        force();
+    REQUIRE (force() == 3.0);
+    for (const bool is_interrupted : { false, true })
+    {
+        guard.emergencyStop();
+        rest (true);
+        guard.rearm();
+        if (is_interrupted)
+        {
+            for (int k = 0; k < 20; ++k)
+                force();
+            rest (false);
+        }
+        for (int k = 1; k <= 250; ++k)
+            REQUIRE (force() == Approx (3.0 * std::min (1.0, k * dt / lasts)));
+    }
+    rest (false);
+    CHECK (force() == Approx (ramp > 0.0 ? 3.0 * dt / ramp : 3.0));   // other stops end as before
+}

@@ -131,7 +131,7 @@ SafetyStrip::SafetyStrip (Playback& p)
 {
     setOpaque (true);
     setTitle (TRANS ("Safety"));
-    rearm->setTooltip (TRANS ("Lets the forces rise again, over the ramp of the limits; without a ramp, at once. Press it only when it is safe."));
+    rearm->setTooltip (TRANS ("Lets the forces rise again, over the ramp of the limits, or within 0.2 s if they have none. Press it only when it is safe."));
     rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
     button->onClick = [this] {
