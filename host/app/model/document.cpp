@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document.hpp"
 
+#include <host/app/storage/kept_names.hpp>
+
 #include <tactus/file/graph_file.hpp>
 
 namespace tactus::host
@@ -26,7 +28,7 @@ bool Document::perform (graph::Command command, graph::Step step)
 {
     const auto before = edits.position();
     const bool counts = ! onlyMoves (command);
-    if (const auto done = edits.perform (std::move (command), step); ! done)
+    if (const auto done = edits.perform (withNamesKept (graph(), std::move (command)), step); ! done)
     {
         notify ([&] (Listener& l) { l.documentRefused (done.error()); });
         return false;

@@ -134,7 +134,8 @@ std::string textOf (const graph::CollapseNodes& to)
     return text;
 }
 
-/// The canvas stores where it shows the nodes together with the first edit, which is not what the step is about: returns the edit alone.
+/// The canvas stores where it shows the nodes together with the first edit, and the document keeps what `ui` stores by the names of nodes
+/// together with an edit of names. That is not what the step is about: returns the edit alone.
 const graph::Command& withoutPlaces (const graph::Command& command)
 {
     const auto* batch = std::get_if<graph::Batch> (&command.edit);
@@ -142,7 +143,9 @@ const graph::Command& withoutPlaces (const graph::Command& command)
     for (const std::size_t places : { 0U, 1U })   // or after it, with where a new node goes
     {
         const auto* moves = std::get_if<graph::Batch> (&batch->commands[places].edit);
-        if (moves != nullptr && moves->name != batch->name && moves->name.starts_with ("move node")) return withoutPlaces (batch->commands[1 - places]);
+        const bool is_keep = std::holds_alternative<graph::SetHeader> (batch->commands[places].edit);
+        if (is_keep || (moves != nullptr && moves->name != batch->name && moves->name.starts_with ("move node")))
+            return withoutPlaces (batch->commands[1 - places]);
     }
     return command;
 }
@@ -190,6 +193,8 @@ struct Objects
             add (nodes, added->node.name);
         else if (const auto* removed = std::get_if<graph::RemoveNode> (&command.edit))
             add (nodes, removed->name);
+        else if (const auto* renamed = std::get_if<graph::RenameNode> (&command.edit))
+            add (nodes, renamed->name);
         else if (const auto* changed = std::get_if<graph::SetNodeKey> (&command.edit))
             add (nodes, changed->node);
         else if (const auto* wired = std::get_if<graph::AddWire> (&command.edit))

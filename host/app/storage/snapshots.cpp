@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace tactus::host
 {
@@ -29,6 +30,27 @@ Json valuesOf (const graph::Patch& patch)
         nodes[n.name] = { { "type", n.type }, { "params", n.params }, { "overrides", n.overrides } };
     return nodes;
 }
+
+Json valuesOf (const graph::Graph& g)
+{
+    auto controls = Json::object();
+    for (const auto& c : g.controls)
+        controls[c.id] = c.value;
+    auto subgraphs = Json::object();
+    for (const auto& [name, patch] : g.graphs)
+        subgraphs[name] = valuesOf (patch);
+    return { { "nodes", valuesOf (g.root) }, { "graphs", std::move (subgraphs) }, { "controls", std::move (controls) } };
+}
+
+/// Calls visit (name of the patch, patch) for the root, whose name is empty, and for each subgraph.
+void forEachPatch (const graph::Graph& g, const std::function<void (const std::string&, const graph::Patch&)>& visit)
+{
+    visit ({}, g.root);
+    for (const auto& [name, patch] : g.graphs)
+        visit (name, patch);
+}
+
+const Json& nodesIn (const Json& snapshot, const std::string& patch) { return at (patch.empty() ? snapshot : at (snapshot, "graphs"), patch.empty() ? "nodes" : patch); }
 
 /// True if recall() would change nothing. The nodes of a snapshot usually have the order of the patch, so most are found without a search.
 bool isAt (const graph::Patch& patch, const Json& nodes)
@@ -84,18 +106,11 @@ bool hasSnapshot (const graph::Graph& g, int number) { return snapshot (g, numbe
 
 graph::Command storeSnapshot (const graph::Graph& g, int number)
 {
-    auto controls = Json::object();
-    for (const auto& c : g.controls)
-        controls[c.id] = c.value;
-    auto subgraphs = Json::object();
-    for (const auto& [name, patch] : g.graphs)
-        subgraphs[name] = valuesOf (patch);
-
     Json ui = at (g.extra, "ui");
     if (! ui.is_object()) ui = Json::object();
     auto& all = ui["snapshots"];
     if (! all.is_object()) all = Json::object();
-    all[std::to_string (number)] = { { "nodes", valuesOf (g.root) }, { "graphs", std::move (subgraphs) }, { "controls", std::move (controls) } };
+    all[std::to_string (number)] = valuesOf (g);
     return graph::Batch { filled (TRANS ("store snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
 }
 
@@ -121,6 +136,53 @@ std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
             batch.commands.push_back (graph::ChangeControl { c.id, std::move (to) });
         }
     return batch.commands.empty() ? std::nullopt : std::optional<graph::Command> (std::move (batch));
+}
+
+std::vector<std::string> missingNodes (const graph::Graph& g, int number)
+{
+    std::vector<std::string> missing;
+    const auto look = [&] (const Json& nodes, const graph::Patch* patch, const std::string& prefix) {
+        if (! nodes.is_object()) return;
+        for (const auto& [name, values] : nodes.items())
+            if (const auto* n = patch != nullptr ? patch->find (name) : nullptr; n == nullptr || at (values, "type") != n->type)
+                missing.push_back (prefix + name);
+    };
+    const auto& then = snapshot (g, number);
+    look (at (then, "nodes"), &g.root, {});
+    if (const auto& graphs = at (then, "graphs"); graphs.is_object())
+        for (const auto& [name, nodes] : graphs.items())
+            look (nodes, g.find (name), name + "/");
+    return missing;
+}
+
+Json snapshotsAfter (const graph::Graph& before, const graph::Command& command)
+{
+    auto all = at (at (before.extra, "ui"), "snapshots");
+    for (int number = 1; number <= snapshot_count; ++number)
+    {
+        if (! hasSnapshot (before, number)) continue;
+        const auto& then = snapshot (before, number);
+        std::set<graph::Id> others;   // nodes that the snapshot does not hold
+        forEachPatch (before, [&] (const std::string& name, const graph::Patch& patch) {
+            for (const auto& n : patch.nodes)
+                if (at (at (nodesIn (then, name), n.name), "type") != n.type) others.insert (n.id);
+        });
+
+        // The command changes the values of the snapshot as it changes those of the graph.
+        auto held = before;
+        if (const auto recalled = recallSnapshot (before, number); recalled && ! graph::apply (held, *recalled, graph::Checks::none)) continue;
+        if (! graph::apply (held, command, graph::Checks::none)) continue;
+        auto values = valuesOf (held);
+        forEachPatch (held, [&] (const std::string& name, const graph::Patch& patch) {
+            auto& nodes = name.empty() ? values["nodes"] : values["graphs"][name];
+            for (const auto& n : patch.nodes)
+                if (others.contains (n.id)) nodes.erase (n.name);
+        });
+        for (const auto& c : before.controls)
+            if (! at (then, "controls").contains (c.id)) values["controls"].erase (c.id);
+        all[std::to_string (number)] = std::move (values);
+    }
+    return all;
 }
 
 bool isAtSnapshot (const graph::Graph& g, int number)

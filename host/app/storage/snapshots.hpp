@@ -4,6 +4,8 @@
 #include <tactus/graph/edit.hpp>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tactus::host
 {
@@ -22,6 +24,13 @@ graph::Command clearSnapshot (const graph::Graph&, int number);
 
 /// Restores the values of everything that still exists. One undo step. Empty if nothing would change.
 std::optional<graph::Command> recallSnapshot (const graph::Graph&, int number);
+
+/// The nodes of a snapshot that the graph no longer has, or that have another type now: recalling leaves them out.
+std::vector<std::string> missingNodes (const graph::Graph&, int number);
+
+/// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes: each snapshot goes on holding the same
+/// nodes, under their new names. Null if there are no snapshots.
+Json snapshotsAfter (const graph::Graph& before, const graph::Command&);
 
 /// True if the snapshot exists, and all values are those that it holds, so that recalling it would change nothing.
 bool isAtSnapshot (const graph::Graph&, int number);

@@ -201,7 +201,13 @@ void MainView::recall (int number)
     const juce::String n (number);
     if (! hasSnapshot (edited.graph(), number)) return status.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
     if (auto command = recallSnapshot (edited.graph(), number)) edited.perform (std::move (*command));
-    status.notify (filled (TRANS ("Recalled snapshot %1."), n));
+    const auto missing = missingNodes (edited.graph(), number);
+    if (missing.empty()) return status.notify (filled (TRANS ("Recalled snapshot %1."), n));
+    juce::StringArray names;
+    for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
+        names.add (valueText (missing[i]));
+    const juce::String more = missing.size() > 3 ? ", …" : "";
+    status.notify (filled (TRANS ("Recalled snapshot %1, except for nodes that the graph no longer has: %2."), n, names.joinIntoString (", ") + more));
 }
 
 void MainView::store (int number)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/model/document.hpp>
 #include <host/app/storage/snapshots.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -16,6 +17,15 @@ void mustPerform (graph::History& h, graph::Command c)
     const auto done = h.perform (std::move (c));
     INFO ((done ? "" : done.error().text));
     REQUIRE (done);
+}
+
+graph::Node gainNamed (const char* name, double gain)
+{
+    graph::Node n;
+    n.name = name;
+    n.type = "signal.gain";
+    n.params["gain"] = gain;
+    return n;
 }
 
 Json paramsOf (const graph::History& h, const char* node) { return h.graph().root.find (node)->params; }
@@ -103,6 +113,92 @@ TEST_CASE ("snapshots include subgraphs and their overrides, and are saved in th
     graph::History again (reread);
     mustPerform (again, *command);
     CHECK (again.graph().find (subgraph)->find (node)->params[key] == value);
+}
+
+TEST_CASE ("a snapshot holds the same nodes after they are renamed, grouped and ungrouped", "[snapshots]")
+{
+    Document document (graphOf ("dry_wood.json"));
+    const auto muOf = [&] (const graph::Patch& patch, const char* name) { return patch.find (name)->params["mu"]; };
+    const auto recalls = [&] {
+        const auto command = recallSnapshot (document.graph(), 1);
+        REQUIRE (command);
+        REQUIRE (document.perform (*command));
+        CHECK (missingNodes (document.graph(), 1).empty());
+    };
+    REQUIRE (document.perform (storeSnapshot (document.graph(), 1)));
+    const auto stored = writeGraph (document.graph());
+    const auto steps = document.history().size();
+
+    REQUIRE (document.perform (graph::AddNode { "", gainNamed ("fresh", 3.0) }));
+    REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    REQUIRE (document.perform (graph::RenameNode { "", "drag", "rubbed" }));
+    CHECK (document.history().size() == steps + 3);   // one step each
+    CHECK (document.stepName (steps + 2) == "rename 'drag' to 'rubbed'");
+    recalls();
+    CHECK (muOf (document.graph().root, "rubbed") == 0.4);
+    const auto& sources = document.graph().extra["ui"]["sources"];
+    CHECK (sources.contains ("rubbed.mu"));
+    CHECK_FALSE (sources.contains ("drag.mu"));
+
+    REQUIRE (document.perform (graph::SetParam { "", "rubbed", "mu", Json (0.9) }));
+    REQUIRE (document.perform (graph::CollapseNodes { "", { "rubbed", "grain" }, "wood", "wood" }));
+    CHECK (document.graph().extra["ui"]["sources"].contains ("wood/rubbed.mu"));
+    recalls();
+    CHECK (muOf (*document.graph().find ("wood"), "rubbed") == 0.4);
+
+    REQUIRE (document.perform (graph::RenameNode { "wood", "rubbed", "drag" }));
+    REQUIRE (document.perform (graph::RenameSubgraph { "wood", "oak" }));
+    REQUIRE (document.perform (graph::RenameNode { "", "wood", "oak" }));
+    REQUIRE (document.perform (graph::SetParam { "oak", "drag", "mu", Json (0.9) }));
+    CHECK (document.graph().extra["ui"]["sources"].contains ("oak/drag.mu"));
+    recalls();
+    CHECK (muOf (*document.graph().find ("oak"), "drag") == 0.4);
+
+    REQUIRE (document.perform (graph::SetParam { "oak", "drag", "mu", Json (0.9) }));
+    REQUIRE (document.perform (graph::ExpandNode { "", "oak" }));
+    recalls();
+    CHECK (muOf (document.graph().root, "drag") == 0.4);
+    CHECK (document.graph().extra["ui"]["sources"].contains ("drag.mu"));
+
+    REQUIRE (document.perform (graph::SetParam { "", "fresh", "gain", Json (5.0) }));   // never in the snapshot
+    CHECK_FALSE (recallSnapshot (document.graph(), 1));
+
+    document.goTo (steps);
+    CHECK (writeGraph (document.graph()) == stored);
+}
+
+TEST_CASE ("a snapshot holds the values of both copies of a shared subgraph that is expanded", "[snapshots]")
+{
+    Document document (graphOf ("two_fingers.json"));
+    graph::Patch patch;
+    patch.nodes.push_back (gainNamed ("g", 2.0));
+    REQUIRE (document.perform (graph::AddSubgraph { "both", patch }));
+    for (const char* name : { "a", "b" })
+    {
+        graph::Node n;
+        n.name = name;
+        n.type = "graph:both";
+        REQUIRE (document.perform (graph::AddNode { "", n }));
+    }
+    REQUIRE (document.perform (graph::SetOverride { "", "a", "g.gain", Json (7.0) }));
+    REQUIRE (document.perform (storeSnapshot (document.graph(), 4)));
+    REQUIRE (document.perform (graph::SetOverride { "", "a", "g.gain", Json (8.0) }));
+    REQUIRE (document.perform (graph::ExpandNode { "", "a" }));
+    CHECK (document.graph().root.find ("g")->params["gain"] == 8.0);
+    const auto command = recallSnapshot (document.graph(), 4);
+    REQUIRE (command);
+    REQUIRE (document.perform (*command));
+    CHECK (document.graph().root.find ("g")->params["gain"] == 7.0);
+    CHECK (document.graph().find ("both")->find ("g")->params["gain"] == 2.0);
+}
+
+TEST_CASE ("a snapshot names the nodes that the graph no longer has", "[snapshots]")
+{
+    Document document (graphOf ("dry_wood.json"));
+    REQUIRE (document.perform (storeSnapshot (document.graph(), 1)));
+    CHECK (missingNodes (document.graph(), 1).empty());
+    REQUIRE (document.perform (graph::RemoveNode { "", "grain" }));
+    CHECK (missingNodes (document.graph(), 1) == std::vector<std::string> { "grain" });
 }
 
 TEST_CASE ("storing a snapshot keeps the rest of `ui`, and can be undone")
