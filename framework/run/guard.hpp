@@ -251,9 +251,9 @@ private:
     double saved = 0.0;    // time that has passed and that no rising effort has used yet, in s
     double behind = 0.0;   // lost time that has not been made up by as much time with ticks, in s
     bool is_starved = false;
-    double enabled = 1.0;    // progress of the enable ramp, 0…1
+    double enabled = 1.0;       // progress of the enable ramp, 0…1
     bool has_rearmed = false;   // `enabled` is 0, or rises, after rearm()
-    double withheld = 0.0;   // fraction of `at_stop` that is still on the device, 1…0
+    double withheld = 0.0;      // fraction of `at_stop` that is still on the device, 1…0
     Effort at_stop;
     Effort last;
     Stop reason = Stop::none;

@@ -25,10 +25,10 @@ constexpr double largest_level = 32767.0, largest_motor = 65535.0;
 constexpr std::uint16_t to_the_left = 0x4000;   // of a positive level
 constexpr double rumble_hold = 12.5e-3;         // s, as for rumble motors with a HID profile
 constexpr Seconds between_rumbles { 10e-3 };
-constexpr double track_step = 1e-4, longest_gap = 0.1;             // s
-constexpr double rumble_slew = 6300.0;                             // per s: a tone of full scale at 1 kHz
-constexpr double longest_between = 0.25;   // of the measured rate: s between updates that belong together
-constexpr int averaged = 16;               // of those intervals
+constexpr double track_step = 1e-4, longest_gap = 0.1;   // s
+constexpr double rumble_slew = 6300.0;                   // per s: a tone of full scale at 1 kHz
+constexpr double longest_between = 0.25;                 // of the measured rate: s between updates that belong together
+constexpr int averaged = 16;                             // of those intervals
 
 /// In the form of readGuardLimits.
 Json jsonOf (const GuardLimits& g)

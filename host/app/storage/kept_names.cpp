@@ -19,7 +19,7 @@ namespace
 bool changesNames (const graph::Command& command)
 {
     const auto is = [&]<typename... Edits> (std::variant<Edits...>*) { return (std::holds_alternative<Edits> (command.edit) || ...); };
-    if (is ((std::variant<graph::RenameNode, graph::RenameSubgraph, graph::CollapseNodes, graph::ExpandNode>*) nullptr)) return true;
+    if (is ((std::variant<graph::RenameNode, graph::RenameSubgraph, graph::CollapseNodes, graph::ExpandNode>*)nullptr)) return true;
     const auto* batch = std::get_if<graph::Batch> (&command.edit);
     return batch != nullptr && std::ranges::any_of (batch->commands, changesNames);
 }
