@@ -44,7 +44,7 @@ public:
         {
             const auto fits = check (*over.node, *over.socket->port);
             problem = fits ? juce::String() : fromUtf8 (fits.error().text);
-            canvas.hint (juce::String (over.node->name + "." + over.socket->port->id) + (fits ? juce::String() : ": " + problem));
+            canvas.hint (named (over) + (fits ? juce::String() : ": " + problem));
             if (fits) end_at = over.node->placeOf (*over.socket);
         }
         else
@@ -67,7 +67,11 @@ public:
             canvas.commands().requestNode ({ at, start });
             return;
         }
-        if (! check (*over.node, *over.socket->port)) return;
+        if (const auto fits = check (*over.node, *over.socket->port); ! fits)
+        {
+            if (e.getDistanceFromDragStart() > least_drag_px) canvas.notice (named (over) + ": " + fromUtf8 (fits.error().text));
+            return;
+        }
         const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
         const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
         if (! a || ! b) return;
@@ -138,6 +142,7 @@ private:
         g.drawText (problem, box, juce::Justification::centred, false);
     }
 
+    static juce::String named (const SceneSocket& s) { return fromUtf8 (s.node->name + "." + s.socket->port->id); }
     void unplug() { canvas.commands().perform (graph::Batch { NEEDS_TRANS ("disconnect"), { graph::RemoveWire { canvas.patch(), wire_id } } }); }
 
     static constexpr int least_drag_px = 8;

@@ -82,7 +82,8 @@ std::string writeAutosave (const AutosavedDocument& d)
         { "graph", d.graph },
         { "folder", d.folder.string() },
         { "by_pointer", d.by_pointer },
-        { "file_hash", d.file_hash }
+        { "file_hash", d.file_hash },
+        { "stopped", d.stopped }
     };
     return json.dump (2) + '\n';
 }
@@ -96,6 +97,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text)
     d.folder = textAt (json, "folder");
     d.file_hash = textAt (json, "file_hash");
     d.by_pointer = json.value ("by_pointer", Json (false)) == true;
+    d.stopped = json.value ("stopped", Json (false)) == true;
     if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
     return d;
 }
@@ -221,12 +223,14 @@ RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
         q.text = filled (text, s.problem(), autosaveIn (s.folder()).string()).toStdString();
         return q;
     }
-    const auto name = "'" + nameOf (s.document()) + "'";
+    const auto& file = s.document().file;
+    const auto name = "'" + nameOf (s.document()) + "'" + (file.empty() ? "" : " (" + file.filename().string() + ")");
     const auto text = s.document().changed ? TRANS ("%1 has unsaved changes, last autosaved %2.") : TRANS ("%1 was open %2.");
     q.text = filled (text, name, howLongAgo (now_s - s.document().at_s)).toStdString();
     if (const auto count = s.takes().size(); count > 0)
         q.text += " " + (count == 1 ? TRANS ("A take was not saved.") : filled (TRANS ("%1 takes were not saved."), count)).toStdString();
     q.safe_first = s.endedInTrial();
+    q.can_run = q.safe_first || ! s.document().stopped;
     if (q.safe_first)
         q.text += " "
                   + TRANS ("Tactus closed soon after the graph was started or changed, so running the graph may crash Tactus again. "

@@ -23,6 +23,7 @@ struct AutosavedDocument
     std::filesystem::path folder {};      ///< base of the relative paths in it; empty: that of the file or preset
     bool by_pointer = false;              ///< true if the mouse moved the tool, so that nothing else does after the recovery
     std::string file_hash {};             ///< contentHash() of the file as it was last read or written; empty if none
+    bool stopped = false;                 ///< true if the graph did not run, or a stop held its forces at zero
 };
 
 std::string writeAutosave (const AutosavedDocument&);
@@ -98,6 +99,7 @@ struct RecoveryQuestion
 {
     std::string title, text;
     bool can_recover = true;
+    bool can_run = true;       ///< false: the graph was stopped, so it stays so
     bool safe_first = false;   ///< true: the first choice is to recover without running
 };
 RecoveryQuestion questionAbout (const CrashedSession&, double now_s);

@@ -287,8 +287,8 @@ void Files::askAboutNext()
     std::vector<Question::Choice> choices;
     if (q.can_recover)
     {
-        choices.push_back ({ TRANS ("Recover without running"), [this] { restoreNext (false); } });
-        if (! safe)
+        choices.push_back ({ q.can_run ? TRANS ("Recover without running") : TRANS ("Recover"), [this] { restoreNext (false); } });
+        if (! safe && q.can_run)
             choices.insert (q.safe_first ? choices.end() : choices.begin(), { TRANS ("Recover"), [this] { restoreNext (true); } });
     }
     choices.push_back ({ TRANS ("Discard"), forget });
@@ -333,14 +333,17 @@ std::string Files::knownHash() const
     return known == known_files.end() ? std::string() : known->second;
 }
 
+AutosavedDocument Files::autosaved (bool is_changed, std::string text) const
+{
+    return { document.file(), document.preset(), is_changed, clock(), std::move (text), document.graph().folder, callbacks.isByPointer(), knownHash(), was_stopped };
+}
+
 /// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
 void Files::autosaveSoon()
 {
     is_dirty = ! autosaver->isIdle();
     if (is_dirty) return;
-    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder, callbacks.isByPointer(), knownHash() },
-                        document.graph(),
-                        document.savedText() });
+    autosaver->write ({ autosaved (true, {}), document.graph(), document.savedText() });
 }
 
 void Files::finishAutosave()
@@ -357,9 +360,7 @@ bool Files::autosave()
     if (! session) return false;
     is_dirty = false;
     autosaver->finish();
-    const auto& graph = document.graph();
-    const auto saved = session->autosave (
-        { document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder, callbacks.isByPointer(), knownHash() });
+    const auto saved = session->autosave (autosaved (document.isChanged(), writeGraph (document.graph())));
     if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }
@@ -368,6 +369,7 @@ void Files::beforeRun()
 {
     if (! session) return;
     trial_until = clock() + trial_s;
+    was_stopped = false;
     if (session->inTrial()) return;
     autosave();
     session->beginTrial();
@@ -377,8 +379,11 @@ void Files::poll()
 {
     if (! session) return;
     const auto now = clock();
-    const bool by_pointer = callbacks.isByPointer();
-    if (is_dirty || std::exchange (was_by_pointer, by_pointer) != by_pointer) autosaveSoon();
+    const bool by_pointer = callbacks.isByPointer(), is_stopped = callbacks.isStopped();
+    const bool is_new = by_pointer != was_by_pointer || is_stopped != was_stopped;
+    was_by_pointer = by_pointer;
+    was_stopped = is_stopped;
+    if (is_dirty || is_new) autosaveSoon();
     if (const auto problem = autosaver->takeProblem()) callbacks.notify (autosaveFailed (*problem));
     if (session->inTrial() && (now >= trial_until || ! callbacks.isRunning())) session->endTrial();
 }

@@ -24,6 +24,7 @@ public:
         std::function<void()> stop;                  ///< called before another graph is opened
         std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
+        std::function<bool()> isStopped;                                    ///< true unless it runs, and no stop holds its forces at zero
         std::function<bool()> isByPointer;                                  ///< true if the mouse moves the tool
         std::function<void()> usePointer;                                   ///< from the next run on, the mouse moves the tool, unless a device does
         std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
@@ -71,6 +72,7 @@ public:
 private:
     void documentChanged() override;
     std::string knownHash() const;
+    AutosavedDocument autosaved (bool is_changed, std::string text) const;   ///< the document as it is now
     void autosaveSoon();
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer, bool runs = true);
@@ -98,7 +100,7 @@ private:
     std::map<std::filesystem::path, std::string> known_files;   // hashes of files, as they were last read or written here
     bool is_dirty = false;                                      // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
-    bool safe = false, was_by_pointer = false;
+    bool safe = false, was_by_pointer = false, was_stopped = true;
 };
 
 }   // namespace tactus::host

@@ -16,6 +16,7 @@ Files::Callbacks MainView::fileCallbacks()
             run().stop(); },
         .run = [this] (bool by_pointer) { startOpened (by_pointer); },
         .isRunning = [this] { return playback.current().isRunning(); },
+        .isStopped = [this] { return ! run().isWaiting() && (! playback.current().isRunning() || playback.current().isStoppedForGood()); },
         .isByPointer = [this] { return playback.run().hand() == LiveRun::Hand::pointer(); },
         .usePointer = [this] {
             if (! hasBoundRole()) playback.changeHand (LiveRun::Hand::pointer()); },

@@ -67,6 +67,7 @@ TEST_CASE ("a wire that does not fit shows the reason and is not created", "[app
     hand.release (rig.port ("motor", Role::input, "force"));
     CHECK (rig.text() == before);
     CHECK_FALSE (rig.canvas->highlighted().fits);
+    CHECK (rig.hint.startsWith ("motor.force: Length (m)"));   // stays after the drop
 }
 
 TEST_CASE ("connecting a vector to a scalar asks for the component", "[app][canvas]")

@@ -54,6 +54,7 @@ struct FilesRig
                 by_pointer = pointer;
                 ++starts; },
             .isRunning = [this] { return runs; },
+            .isStopped = [this] { return ! runs; },
             .isByPointer = [this] { return by_pointer; },
             .usePointer = [this] { by_pointer = true; },
             .openTake = {},

@@ -190,6 +190,28 @@ TEST_CASE ("after a crash, nothing but the mouse moves the tool if the mouse mov
         }
 }
 
+TEST_CASE ("a graph that was stopped before a crash does not run after it")
+{
+    TemporaryFolder home;
+    {
+        Rig d;
+        d.files->beginSession (home.path());
+        d.files->openCopy (wood, false);
+        d.runs = false;   // STOP, or a stop that holds the forces at zero
+        d.now += 60.0;
+        d.files->poll();
+        REQUIRE (d.document.perform (graph::SetParam { "", "drag", "mu", Json (0.77) }));
+        d.files->finishAutosave();
+        d.files->endSuddenly (true);
+    }
+    Rig d;
+    d.files->beginSession (home.path());
+    REQUIRE (d.files->recover());
+    d.question.answer (0);
+    CHECK (d.document.graph().root.find ("drag")->params["mu"] == 0.77);
+    CHECK (d.starts == 0);
+}
+
 TEST_CASE ("a graph that was killed as it started does not run until START is pressed")
 {
     TemporaryFolder home;
