@@ -9,6 +9,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <string>
+
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
 using Box2 = juce::Rectangle<float>;
@@ -184,4 +189,54 @@ TEST_CASE ("the points along a path find each box that the path leads through", 
         RC_ASSERT (is_found || ! is_inside);
         RC_ASSERT (is_near || ! is_found);
     });
+}
+
+namespace
+{
+/// Gratings that run next to each other on one hand, each through a gate of its own: many wires have the same ends.
+tactus::graph::Graph manyLayers (int layers)
+{
+    using tactus::Json;
+    auto nodes = Json::object();
+    nodes["hand"] = { { "type", "device.position" }, { "role", "stylus" } };
+    nodes["motor"] = { { "type", "device.force" }, { "role", "stylus" } };
+    nodes["touch"] = { { "type", "contact.window" } };
+    auto wires = Json::array();
+    for (int i = 0; i < layers; ++i)
+    {
+        const auto n = std::to_string (i);
+        nodes["g" + n] = { { "type", "texture.grating" } };
+        nodes["s" + n] = { { "type", "vector.scale" } };
+        nodes["l" + n] = { { "type", "signal.lfo" } };
+        for (const auto& wire : { "hand.position -> g" + n + ".position", "g" + n + ".force -> s" + n + ".in", "touch.gain -> s" + n + ".gain",
+                                  "s" + n + ".out -> motor.force" })
+            wires.push_back (wire);
+    }
+    const Json file { { "format", "tactus-graph" }, { "version", 2 }, { "rate_hz", 2000 }, { "nodes", nodes }, { "wires", wires } };
+    auto read = tactus::readGraph (file.dump());
+    REQUIRE_FALSE (hasErrors (read.messages));
+    return std::move (read.graph);
+}
+
+/// The processor time of a change that draws every wire again, in s.
+double costOfChange (CanvasRig& rig)
+{
+    const auto began = std::clock();
+    REQUIRE (rig.document.perform (tactus::graph::RemoveNode { "", "l1" }));
+    rig.document.undo();
+    return static_cast<double> (std::clock() - began) / CLOCKS_PER_SEC;
+}
+}   // namespace
+
+TEST_CASE ("routing four times as many wires takes about four times as long", "[app][route]")
+{
+    CanvasRig few { manyLayers (15) }, many { manyLayers (60) };
+    double least_few = 1e9, least_many = 1e9;
+    for (int i = 0; i < 3; ++i)
+    {
+        least_few = std::min (least_few, costOfChange (few));
+        least_many = std::min (least_many, costOfChange (many));
+    }
+    std::printf ("a change with 60 wires: %.1f ms; with 240: %.1f ms\n", 1e3 * least_few, 1e3 * least_many);
+    CHECK (least_many < 12.0 * least_few);
 }
