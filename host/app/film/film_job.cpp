@@ -6,12 +6,12 @@
 namespace tactus::host
 {
 
-FilmJob::FilmJob (Film f, const Theme& theme, juce::Rectangle<int> view, int width, std::filesystem::path path)
+FilmJob::FilmJob (std::shared_ptr<const Film> f, const Theme& theme, juce::Rectangle<int> view, int width, std::filesystem::path path)
     : film (std::move (f)), picture (theme, view, width), named (std::move (path))
 {
     worker = std::thread ([this] {
         outcome = caught (named.string(), [this] {
-            return writeFilm (film, picture, named, [this] (double part) {
+            return writeFilm (*film, picture, named, [this] (double part) {
                 done.store (part, std::memory_order_relaxed);
                 return ! is_stopped.load (std::memory_order_relaxed);
             });

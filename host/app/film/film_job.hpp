@@ -4,6 +4,7 @@
 #include "film_files.hpp"
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -14,7 +15,7 @@ namespace tactus::host
 class FilmJob
 {
 public:
-    FilmJob (Film, const Theme&, juce::Rectangle<int> view, int width, std::filesystem::path);
+    FilmJob (std::shared_ptr<const Film>, const Theme&, juce::Rectangle<int> view, int width, std::filesystem::path);
     ~FilmJob();   ///< stops the work, and waits until it has ended
 
     double progress() const noexcept { return done.load (std::memory_order_relaxed); }   ///< the fraction that is done, 0…1
@@ -24,7 +25,7 @@ public:
     const std::optional<Result<FilmFiles>>& result();
 
 private:
-    Film film;
+    std::shared_ptr<const Film> film;
     FilmPicture picture;
     std::filesystem::path named;
     std::atomic<double> done = 0.0;

@@ -64,6 +64,11 @@ void MainView::closeWithFilm (const std::function<void()>& close)
                       { { TRANS ("Save"), [this, close] { hand.film().end ([this, close] { closeWithFilm (close); }); } },
                         { TRANS ("Don't save"), end },
                         { TRANS ("Cancel"), {} } });
+    else if (film.unsaved() > 0.0)
+        question.ask (filled (TRANS ("Save the film of %1 s before closing Tactus?"), juce::String (film.unsaved(), 0)), TRANS ("It is not saved yet."),
+                      { { TRANS ("Save"), [this, close] { hand.film().saveKept ([this, close] { closeWithFilm (close); }); } },
+                        { TRANS ("Don't save"), end },
+                        { TRANS ("Cancel"), {} } });
     else
         end();
 }

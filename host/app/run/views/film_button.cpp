@@ -75,6 +75,7 @@ void FilmButton::openMenu()
             if (safe != nullptr) act (*safe);
         });
     };
+    if (kept) add (menu, filled (TRANS ("Save the film of %1 s..."), juce::String (kept->seconds(), 1)), true, false, [] (FilmButton& b) { b.saveKept(); });
     const bool has_something = tape().end() > 0;
     const bool is_hidden = ! has_something && playback.current().isRunning();
     const auto last = is_hidden ? TRANS ("Save the last %1 s...: only while 3D is shown") : TRANS ("Save the last %1 s...");
@@ -91,10 +92,12 @@ void FilmButton::openMenu()
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (this));
 }
 
-void FilmButton::saveLast() { ask (tape().last (length_s)); }
+void FilmButton::saveLast() { ask (std::make_shared<Film> (tape().last (length_s)), {}); }
+void FilmButton::saveKept (std::function<void()> then) { ask (kept, std::move (then)); }
 
 void FilmButton::begin()
 {
+    kept.reset();
     first_tick = tape().end();
     tape().keep (FilmTape::longest_s);
 }
@@ -102,14 +105,18 @@ void FilmButton::begin()
 void FilmButton::end (std::function<void()> then)
 {
     if (const auto first = std::exchange (first_tick, {}))
-        ask (tape().end() < *first ? tape().last (FilmTape::longest_s) : tape().since (*first), std::move (then));
+    {
+        auto film = std::make_shared<Film> (tape().end() < *first ? tape().last (FilmTape::longest_s) : tape().since (*first));
+        if (! film->ticks.empty() && ! film->states.empty()) kept = film;
+        ask (std::move (film), then);
+    }
     tape().keep (length_s);
 }
 
-void FilmButton::ask (Film film, std::function<void()> then)
+void FilmButton::ask (std::shared_ptr<const Film> film, const std::function<void()>& then)
 {
     if (job) return;
-    if (film.ticks.empty() || film.states.empty())
+    if (! film || film->ticks.empty() || film->states.empty())
     {
         if (onHint) onHint (TRANS ("There is no film to save yet: start the graph, and move the tool"));
         return;
@@ -117,10 +124,10 @@ void FilmButton::ask (Film film, std::function<void()> then)
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     folder.createDirectory();
     const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
-    ask (std::make_shared<Film> (std::move (film)), file.getFullPathName().toStdString(), std::move (then));
+    ask (std::move (film), file.getFullPathName().toStdString(), then);
 }
 
-void FilmButton::ask (std::shared_ptr<Film> film, const std::filesystem::path& begin, std::function<void()> then)
+void FilmButton::ask (std::shared_ptr<const Film> film, const std::filesystem::path& begin, std::function<void()> then)
 {
     if (! onChoose) return;
     onChoose (begin, [safe = juce::Component::SafePointer (this), film = std::move (film), then = std::move (then)] (const std::filesystem::path& named) {
@@ -129,20 +136,22 @@ void FilmButton::ask (std::shared_ptr<Film> film, const std::filesystem::path& b
 }
 
 /// The dialog has asked only about the .png.
-void FilmButton::saveOrAskAgain (std::shared_ptr<Film> film, const std::filesystem::path& named, const std::function<void()>& then)
+void FilmButton::saveOrAskAgain (std::shared_ptr<const Film> film, const std::filesystem::path& named, const std::function<void()>& then)
 {
     if (const auto taken = fileInTheWay (named))
     {
         if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
         return ask (std::move (film), named, then);
     }
-    save (std::move (*film), named);
+    save (std::move (film), named);
     if (then) then();
 }
 
-void FilmButton::save (Film film, const std::filesystem::path& named)
+void FilmButton::save (std::shared_ptr<const Film> film, const std::filesystem::path& named)
 {
     is_saved = false;
+    kept = film;
+    saved_as = named;
     job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
     refresh();
 }
@@ -154,6 +163,7 @@ void FilmButton::finish()
     juce::String text;
     if (result)
     {
+        kept.reset();
         text = filled (TRANS ("Saved %1"), result->files.front().string());
         for (std::size_t i = 1; i < result->files.size(); ++i)
             text << ", " << juce::String (result->files[i].extension().string());
@@ -161,7 +171,7 @@ void FilmButton::finish()
             text << ". " << juce::String (messageText (note));
     }
     else
-        text = juce::String (messageText (result.error()));
+        text = filled (TRANS ("%1: %2. The menu of Film keeps the film until it is saved."), saved_as.filename().string(), messageText (result.error()));
     job.reset();
     label (TRANS ("Film"));
     if (onHint) onHint (text);

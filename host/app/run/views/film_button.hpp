@@ -35,7 +35,13 @@ public:
     void begin();      ///< films from now on
     /// Asks for a name, and saves what was filmed. `then` is called once it is being saved; never if the user cancels.
     void end (std::function<void()> then = {});
-    void save (Film, const std::filesystem::path&);   ///< saves a film under this name
+    void save (std::shared_ptr<const Film>, const std::filesystem::path&);   ///< saves a film under this name
+
+    /// The length of the film that was filmed, or was to be saved, and is not complete in its files; 0 if there is none. It is kept until it is
+    /// saved, or another one begins.
+    double unsaved() const { return kept && ! job ? kept->seconds() : 0.0; }
+    void saveKept (std::function<void()> then = {});   ///< like end(), for this film
+
     bool isFilming() const noexcept { return first_tick.has_value(); }
     bool isSaving() const noexcept { return job != nullptr; }
     double progress() const noexcept { return job ? job->progress() : 0.0; }                  ///< of the saving, 0…1
@@ -47,9 +53,9 @@ public:
 private:
     void click();
     void openMenu();
-    void ask (Film, std::function<void()> then = {});
-    void ask (std::shared_ptr<Film>, const std::filesystem::path& begin, std::function<void()> then);
-    void saveOrAskAgain (std::shared_ptr<Film>, const std::filesystem::path&, const std::function<void()>& then);
+    void ask (std::shared_ptr<const Film>, const std::function<void()>& then);
+    void ask (std::shared_ptr<const Film>, const std::filesystem::path& begin, std::function<void()> then);
+    void saveOrAskAgain (std::shared_ptr<const Film>, const std::filesystem::path&, const std::function<void()>& then);
     void label (const juce::String&);
     FilmTape& tape() const { return playback.current().film(); }
     void finish();
@@ -61,6 +67,8 @@ private:
     LabelButton button { TRANS ("Film"), TRANS ("Saves the scene as a film: pictures, sound and force") };
     double length_s = 10.0;
     std::optional<std::uint64_t> first_tick;   // while it films
+    std::shared_ptr<const Film> kept;          // not saved yet
+    std::filesystem::path saved_as;            // by the job
     std::unique_ptr<FilmJob> job;
     bool is_saved = false;
 };

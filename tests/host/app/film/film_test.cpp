@@ -245,7 +245,7 @@ TEST_CASE ("the button saves what the scene showed, while the run continues", "[
     CHECK (filmed.states.size() > 1);
     const auto ticks = filmed.ticks;
     const auto before = playback.run().status()->ticks;
-    film.save (std::move (filmed), folder / "film.png");
+    film.save (std::make_shared<Film> (std::move (filmed)), folder / "film.png");
     CHECK (film.isSaving());
     REQUIRE (until ([&] { return ! film.isSaving(); }));
     CHECK (playback.run().status()->ticks > before);   // it kept running

@@ -119,10 +119,45 @@ TEST_CASE ("Cancel keeps the window, and the film is saved, and so does a film t
         REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
         CHECK_FALSE (c.film().isSaved());
         CHECK (c.w.view->statusText().isNotEmpty());   // why
+        CHECK (c.film().unsaved() > 0.0);
     }
     WindowRig::settle (100);
     CHECK_FALSE (c.question().isOpen());
     CHECK (c.closed == 0);
+}
+
+TEST_CASE ("a film that was filmed is kept until it is saved, whatever the user cancels, and closing asks about it", "[app][closing]")
+{
+    Closing c;
+    const auto save = c.w.view->chooseFile;
+    c.w.view->chooseFile = [] (bool, const fs::path&, const auto&) {};   // Cancel
+    c.filmSomething();
+    c.film().end();
+    CHECK_FALSE (c.film().isSaving());
+    const double length = c.film().unsaved();
+    CHECK (length > 0.3);
+
+    c.close();
+    REQUIRE (c.question().title().startsWith ("Save the film"));
+    c.question().answer (2);   // Cancel
+    CHECK (c.closed == 0);
+
+    c.folder.write ("in the way", "");
+    c.w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) { then (c.folder / "in the way" / "film.png"); };
+    c.film().saveKept();
+    REQUIRE (waitFor ([&] { return ! c.film().isSaving(); }));
+    CHECK (c.w.view->statusText().contains ("keeps the film"));
+    CHECK (c.film().unsaved() == length);
+
+    c.w.view->chooseFile = save;
+    c.close();
+    c.question().answer (0);   // Save
+    REQUIRE (c.question().title() == "A film is being saved");
+    c.question().answer (0);
+    REQUIRE (waitFor ([&] { return c.closed == 1; }));
+    const auto table = readTable (filmFile (c.chosen, ".csv"));
+    REQUIRE (table);
+    CHECK (table->rows() > 100);
 }
 
 TEST_CASE ("a film can be discarded at closing, and what was changed while it was saved is asked about", "[app][closing]")
