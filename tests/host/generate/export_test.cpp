@@ -290,12 +290,12 @@ TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
     CHECK (static_cast<int> (compared.size()) == program.graphCount());
     CHECK (linesWith (said, ", 0 differ") == compared);
 
-    // The memory of a small board, minus some for the stack and everything else. See docs/export.md for the one that does not fit.
+    // The memory of a small board, minus some for the stack and everything else. See docs/export.md for those that do not fit.
     constexpr unsigned long memory = 512 * 1024 - 32 * 1024;
     int fitting = 0;
     for (const auto& line : linesWith (said, " bytes, "))
         fitting += std::stoul (line.substr (line.find (": ") + 2)) <= memory ? 1 : 0;
-    CHECK (fitting >= program.graphCount() - 1);
+    CHECK (fitting >= program.graphCount() - 2);
 }
 
 TEST_CASE ("presets in single precision are close to the engine, and have the same bits on a Cortex-M4 without doubles", "[.export_m4]")

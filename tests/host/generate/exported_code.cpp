@@ -213,7 +213,7 @@ namespace
 std::string compilerFor (ExportedProgram::Board board)
 {
     const std::string unit = board == ExportedProgram::Board::m7 ? "-mcpu=cortex-m7 -mfpu=fpv5-d16" : "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16";
-    return "arm-none-eabi-g++ " + unit + " -mthumb -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections -fdata-sections ";
+    return "arm-none-eabi-g++ " + unit + " -mthumb -mfloat-abi=hard -Wno-psabi -fno-threadsafe-statics -ffunction-sections -fdata-sections ";
 }
 }   // namespace
 
