@@ -217,6 +217,9 @@ TEST_CASE ("an emergency stop from another thread holds all efforts at zero unti
     for (int k = 0; k < 20; ++k)
         engine.tick();
     CHECK_FALSE (engine.isEmergency());
+    CHECK (right.last.axes[1] == Approx (2.0 * 20 / (Guard::rearm_ramp_s * rate_hz)));
+    for (int k = 20; k <= Guard::rearm_ramp_s * rate_hz; ++k)
+        engine.tick();
     CHECK (right.last.axes[1] == 2.0);
     CHECK (left.last.axes[0] == 2.0);
 }
