@@ -64,11 +64,12 @@ public:
         const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
         const bool is_down = key.isKeyCode (juce::KeyPress::downKey) || key.isKeyCode (juce::KeyPress::leftKey);
         const bool is_digit = isTypedNumber (key);
-        if (! is_up && ! is_down && ! is_digit && ! key.isKeyCode (juce::KeyPress::returnKey)) return false;
+        if (! is_up && ! is_down && ! is_digit && ! isErasing (key) && ! key.isKeyCode (juce::KeyPress::returnKey)) return false;
         if (refusesHand()) return true;
         if (! is_up && ! is_down)
         {
             typeValue();
+            if (isErasing (key)) field->clear();
             if (is_digit) field->insertTextAtCaret (juce::String::charToString (key.getTextCharacter()));
             field->onReturnKey = [this] {
                 field->apply();

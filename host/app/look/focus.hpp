@@ -25,6 +25,15 @@ inline bool isTypedNumber (const juce::KeyPress& key)
     return ((c >= '0' && c <= '9') || c == '-' || c == '.') && ! key.getModifiers().isCommandDown() && ! key.getModifiers().isAltDown();
 }
 
+/// A key that erases a value, so that another one can be typed.
+inline bool isErasing (const juce::KeyPress& key) { return key == juce::KeyPress::deleteKey || key == juce::KeyPress::backspaceKey; }
+
+inline bool isArrow (const juce::KeyPress& key)
+{
+    using K = juce::KeyPress;
+    return key.isKeyCode (K::upKey) || key.isKeyCode (K::downKey) || key.isKeyCode (K::leftKey) || key.isKeyCode (K::rightKey);
+}
+
 /// Applies what is being typed into this component if it is a field, as Return does. JUCE tells a field only later that it has lost the focus, when the
 /// graph may have been saved, replaced or started without it.
 inline void endTyping (juce::Component* in = juce::Component::getCurrentlyFocusedComponent())

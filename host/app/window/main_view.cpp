@@ -127,6 +127,7 @@ MainView::Shares MainView::shares()
 
 void MainView::rememberPanels()
 {
+    if (is_canvas_alone) return;   // the next start shows the panels
     settings.panels.clear();
     for (const auto& [name, edge] : edges())
         if (const auto share = edge->share()) settings.panels[name] = *share;
@@ -144,6 +145,7 @@ void MainView::restorePanels (const Shares& to)
     shares_before = to;
     for (std::size_t i = 0; const auto& [name, edge] : edges())
         edge->restore (to[i++]);
+    is_canvas_alone = is_canvas_alone && left_edge.isFolded() && right_edge.isFolded() && bottom_edge.isFolded();
     edgeMoved();
 }
 
@@ -163,12 +165,24 @@ void MainView::panelsMoved()
 void MainView::foldPanels()
 {
     const std::array folding { &left_edge, &right_edge, &bottom_edge };
-    const bool is_any_open = ! std::ranges::all_of (folding, &Splitter::isFolded);
-    if (is_any_open) std::ranges::transform (folding, folded_before.begin(), &Splitter::isFolded);
-    for (std::size_t i = 0; auto* edge : folding)
-        edge->fold (is_any_open || folded_before[i++]);
+    if (is_canvas_alone || std::ranges::all_of (folding, &Splitter::isFolded))
+    {
+        // A panel that was opened meanwhile stays open.
+        for (std::size_t i = 0; i < folding.size(); ++i)
+            folding[i]->fold (folding[i]->isFolded() && folded_before[i]);
+        folded_before = {};
+        is_canvas_alone = false;
+    }
+    else
+    {
+        std::ranges::transform (folding, folded_before.begin(), &Splitter::isFolded);
+        for (auto* edge : folding)
+            edge->fold (true);
+        is_canvas_alone = true;
+    }
     edgeMoved();
     panelsMoved();
+    if (is_canvas_alone) status.notify (TRANS ("The panels are hidden. Z shows them again."));
 }
 
 void MainView::applySettings()

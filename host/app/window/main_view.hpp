@@ -261,6 +261,7 @@ private:
     void restorePanels (const Shares&);
     Shares shares_before {};                // at the last step of the history
     std::array<bool, 3> folded_before {};   // by panel, before foldPanels() folded them all
+    bool is_canvas_alone = false;           // foldPanels() has folded them, until it brings them back
     TopBar top { edited };
     Canvas patching;
     Inspector inspector;

@@ -70,6 +70,9 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     // Elsewhere, Tab goes to the next field.
     if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
+    // What moves or deletes the selected nodes is for the canvas alone: in a panel, such a key is meant for a value.
+    const bool is_in_panel = inspector.hasKeyboardFocus (true) || bottom.hasKeyboardFocus (true);
+    if (is_in_panel && (isErasing (key) || isArrow (key))) return scopes.keyPressed (key);
     const bool is_hidden = ! patching.isVisible();   // you would not see what you edit
     return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }

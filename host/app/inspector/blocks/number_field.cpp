@@ -162,9 +162,9 @@ void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 bool NumberField::keyPressed (const juce::KeyPress& key)
 {
     constexpr double step = 4.0, fine = 0.1;   // an arrow key acts like a drag by this many pixels; fine: with Shift
-    const bool is_up = key.isKeyCode (juce::KeyPress::upKey);
-    if (is_up || key.isKeyCode (juce::KeyPress::downKey))
+    if (isArrow (key))
     {
+        const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
         if (refusesHand()) return true;
         const double pixels = (is_up ? step : -step) * (key.getModifiers().isShiftDown() ? fine : 1.0);
         grabbed = value;
@@ -174,9 +174,10 @@ bool NumberField::keyPressed (const juce::KeyPress& key)
         return true;
     }
     const bool digit = isTypedNumber (key);
-    if (! key.isKeyCode (juce::KeyPress::returnKey) && ! digit) return false;
+    if (! key.isKeyCode (juce::KeyPress::returnKey) && ! digit && ! isErasing (key)) return false;
     if (refusesHand()) return true;
     openEditor();
+    if (isErasing (key)) editor->clear();
     if (digit) editor->insertTextAtCaret (juce::String::charToString (key.getTextCharacter()));
     return true;
 }

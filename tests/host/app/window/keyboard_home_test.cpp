@@ -331,3 +331,33 @@ TEST_CASE ("W wires a vector into a number: the list asks for the component", "[
     CHECK (std::ranges::count (w.view->canvas().scene().wires(), "hand.position.z -> touch.depth", &SceneWire::text) == 1);
     CHECK (WindowRig::focused() == &w.view->canvas());
 }
+
+TEST_CASE ("a key that erases or moves is for the value that has the focus, not for the selected node", "[app][keyboard]")
+{
+    WindowRig w { "dry_wood.json", 1280, 720, false };
+    const auto board = [&]() -> const graph::Node& { return *w.graph().root.find ("board"); };
+    const auto before = board();
+    w.view->canvas().select ({ before.id });
+    WindowRig::settle();
+    w.key ("return");   // to its first value
+    w.key ("cursor right");
+    CHECK (board().params != before.params);
+    CHECK (board().extra == before.extra);   // where it is
+    w.key ("cursor left");
+    CHECK (board().extra == before.extra);
+
+    for (const char* key : { "backspace", "delete" })
+    {
+        w.key (key);   // begins to type
+        REQUIRE (w.graph().root.find ("board") != nullptr);
+        w.stage->type ("900");
+        w.key ("return");
+        CHECK (board().params.dump().find ("900") != std::string::npos);
+        w.key (key);
+        w.key ("escape");
+        REQUIRE (w.graph().root.find ("board") != nullptr);
+        CHECK (board().params.dump().find ("900") != std::string::npos);
+        w.key ("return");
+        REQUIRE (w.graph().root.find ("board") != nullptr);
+    }
+}
