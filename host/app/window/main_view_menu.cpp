@@ -159,7 +159,8 @@ juce::PopupMenu MainView::windowMenu()
         applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
         saveSettingsSoon(); },
         light));
-    menu.addItem (menuItem (TRANS ("Only the canvas: hide the panels"), keyText ("z"), [this] { foldPanels(); }, is_canvas_alone));
+    menu.addItem (menuItem (
+        TRANS ("Only the canvas: hide the panels"), keyText ("z"), [this] { foldPanels(); }, is_canvas_alone));
     menu.addSubMenu (TRANS ("Interface scale"), size);
     menu.addSubMenu (TRANS ("Language"), languageMenu());
     menu.addItem (menuItem (
