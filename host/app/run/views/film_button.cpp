@@ -93,7 +93,7 @@ void FilmButton::openMenu()
 }
 
 void FilmButton::saveLast() { ask (std::make_shared<Film> (tape().last (length_s)), {}); }
-void FilmButton::saveKept (std::function<void()> then) { ask (kept, std::move (then)); }
+void FilmButton::saveKept (const std::function<void()>& then) { ask (kept, then); }
 
 void FilmButton::begin()
 {
@@ -102,7 +102,7 @@ void FilmButton::begin()
     tape().keep (FilmTape::longest_s);
 }
 
-void FilmButton::end (std::function<void()> then)
+void FilmButton::end (const std::function<void()>& then)
 {
     if (const auto first = std::exchange (first_tick, {}))
     {

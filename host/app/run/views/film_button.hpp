@@ -34,13 +34,13 @@ public:
     void saveLast();   ///< asks for a name, and saves the last seconds
     void begin();      ///< films from now on
     /// Asks for a name, and saves what was filmed. `then` is called once it is being saved; never if the user cancels.
-    void end (std::function<void()> then = {});
+    void end (const std::function<void()>& then = {});
     void save (std::shared_ptr<const Film>, const std::filesystem::path&);   ///< saves a film under this name
 
     /// The length of the film that was filmed, or was to be saved, and is not complete in its files; 0 if there is none. It is kept until it is
     /// saved, or another one begins.
     double unsaved() const { return kept && ! job ? kept->seconds() : 0.0; }
-    void saveKept (std::function<void()> then = {});   ///< like end(), for this film
+    void saveKept (const std::function<void()>& then = {});   ///< like end(), for this film
 
     bool isFilming() const noexcept { return first_tick.has_value(); }
     bool isSaving() const noexcept { return job != nullptr; }

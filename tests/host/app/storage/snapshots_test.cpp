@@ -5,6 +5,8 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/history.hpp>
 
+#include <catch2/catch.hpp>
+
 using namespace tactus;
 using namespace tactus::host;
 

@@ -336,15 +336,15 @@ TEST_CASE ("a key that erases or moves is for the value that has the focus, not 
 {
     WindowRig w { "dry_wood.json", 1280, 720, false };
     const auto board = [&]() -> const graph::Node& { return *w.graph().root.find ("board"); };
-    const auto before = board();
-    w.view->canvas().select ({ before.id });
+    const auto params = board().params, at = board().extra;   // and where it is
+    w.view->canvas().select ({ board().id });
     WindowRig::settle();
     w.key ("return");   // to its first value
     w.key ("cursor right");
-    CHECK (board().params != before.params);
-    CHECK (board().extra == before.extra);   // where it is
+    CHECK (board().params != params);
+    CHECK (board().extra == at);
     w.key ("cursor left");
-    CHECK (board().extra == before.extra);
+    CHECK (board().extra == at);
 
     for (const char* key : { "backspace", "delete" })
     {
