@@ -50,7 +50,10 @@ void forEachPatch (const graph::Graph& g, const std::function<void (const std::s
         visit (name, patch);
 }
 
-const Json& nodesIn (const Json& snapshot, const std::string& patch) { return at (patch.empty() ? snapshot : at (snapshot, "graphs"), patch.empty() ? "nodes" : patch); }
+const Json& nodesIn (const Json& snapshot, const std::string& patch)
+{
+    return patch.empty() ? at (snapshot, "nodes") : at (at (snapshot, "graphs"), patch);
+}
 
 /// True if recall() would change nothing. The nodes of a snapshot usually have the order of the patch, so most are found without a search.
 bool isAt (const graph::Patch& patch, const Json& nodes)

@@ -335,7 +335,8 @@ std::string Files::knownHash() const
 
 AutosavedDocument Files::autosaved (bool is_changed, std::string text) const
 {
-    return { document.file(), document.preset(), is_changed, clock(), std::move (text), document.graph().folder, callbacks.isByPointer(), knownHash(), was_stopped };
+    const bool by_pointer = callbacks.isByPointer();
+    return { document.file(), document.preset(), is_changed, clock(), std::move (text), document.graph().folder, by_pointer, knownHash(), was_stopped };
 }
 
 /// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
