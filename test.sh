@@ -40,7 +40,7 @@ case $mode in
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool openbox x11-utils)
+packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray python3-matplotlib xvfb xdotool openbox x11-utils)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
@@ -49,8 +49,8 @@ case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
-case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe python3-nbsphinx python3-ipykernel python3-matplotlib pandoc libjs-mathjax doxygen) ;; esac
-[ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
+case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe python3-nbsphinx python3-ipykernel pandoc libjs-mathjax doxygen) ;; esac
+[ "$mode" = --figures ] && packages+=(valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
