@@ -172,7 +172,7 @@ void CanvasCommands::groupSelection()
     for (const auto* n : selectedNodes())
         all = all.isEmpty() ? n->bounds() : all.getUnion (n->bounds());
     auto then = graphWithPlaces();
-    graph::Batch batch { graph::nameOf (*command), { *command } };
+    graph::Batch batch { NEEDS_TRANS ("group"), { *command } };
     if (graph::apply (then, *command))
     {
         const auto scene = canvas.sceneOf (then);
@@ -195,7 +195,33 @@ void CanvasCommands::groupSelection()
 
 void CanvasCommands::expandSelection()
 {
-    if (const auto nodes = selectedNodes(); ! nodes.empty()) perform (graph::ExpandNode { canvas.patch(), nodes[0]->name });
+    const auto nodes = selectedNodes();
+    if (nodes.empty()) return;
+    const graph::Command command = graph::ExpandNode { canvas.patch(), nodes[0]->name };
+    graph::Batch batch { NEEDS_TRANS ("ungroup"), { command } };
+    Selection made;
+    juce::Rectangle<float> all;
+    auto then = graphWithPlaces();
+    if (graph::apply (then, command))
+    {
+        const auto scene = canvas.sceneOf (then);
+        std::vector<juce::Rectangle<float>> others;
+        for (const auto& n : scene->nodes())
+            if (canvas.scene().find (n.id) != nullptr)
+                others.push_back (n.bounds());
+            else
+            {
+                made.insert (n.id);
+                all = all.isEmpty() ? n.bounds() : all.getUnion (n.bounds());
+            }
+        const auto to = clearPlace (all.withCentre (nodes[0]->bounds().getCentre()), others);   // where the subgraph was
+        const auto by = to - all.getPosition();
+        batch.commands.push_back (moved (then, canvas.patch(), movedParts (then, canvas.patch(), *scene, made), by));
+        all += by;
+    }
+    if (! perform (std::move (batch))) return;
+    canvas.select (made);
+    canvas.bringIntoView (all);
 }
 
 void CanvasCommands::alignSelection (Alignment how)

@@ -98,6 +98,12 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
 
     for (auto& [name, inside] : read.graph.graphs)
         if (g.find (name) == nullptr) batch.commands.push_back (graph::AddSubgraph { name, inside });
+    const auto covers = [&] (const graph::Node& node) {
+        const auto at = positionOf (node);
+        return at && std::ranges::any_of (patch->nodes, [&] (const graph::Node& n) { return positionOf (n) == *at + offset; });
+    };
+    while (std::ranges::any_of (read.graph.root.nodes, covers))
+        offset += { 32.0, 32.0 };
     std::map<std::string, std::string> renamed;
     std::set<std::string> taken;
     for (auto& node : read.graph.root.nodes)

@@ -18,8 +18,8 @@ namespace tactus::host
 /// Copies nodes and the wires between them as text: a complete graph file that includes the subgraphs they use.
 std::string copyText (const graph::Graph&, const std::string& patch, const std::set<graph::Id>& nodes);
 
-/// Pastes copied text into a patch as one undo step, under free names and moved by `offset`. `made` receives the ids of the new
-/// nodes. Fails if the text is not a graph.
+/// Pastes copied text into a patch as one undo step, under free names and moved by `offset`, or further where a node would
+/// cover another one completely. `made` receives the ids of the new nodes. Fails if the text is not a graph.
 Result<graph::Command> paste (const graph::Graph&, const std::string& patch, const std::string& text, juce::Point<double> offset,
                               std::set<graph::Id>& made);
 

@@ -54,6 +54,10 @@ TEST_CASE ("copied text is a graph file and can be pasted", "[app][canvas]")
     rig.hand().key ("ctrl + v");
     CHECK (rig.hasWire ("board_2.resistance -> drag_2.normal_force"));
     CHECK (rig.canvas->selection().size() == 2);
+    rig.hand().key ("ctrl + v");   // beside the first copy
+    CHECK (rig.node ("drag_3").at != rig.node ("drag_2").at);
+    CHECK (rig.node ("drag_3").at - rig.node ("board_3").at == rig.node ("drag_2").at - rig.node ("board_2").at);
+    rig.hand().key ("ctrl + z");
     rig.hand().key ("ctrl + z");
     CHECK (rig.graph().root.find ("drag_2") == nullptr);
 
@@ -136,11 +140,24 @@ TEST_CASE ("a subgraph can be created, entered, left and ungrouped", "[app][canv
     rig.hand().key ("u");
     CHECK (rig.canvas->patch().empty());
     CHECK (selects (rig, "group"));
+
+    // Ungrouped nodes are selected, where the subgraph was, and side by side as they were in it.
+    const auto old_place = rig.node ("group").bounds();
+    rig.canvas->commands().nudgeSelection ({ 400.0f, 640.0f });
+    const auto group = rig.node ("group").bounds();
+    REQUIRE (group.getY() > old_place.getY());
     rig.hand().key ("shift + g");
     CHECK (rig.graph().graphs.empty());
-    CHECK (rig.graph().root.find ("grain") != nullptr);
+    REQUIRE (rig.graph().root.find ("grain") != nullptr);
+    CHECK (rig.canvas->selection() == Selection { rig.node ("grain").id, rig.node ("grain_felt").id });
+    const auto both = rig.node ("grain").bounds().getUnion (rig.node ("grain_felt").bounds());
+    CHECK (std::abs (both.getCentreX() - group.getCentreX()) < 32.0f);
+    CHECK (std::abs (both.getCentreY() - group.getCentreY()) < both.getHeight());
+    CHECK_FALSE (rig.node ("grain").bounds().intersects (rig.node ("grain_felt").bounds()));
+    CHECK (rig.document.history().names().back() == "ungroup");
 
     // Undoing the creation of the subgraph from inside it leads back out.
+    rig.hand().key ("ctrl + z");
     rig.hand().key ("ctrl + z");
     rig.hand().doubleClick (rig.title ("group"));
     CHECK (rig.canvas->patch() == "group");
