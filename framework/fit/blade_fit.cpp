@@ -144,7 +144,7 @@ double meanOf (const std::vector<double>& v, Index from, Index to)
     return sum / static_cast<double> (to - from);
 }
 
-/// The largest drop of the force while the blade goes in. It must be clearly larger than the noise.
+/// The largest drop of the force while the blade goes in, inside the sample. It must be clearly larger than the noise.
 void findBurst (Cut& cut)
 {
     const Index n = cut.size(), window = std::clamp<Index> (n / 60, 2, 12);
@@ -160,7 +160,7 @@ void findBurst (Cut& cut)
     for (Index i = window; i + window <= n; ++i)
     {
         const auto k = static_cast<std::size_t> (i);
-        if (! (cut.depth[k] > cut.depth[k - 1])) continue;
+        if (! (cut.depth[k] > cut.depth[k - 1] && cut.depth[k - 1] > 0.0)) continue;
         const double fall = meanOf (cut.force, i - window, i) - meanOf (cut.force, i, i + window),
                      before = cut.depth[k - 1] - cut.depth[static_cast<std::size_t> (i - window)];
         if (fall <= largest || before < 0.0) continue;
@@ -231,7 +231,7 @@ FoundCut searchCut (const Cut& around, FitCourse* course)
     {
         Cut cut = around;
         cut.last_whole += aside;
-        if (cut.bursts && (cut.last_whole < 4 || cut.last_whole + 4 > cut.size())) continue;
+        if (cut.bursts && (cut.last_whole < 4 || cut.last_whole + 4 > cut.size() || ! (cut.depth[static_cast<std::size_t> (cut.last_whole)] > 0.0))) continue;
         detail::setShare (course, 0.15 * static_cast<double> (aside + most));
         start (cut, false);
     }
@@ -311,7 +311,7 @@ Result<BladeFit> fitBlade (const RecordedCut& recorded, FitCourse* course)
     if (! read) return read.error();
     const auto found = searchCut (*read, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
-    if (! std::isfinite (found.score))
+    if (! std::isfinite (found.score) || ! (CutSearch (found.cut, found.is_bent, course).atLength (found.fit.x) > 0.0))
         return fitError ("fit/no_cut", "the force does not change with the depth as in a cut", "check the columns: depth in m, force in N");
     const auto& cut = found.cut;
 
