@@ -225,7 +225,7 @@ fi
 
 if [ "$mode" = --packages ]; then
     build release
-    build release all_node_plugins
+    build release all_node_plugins instructions
     say "As part of another project"
     tests/install/parent.sh --build
     say "All nodes as plugins"
