@@ -98,11 +98,15 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
 
     for (auto& [name, inside] : read.graph.graphs)
         if (g.find (name) == nullptr) batch.commands.push_back (graph::AddSubgraph { name, inside });
+    std::set<std::pair<double, double>> places;
+    for (const auto& n : patch->nodes)
+        if (const auto at = positionOf (n)) places.emplace (at->x, at->y);
     const auto covers = [&] (const graph::Node& node) {
         const auto at = positionOf (node);
-        return at && std::ranges::any_of (patch->nodes, [&] (const graph::Node& n) { return positionOf (n) == *at + offset; });
+        return at && places.contains ({ at->x + offset.x, at->y + offset.y });
     };
-    while (std::ranges::any_of (read.graph.root.nodes, covers))
+    // The number of steps is limited, because a copied position may be so large that a step does not change it.
+    for (std::size_t i = 0; i < places.size() && std::ranges::any_of (read.graph.root.nodes, covers); ++i)
         offset += { 32.0, 32.0 };
     std::map<std::string, std::string> renamed;
     std::set<std::string> taken;

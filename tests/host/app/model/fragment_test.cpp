@@ -30,3 +30,13 @@ TEST_CASE ("the corner of copied text is the minimum of its node positions", "[f
     const auto& batch = std::get<graph::Batch> (pasted->edit);
     CHECK (std::get<graph::AddNode> (batch.commands[0].edit).node.extra.at ("ui").at ("at") == Json::array ({ 100.0, 416.0 }));
 }
+
+TEST_CASE ("a paste ends, however large the positions are", "[fragment]")
+{
+    auto g = Sketch {}.node ("a", "signal.constant").graph;
+    g.root.nodes[0].id = 1;
+    g.root.nodes[0].extra["ui"]["at"] = Json::array ({ 1e300, -1e300 });
+    std::set<graph::Id> made;
+    CHECK (paste (g, "", copyText (g, "", { 1 }), {}, made));
+    CHECK (made.size() == 1);
+}
