@@ -26,12 +26,22 @@ double si (const Json& written)
     return read ? read->value : 0.0;
 }
 
-std::string freeId (const graph::Graph& g, const std::string& wanted)
+/// `wanted`, with a number after `separator` if a control already has it as this member.
+std::string freed (const graph::Graph& g, const std::string& wanted, std::string graph::Control::*member, char separator)
 {
-    auto id = wanted;
-    for (int i = 2; findControl (g, id) != nullptr; ++i)
-        id = wanted + '_' + std::to_string (i);
-    return id;
+    auto free = wanted;
+    for (int i = 2; std::ranges::find (g.controls, free, member) != g.controls.end(); ++i)
+        free = wanted + separator + std::to_string (i);
+    return free;
+}
+
+/// A control without targets, with an id and a name of its own.
+graph::Control freshControl (const graph::Graph& g, const std::string& id, const std::string& name)
+{
+    graph::Control c;
+    c.id = freed (g, id, &graph::Control::id, '_');
+    c.name = freed (g, name, &graph::Control::name, ' ');
+    return c;
 }
 
 /// Turns "drag.break_away" into "Break away".
@@ -70,10 +80,8 @@ std::optional<graph::Command> moveControlFor (const graph::Graph& g, const Contr
 
 graph::Command newControlFor (const graph::Graph& g, const std::string& path, const Json& low, const Json& high, double now_si)
 {
-    graph::Control c;
-    auto wanted = path.substr (path.rfind ('.') + 1);
-    c.id = freeId (g, wanted.substr (0, wanted.find ('[')));
-    c.name = titleOf (path);
+    const auto param = path.substr (path.rfind ('.') + 1);
+    auto c = freshControl (g, param.substr (0, param.find ('[')), titleOf (path));
     const double a = si (low), b = si (high);
     c.value = a == b ? 0.5 : std::clamp ((now_si - a) / (b - a), 0.0, 1.0);
     c.to.push_back ({ path, low, high });
@@ -82,10 +90,7 @@ graph::Command newControlFor (const graph::Graph& g, const std::string& path, co
 
 graph::Command newControl (const graph::Graph& g)
 {
-    graph::Control c;
-    c.id = freeId (g, "control");
-    c.name = TRANS ("Control").toStdString();
-    return graph::AddControl { std::move (c) };
+    return graph::AddControl { freshControl (g, "control", TRANS ("Control").toStdString()) };
 }
 
 }   // namespace tactus::host

@@ -8,6 +8,7 @@
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/assets/file_assets.hpp>
+#include <tactus/graph/edit.hpp>
 #include <tactus/graph/history.hpp>
 
 #include <catch2/catch.hpp>
@@ -83,6 +84,23 @@ TEST_CASE ("a law can be converted to any kind and agrees at 1 N", "[inspector]"
         }
         if (kind == "table") CHECK (law["table"][1][2].get<double>() == Approx (1.0).epsilon (0.01));
     }
+}
+
+TEST_CASE ("each new control has an id and a name of its own", "[inspector]")
+{
+    graph::Graph g;
+    for (const char* node : { "drag", "wall", "skin" })
+        REQUIRE (graph::apply (g, newControlFor (g, std::string (node) + ".break_away", 0.0, 1.0, 0.5), graph::Checks::none));
+    for (int i = 0; i < 2; ++i)
+        REQUIRE (graph::apply (g, newControl (g), graph::Checks::none));
+    std::vector<std::string> ids, names;
+    for (const auto& c : g.controls)
+    {
+        ids.push_back (c.id);
+        names.push_back (c.name);
+    }
+    CHECK (ids == std::vector<std::string> { "break_away", "break_away_2", "break_away_3", "control", "control_2" });
+    CHECK (names == std::vector<std::string> { "Break away", "Break away 2", "Break away 3", "Control", "Control 2" });
 }
 
 TEST_CASE ("a control gets the usual range of a parameter, in the unit it is written in", "[inspector]")
