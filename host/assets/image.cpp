@@ -20,7 +20,7 @@ using Read = Result<Grid>;
 
 Message fail (std::string id, std::string_view name, std::string what, std::string remedy)
 {
-    return Message { .id = std::move (id), .where = std::string (name), .text = std::move (what), .remedy = std::move (remedy) };
+    return Message::error (std::move (id), std::string (name), std::move (what), std::move (remedy));
 }
 
 Message broken (std::string_view name, const std::string& why)

@@ -244,11 +244,10 @@ Messages missingTools (const RoleNeeds& needs, const DeviceParts& there)
     tool.others = {};
     Messages messages;
     for (const auto& what : lackingOf (tool, there))
-        messages.push_back ({ .severity = Message::Severity::warning,
-                              .id = "device/missing_tool",
-                              .where = "/devices/" + needs.role,
-                              .text = "the device of the role " + quote (needs.role) + " has " + what,
-                              .remedy = "a missing input reads 0, and a missing output has no effect; to bind another device, see `tactus session --help`" });
+        messages.push_back (Message::warning ("device/missing_tool", "/devices/" + needs.role,
+                                              "the device of the role " + quote (needs.role) + " has " + what,
+                                              "a missing input reads 0, and a missing output has no effect; "
+                                              "to bind another device, see `tactus session --help`"));
     return messages;
 }
 

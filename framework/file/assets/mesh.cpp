@@ -33,7 +33,7 @@ std::string endingOf (std::string_view name)
 
 Message fail (std::string id, std::string where, std::string what, std::string remedy)
 {
-    return Message { .id = std::move (id), .where = std::move (where), .text = std::move (what), .remedy = std::move (remedy) };
+    return Message::error (std::move (id), std::move (where), std::move (what), std::move (remedy));
 }
 }   // namespace
 

@@ -74,9 +74,7 @@ private:
 
     Message failAt (std::size_t line, std::string id, std::string what, std::string remedy) const
     {
-        return Message {
-            .id = std::move (id), .where = std::string (name) + ":" + std::to_string (line), .text = std::move (what), .remedy = std::move (remedy)
-        };
+        return Message::error (std::move (id), std::string (name) + ":" + std::to_string (line), std::move (what), std::move (remedy));
     }
 
     Checked takeRow (std::string_view line)

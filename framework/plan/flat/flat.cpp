@@ -40,7 +40,10 @@ std::string pointerTo (Origin place)
 Message messageAt (Origin origin, Message::Severity severity, std::string id, std::string text, std::string remedy)
 {
     const auto file = fileOf (origin);
-    return { severity, std::move (id), pointerTo (origin), std::move (text), std::move (remedy), file ? std::string (file->text) : "", 0, 0 };
+    auto m = Message::error (std::move (id), pointerTo (origin), std::move (text), std::move (remedy));
+    m.severity = severity;
+    if (file != nullptr) m.file = file->text;
+    return m;
 }
 
 /// Turns a sentence about "finger[3]/drag", or about 'finger[3]', into one about "finger/drag" or 'finger'.

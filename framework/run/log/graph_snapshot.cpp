@@ -60,7 +60,7 @@ private:
 
 Message wrong (std::string where, std::string text)
 {
-    return { .id = "log/graph", .where = std::move (where), .text = std::move (text), .remedy = "use the log unchanged, as `tactus play` wrote it" };
+    return Message::error ("log/graph", std::move (where), std::move (text), "use the log unchanged, as `tactus play` wrote it");
 }
 
 const Json* member (const Json& object, const char* key)
@@ -123,15 +123,13 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
         const auto file = (folder / path).lexically_normal();
         const auto now = fileHash (file);
         if (! now)
-            messages.push_back ({ .id = "log/asset_missing",
-                                  .where = "/assets/" + pointerPart (path),
-                                  .text = quotePath (file) + ", which the run used, cannot be read",
-                                  .remedy = "restore the file; its path is relative to the folder of the log" });
+            messages.push_back (Message::error ("log/asset_missing", "/assets/" + pointerPart (path),
+                                                quotePath (file) + ", which the run used, cannot be read",
+                                                "restore the file; its path is relative to the folder of the log"));
         else if (Json (*now) != hash)
-            messages.push_back ({ .id = "log/asset_changed",
-                                  .where = "/assets/" + pointerPart (path),
-                                  .text = quotePath (file) + " has changed since the run used it",
-                                  .remedy = "restore the old file, or name a graph file on the command line to replay that graph with the new file" });
+            messages.push_back (Message::error ("log/asset_changed", "/assets/" + pointerPart (path),
+                                                quotePath (file) + " has changed since the run used it",
+                                                "restore the old file, or name a graph file on the command line to replay that graph with the new file"));
     }
     return messages;
 }

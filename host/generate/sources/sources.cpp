@@ -33,8 +33,11 @@ std::string_view valueAfter (std::string_view text, std::string_view key, std::s
     return text.substr (begin, text.find (end, begin) - begin);
 }
 
-/// Code that only checks a graph before it is exported.
-bool isOnlyForChecks (std::string_view path) { return path == "tactus/node/device_parts.cpp"; }
+/// Code for reading and checking a graph, which exported code does not call.
+bool isOnlyForChecks (std::string_view path)
+{
+    return path == "tactus/node/device_parts.cpp" || path == "tactus/node/setting.cpp" || path == "tactus/text/message.cpp";
+}
 
 /// True if this file belongs to the header: guard.cpp and guard_event.cpp of guard.hpp.
 bool isCodeOf (std::string_view file, std::string_view header)

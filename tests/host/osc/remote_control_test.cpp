@@ -22,7 +22,7 @@ struct Puppet : RemoteTarget
     Result<> setParam (const std::string& name, const Json& value) override
     {
         said = name + " = " + value.dump();
-        if (name != "drag.mu") return Message { .id = "param/unknown", .where = {}, .text = "no such parameter", .remedy = "try drag.mu" };
+        if (name != "drag.mu") return Message::error ("param/unknown", {}, "no such parameter", "try drag.mu");
         return {};
     }
 
@@ -35,7 +35,7 @@ struct Puppet : RemoteTarget
     Result<> strike (const std::string& input, double speed) override
     {
         said = input + " hit at " + std::to_string (speed);
-        if (input != "ring.hit") return Message { .id = "hit/unknown", .where = {}, .text = "no such input", .remedy = "try ring.hit" };
+        if (input != "ring.hit") return Message::error ("hit/unknown", {}, "no such input", "try ring.hit");
         return {};
     }
 
@@ -52,14 +52,14 @@ struct Puppet : RemoteTarget
             else if (p == "drag.force.y" || p == "drag.state" || p.starts_with ("n."))
                 add (p);
             else
-                return Message { .id = "port/unknown", .where = {}, .text = "no such port", .remedy = "" };
+                return Message::error ("port/unknown", {}, "no such port");
         probed = ports;
         return names;
     }
 
     Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override
     {
-        if (watched == "drag.nothing") return Message { .id = "port/unknown", .where = {}, .text = "no such port", .remedy = "" };
+        if (watched == "drag.nothing") return Message::error ("port/unknown", {}, "no such port");
         said = port + " by " + watched + " at " + std::to_string (trigger.level);
         wanted = trigger;
         capturing = std::make_unique<TriggeredCapture> (trigger, 1, std::vector<std::size_t> { 0, 1 }, 1);
@@ -78,7 +78,7 @@ struct Puppet : RemoteTarget
                + std::to_string (t.speed.value_or (-1.0));
         return {};
     }
-    Result<> start() override { return Message { .id = "osc/start", .where = {}, .text = "it is already running", .remedy = "" }; }
+    Result<> start() override { return Message::error ("osc/start", {}, "it is already running"); }
     void stop() override { stopped = true; }
     void emergencyStop() override { emergency = true; }
     void emergencyNow() noexcept override { ++emergencies_now; }
