@@ -31,6 +31,7 @@ if (objects)
     return ()
 endif ()
 
+cmake_path (ABSOLUTE_PATH archive)   # `cmake --install` may be given a relative prefix
 set (folder ${archive}.own)
 file (REMOVE_RECURSE ${folder})
 file (MAKE_DIRECTORY ${folder})

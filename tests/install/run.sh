@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --component library --prefix "$work/prefix" >/dev/null
-cmake --install "$build" --component development --prefix "$work/prefix" >/dev/null
+(cd "$work" && cmake --install "$build" --component development --prefix prefix >/dev/null)   # a relative prefix works, too
 libs=$(dirname "$(find "$work/prefix" -name 'libtactus.so.*' | head -n 1)")
 
 # No header may need more than Eigen and the standard library, and none may name a file that is not installed.
