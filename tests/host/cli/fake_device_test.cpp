@@ -180,8 +180,11 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
                                   "--session", "off", "--osc", "off", "--out", scratch.path ("out.csv"), "--record", "drag.force" });
     INFO (ran.out + ran.err);
     CHECK (ran.status == 0);
-    if (ran.err.find ("the run paused") == std::string::npos)             // a computer that is too busy has a fault
-        CHECK (ran.err.find ("no valid reading") == std::string::npos);   // what every run on a device begins with
+    const std::string age = "readings up to ";
+    REQUIRE (ran.err.find (age) != std::string::npos);
+    const double oldest_ms = std::stod (ran.err.substr (ran.err.find (age) + age.size()));
+    if (ran.err.find ("the run paused") == std::string::npos && oldest_ms < 20.0)   // a computer that is too busy has a fault
+        CHECK (ran.err.find ("no valid reading") == std::string::npos);             // what every run on a device begins with
 
     // A device that never answers: its stop at the start is the news.
     const auto silent = scratch.path ("silent");
