@@ -78,7 +78,7 @@ void MixStrip::paint (juce::Graphics& g)
     paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, feed.unit);
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    g.drawText (TRANS ("ducking (dB)"), duck_label, juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("ducking"), duck_label, juce::Justification::centredLeft, false);
     g.drawText (feed.unit.empty() ? TRANS ("ceiling") : filled (TRANS ("ceiling (%1)"), feed.unit), ceiling_label, juce::Justification::centredLeft, false);
     auto lines = text_area;
     g.setColour (theme.text);
