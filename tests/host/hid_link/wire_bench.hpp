@@ -151,7 +151,7 @@ struct Bench
         {
             reading = device->read();
             if (device->model().sample().axes[sequence] == static_cast<double> (number)) return true;
-            std::this_thread::yield();
+            std::this_thread::sleep_for (50us);   // a thread that yields in a loop may keep the kernel from passing the bytes on
         } while (WireClock::now() < end);
         return false;
     }
