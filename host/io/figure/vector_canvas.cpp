@@ -115,7 +115,8 @@ std::string escapedForXml (const std::string& text)
 std::string hexText (const std::string& text)
 {
     std::string out = "<FEFF";
-    for (auto utf16 = juce::String::fromUTF8 (text.c_str()).toUTF16(); ! utf16.isEmpty();)
+    const auto owner = juce::String::fromUTF8 (text.c_str());
+    for (auto utf16 = owner.toUTF16(); ! utf16.isEmpty();)
     {
         const auto add = [&out] (unsigned unit) {
             std::array<char, 8> digits;
