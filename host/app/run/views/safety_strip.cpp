@@ -74,7 +74,7 @@ juce::String wallsText (const LiveRun& run)
 }   // namespace
 
 /// STOP in red, or START or REARM in the accent colour.
-class SafetyStrip::StopButton final : public juce::Button
+class SafetyStrip::StopButton final : public juce::Button, juce::Timer
 {
 public:
     StopButton (const juce::String& label, bool in_red) : Button (label), stops (in_red) {}
@@ -85,10 +85,7 @@ public:
         setButtonText (label);
         stops = in_red;
         shown_at = juce::Time::getCurrentTime();
-        // Until then it is dim, as it ignores a click.
-        juce::Timer::callAfterDelay (juce::roundToInt (1e3 * pause_before_start_s) + 1, [safe = SafePointer (this)] {
-            if (safe != nullptr) safe->repaint();
-        });
+        startTimer (juce::roundToInt (1e3 * pause_before_start_s) + 1);   // until then it is dim, as it ignores a click
     }
 
     /// True if the latest click came so soon after a change of the text that it was meant for the old text.
@@ -119,6 +116,12 @@ public:
     }
 
 private:
+    void timerCallback() override
+    {
+        stopTimer();
+        repaint();
+    }
+
     bool isFresh (juce::Time now) const noexcept { return now < shown_at + juce::RelativeTime (pause_before_start_s); }
 
     juce::Time shown_at;   // when the text last changed
