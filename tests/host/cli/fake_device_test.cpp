@@ -183,7 +183,7 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     const std::string age = "readings up to ";
     REQUIRE (ran.err.find (age) != std::string::npos);
     const double oldest_ms = std::stod (ran.err.substr (ran.err.find (age) + age.size()));
-    if (ran.err.find ("the run paused") == std::string::npos && oldest_ms < 20.0)   // a computer that is too busy has a fault
+    if (ran.err.find ("the run paused") == std::string::npos && oldest_ms < 20.0)   // after stale_input of 20 ms, a busy computer has a fault
         CHECK (ran.err.find ("no valid reading") == std::string::npos);             // what every run on a device begins with
 
     // A device that never answers: its stop at the start is the news.
