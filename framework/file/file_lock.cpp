@@ -25,7 +25,8 @@ std::optional<FileLock> FileLock::takeOpened (const std::filesystem::path& path,
     if (opened == INVALID_HANDLE_VALUE) return std::nullopt;
     return FileLock (reinterpret_cast<std::intptr_t> (opened));
 #else
-    const int opened = ::open (path.c_str(), O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0600);
+    // A serial line must not become the terminal of a session that has none: if it were unplugged, the program would end.
+    const int opened = ::open (path.c_str(), O_RDWR | (make ? O_CREAT : 0) | O_NOCTTY | O_CLOEXEC, 0600);
     if (opened < 0) return std::nullopt;
     FileLock lock (opened);
     lock.owner = ::getpid();
