@@ -68,7 +68,7 @@ std::string compressed (int width, int height, Read&& read)
     return { static_cast<const char*> (data.getData()), data.getDataSize() };
 }
 
-std::uint32_t number (int v) { return static_cast<std::uint32_t> (v); }
+std::uint32_t unsignedOf (int v) { return static_cast<std::uint32_t> (v); }
 }   // namespace
 
 bool AnimatedPng::differs (const juce::PixelRGB& a, const juce::PixelRGB& b) const noexcept
@@ -133,11 +133,11 @@ bool AnimatedPng::add (const juce::Image& given, std::uint16_t milliseconds)
     if (frame.getBounds().isEmpty() || (shown.isValid() && frame.getBounds() != shown.getBounds())) return false;
     const auto part = changed (frame);
     const auto data = encoded (frame, part);
-    const auto size = [] (juce::Rectangle<int> r) { return bigEndian (number (r.getWidth())) + bigEndian (number (r.getHeight())); };
+    const auto size = [] (juce::Rectangle<int> r) { return bigEndian (unsignedOf (r.getWidth())) + bigEndian (unsignedOf (r.getHeight())); };
     if (count == 0) header = PngChunk { "IHDR", size (part) + std::string ("\x08\x06\0\0\0", 5) }.bytes();   // 8 bits of RGBA, in rows from top to bottom
 
     constexpr char keep = 0, over = 1;   // the next frame starts from this one, and this one is drawn over the one before
-    const auto place = size (part) + bigEndian (number (part.getX())) + bigEndian (number (part.getY()));
+    const auto place = size (part) + bigEndian (unsignedOf (part.getX())) + bigEndian (unsignedOf (part.getY()));
     body += PngChunk { "fcTL", bigEndian (sequence++) + place + bigEndian (milliseconds, 2) + bigEndian (1000, 2) + keep + over }.bytes();
     body += (count == 0 ? PngChunk { "IDAT", data } : PngChunk { "fdAT", bigEndian (sequence++) + data }).bytes();
     ++count;
