@@ -36,6 +36,7 @@ build ()
     local preset=$1
     shift
     say "Building $preset${*:+: $*} (the first time takes some minutes)"
-    [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
+    [ -f "build/$preset/build.ninja" ] && grep -qx "TACTUS_BENCH:BOOL=${bench:-OFF}" "build/$preset/CMakeCache.txt" ||
+        cmake --preset "$preset" -D TACTUS_BENCH="${bench:-OFF}"
     cmake --build --preset "$preset" ${*:+--target "$@"}
 }

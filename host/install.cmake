@@ -37,16 +37,18 @@ add_custom_command (OUTPUT ${made}/written
     COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/profiles ${made}/70-tactus.rules
     COMMAND ${python} ${packaging}/changelogs.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${TACTUS_MAINTAINER} ${made}
     COMMAND ${CMAKE_COMMAND} -E touch ${made}/written
-    DEPENDS tactus tactus-bench tactus-host ${check_plugin} ${profiles} CHANGELOG.md
+    DEPENDS tactus tactus-host ${check_plugin} ${profiles} CHANGELOG.md
         ${packaging}/program_help.py ${packaging}/man_pages.py ${packaging}/completions.py ${packaging}/udev_rules.py ${packaging}/changelogs.py
     COMMENT "Writing man pages, completions, the schema of graphs and udev rules" VERBATIM)
 add_custom_target (installed_texts ALL DEPENDS ${made}/written)
 
-set (fuse_llvm)   # as for tactus-check-plugin
-if (TARGET tactus-fuse-llvm)
-    set (fuse_llvm tactus-fuse-llvm)
-endif ()
-install (TARGETS tactus tactus-bench ${check_plugin} ${fuse_llvm} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+set (optional)   # as for tactus-check-plugin
+foreach (program tactus-bench tactus-fuse-llvm)
+    if (TARGET ${program})
+        list (APPEND optional ${program})
+    endif ()
+endforeach ()
+install (TARGETS tactus ${check_plugin} ${optional} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
     FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
 foreach (driver haply bhaptics evdev)

@@ -72,6 +72,11 @@ def take(items, line):
 
 
 def read_all(program, name):
-    """The help of a program and of each of its commands."""
+    """The help of a program and of each of its commands, except those whose own program is not built (TACTUS_BENCH)."""
     whole = read(program, name)
-    return [whole] + [read(program, name, command.term) for command in whole.commands]
+    return [whole] + [read(program, name, command.term) for command in whole.commands if is_built(program, command.term)]
+
+
+def is_built(program, command):
+    said = subprocess.run([program, command, "--help"], capture_output=True, text=True, encoding="utf-8", check=False)
+    return said.returncode == 0 or "bench/not_built" not in said.stderr

@@ -220,7 +220,10 @@ def wrong_options(name, text, program, helps):
     for command, rest in INLINE.findall(bare):
         if command not in helps:
             ran = subprocess.run([program, command, "--help"], capture_output=True, text=True, check=False)
-            helps[command] = ran.stdout if ran.returncode == 0 else ""
+            helps[command] = None if "bench/not_built" in ran.stderr else ran.stdout if ran.returncode == 0 else ""
+        if helps[command] is None:
+            print(f"not checked: {name}: tactus {command}, whose program is not built (TACTUS_BENCH)")
+            continue
         if not helps[command]:
             yield f"{name}: there is no command: tactus {command}"
         for option in re.findall(r"(?<![\w-])--[a-z][a-z-]+", rest):
