@@ -21,5 +21,5 @@ for name in sys.argv[1:] or KNOWN:
     try:
         style.save(importlib.import_module(name).draw(), name)
     except FileNotFoundError as missing:
-        sys.exit(f"{name}: {missing.filename} does not exist; run build/release/bin/tactus_tests \"[figures]\" first")
+        sys.exit(f"{name}: {missing.filename} does not exist; run build/release/bin/tactus_tool_tests \"[figures]\" first")
     print(f"docs/figures/{name}.png")

@@ -113,7 +113,7 @@ std::string readme()
 {
     const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
     std::string text = "# Presets\n\nOpen one in the host, or run `tactus play graphs/NAME.json`. This list is generated from the preset files: "
-                       "`TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"`. "
+                       "`TACTUS_UPDATE=1 build/release/bin/tactus_tool_tests \"the list of presets*\"`. "
                        "[Why their guards have these limits](../docs/safety.md#the-limits-of-presets-and-profiles). The column "
                        "`devices` lists the conditions that [`tactus check`](../docs/check.md) finds broken: on the simulated device of the preset (its "
                        "own), and on each device whose profile states its damping.\n\n"

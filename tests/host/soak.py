@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the long tests, those with the tag [soak], side by side, each in a process of its own: soak.py PROGRAM
+"""Runs the long tests, those with the tag [soak], side by side, each in a process of its own: soak.py PROGRAM...
 
 TACTUS_SOAK_SECONDS and TACTUS_SOAK_TICKS say how long they are. None of them judges time, so they may take turns on few processors. Prints what each says,
 how long it took and how much of a processor it needed. Exits with 1 if one of them fails."""
@@ -12,15 +12,16 @@ import sys
 import tempfile
 import time
 
-program = sys.argv[1]
-names = subprocess.run([program, "[soak]", "--list-test-names-only"], stdout=subprocess.PIPE, text=True, check=False).stdout.splitlines()
-names = [name.strip() for name in names if name.strip()]
+names = []
+for program in sys.argv[1:]:
+    listed = subprocess.run([program, "[soak]", "--list-test-names-only"], stdout=subprocess.PIPE, text=True, check=False).stdout.splitlines()
+    names += [(program, name.strip()) for name in listed if name.strip()]
 if not names:
     sys.exit("there is no test with the tag [soak]")
 
 begin = time.monotonic()
 running = {}
-for name in names:
+for program, name in names:
     output = tempfile.TemporaryFile("w+")
     wanted = re.sub(r"([\\,\[])", r"\\\1", name)   # as Catch2 reads a name
     running[subprocess.Popen([program, wanted], stdout=output, stderr=subprocess.STDOUT).pid] = name, output

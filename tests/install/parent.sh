@@ -22,7 +22,7 @@ set (after "\${CMAKE_CXX_FLAGS}|\${CMAKE_CXX_STANDARD}|\${CMAKE_BUILD_TYPE}|\${C
 if (NOT before STREQUAL after OR options OR link_options)
     message (FATAL_ERROR "Tactus changed the settings of the project that contains it: \${before} -> \${after}, \${options} \${link_options}")
 endif ()
-foreach (target tactus tactus-host tactus_tests)
+foreach (target tactus tactus-host tactus_framework_tests)
     if (TARGET \${target})
         message (FATAL_ERROR "\${target} is built, but only the libraries should be")
     endif ()

@@ -12,13 +12,13 @@ cp tests/newcomer/washboard.hpp.txt "$header"
 cp tests/newcomer/washboard_test.cpp.txt "$test"
 others=$(git status --porcelain 2>/dev/null | grep -vE "washboard" || true)
 
-build release tactus tactus_tests
+build release tactus tactus_node_tests
 
 # No -q: grep must read everything. With -q it stops at the first match; SIGPIPE can then kill the writer and fail the
 # check
 build/release/bin/tactus nodes | grep 'texture\.washboard' >/dev/null
 build/release/bin/tactus nodes texture.washboard | grep 'ridge height' >/dev/null
-build/release/bin/tactus_tests 'washboard*'
-build/release/bin/tactus_tests 'every node*' -c texture.washboard
+build/release/bin/tactus_node_tests 'washboard*'
+build/release/bin/tactus_node_tests 'every node*' -c texture.washboard
 [ "$others" = "$(git status --porcelain 2>/dev/null | grep -vE "washboard" || true)" ]
 echo "texture.washboard: built, listed and checked against the contract; no other file was changed"

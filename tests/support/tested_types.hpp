@@ -6,8 +6,8 @@
 namespace tactus::test
 {
 
-/// The node types that every_node_test.cpp and every_datasheet_test.cpp examine. Each test program has its own: tactus_tests the
-/// whole catalogue, tactus_plugin_tests the nodes of a plugin.
+/// The node types that every_node_test.cpp and every_datasheet_test.cpp examine. Each test program has its own:
+/// tactus_node_tests the whole catalogue, tactus_plugin_tests the nodes of a plugin.
 const Catalogue& testedTypes();
 
 }   // namespace tactus::test

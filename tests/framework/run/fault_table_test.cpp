@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures how the force responds when something goes wrong. The results are the table in docs/safety.md.
 //
-//     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of faults*"       rewrites the table
+//     TACTUS_UPDATE=1 build/release/bin/tactus_framework_tests "the table of faults*"       rewrites the table
 
 #include "support/sketch.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures what a device outputs when its sound card goes away: the table on sound cards in docs/safety.md.
 //
-//     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of sound cards*"       rewrites it
+//     TACTUS_UPDATE=1 build/release/bin/tactus_device_tests "the table of sound cards*"       rewrites it
 
 #include "fake_cards.hpp"
 
