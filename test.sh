@@ -2,16 +2,22 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           runs the tests, normally and under ASan and UBSan (without the window, which clang only reads, and without the laws of
-#                       nodes, which --sanitizers runs), runs the demo, adds a node as a newcomer would, builds the examples against the
-#                       installed library, drives virtual HID devices in a QEMU guest, and looks for mistakes in a few of the changed files
-#                       with clang-tidy
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (without the window, and without the laws of nodes: --sanitizers), runs
+#                       the demo, adds a node as a newcomer would, builds the examples against the installed library, drives virtual HID devices
+#                       in a QEMU guest, and looks for mistakes in a few of the changed files with clang-tidy. What passed before in this folder,
+#                       and reads nothing that has changed, does not run again
+#   ./test.sh --all     runs these tests again, too
+#   ./test.sh --kept    does the same as ./test.sh in a folder that outlives the checkout (.ci/kept.sh), as .ci/run does; --kept --all and --kept
+#                       --daily, too
+#   ./test.sh --daily   adds to --all: builds everything again from nothing, compares each object with the one that was kept, and builds and tests
+#                       everything with clang. All tests use a new seed. Includes the bench
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
-#                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
-#                       energy of elastic surfaces on 1000 long loops for each body and friction, soaks of 1.2e8 ticks and of the reports
-#                       of 30 minutes on each wire, side by side, and an eighth of all files with clang-tidy. All tests use a new seed, and those with
-#                       properties five more: each is printed. RC_PARAMS=seed=N ./test.sh --quick uses it again
+#                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the files that
+#                       tests read compared with those that CMake names for them, the energy of elastic surfaces on 1000 long loops for each
+#                       body and friction, soaks of 1.2e8 ticks and of the reports of 30 minutes on each wire, side by side, and an eighth of all
+#                       files with clang-tidy. All tests use a new seed, and those with properties five more: each is printed.
+#                       RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, and films the first minute;
@@ -33,19 +39,21 @@
 #   ./test.sh --install installs the packages that ./test.sh and ./demo.sh need
 . "$(dirname "$0")/.ci/setup.sh"
 
+if [ "${1:-}" = --kept ]; then exec .ci/kept.sh "${@:2}"; fi
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
+    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray python3-matplotlib xvfb xdotool openbox x11-utils)
-case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
-case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
-case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
-case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
+packages+=(rsync python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray python3-matplotlib xvfb xdotool openbox x11-utils)
+case $mode in ''|--all|--daily|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
+case $mode in ''|--all|--daily|--quick|--long|--install) packages+=(valgrind) ;; esac
+case $mode in ''|--all|--daily|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
+case $mode in ''|--all|--daily|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --long ] && [ -n "${TACTUS_ISAACLAB_HAPLY:-}" ] && packages+=(python3-torch python3-numpy)   # for IsaacLab's client of the Inverse3
+[ "$mode" = --long ] && packages+=(strace)
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
@@ -57,26 +65,26 @@ case $mode in --long|--site) packages+=(chromium chromium-driver python3-seleniu
 install_packages
 
 # Without these packages the guest is skipped, with a message.
-case $mode in ''|--long|--devices|--install) (packages=(qemu-system-x86 busybox-static cpio kmod procps) && install_packages) || true ;; esac
+case $mode in ''|--all|--daily|--long|--devices|--install) (packages=(qemu-system-x86 busybox-static cpio kmod procps) && install_packages) || true ;; esac
 
 [ "$mode" = --install ] && exit
 
-# Property tests use the same random inputs each time, so a commit either passes or fails. --long uses new ones.
+# Property tests use the same random inputs each time, so a commit either passes or fails. --daily and --long use new ones.
 seeds () { shuf --input-range 1-2147483647 --head-count "$1"; }
-if [ "$mode" = --long ]; then RC_PARAMS=${RC_PARAMS:-seed=$(seeds 1)}; fi
+case $mode in --daily|--long)
+    export RC_PARAMS=${RC_PARAMS:-seed=$(seeds 1)} bench=ON
+    say "Random inputs: RC_PARAMS=$RC_PARAMS"
+esac
 export RC_PARAMS=${RC_PARAMS:-seed=1}
-[ "$mode" = --long ] && say "Random inputs: RC_PARAMS=$RC_PARAMS"
+[ "$mode" = --packages ] && bench=ON
+again=()
+case $mode in --all|--daily) again=(--all) ;; esac
 
 run_tests ()
 {
     local preset=$1
     shift
-    # One test more than processors, because some tests wait.
-    ctest --test-dir "build/$preset" --output-on-failure --parallel $(($(nproc) + 1)) "$@" | tee "build/$preset/tests.txt" && return
-    local status=$?
-    /usr/bin/python3 -B .ci/failed.py "build/$preset"
-    sed -n '/ tests passed, /,$p' "build/$preset/tests.txt"
-    return $status
+    /usr/bin/python3 -B .ci/remember.py tests "build/$preset" "${again[@]}" "$@"
 }
 
 # more_properties N: runs the files of tests that have properties with N new seeds
@@ -86,15 +94,15 @@ more_properties ()
     files=$(grep -rl 'support/property.hpp' tests --include='*_test.cpp' | sed 's|.*/\(.*\)\.cpp|[#\1]~[.]|' | sort -u | paste -sd,)
     for seed in $(seeds "$1"); do
         say "Tests with properties: RC_PARAMS=seed=$seed"
-        for program in tactus_tests tactus_app_tests tactus_plugin_tests; do
-            RC_PARAMS=seed=$seed "build/release/bin/$program" --filenames-as-tags "$files"
+        for program in build/release/bin/tactus_*_tests; do
+            RC_PARAMS=seed=$seed "$program" --filenames-as-tags "$files"
         done
     done
 }
 
 sources () { find framework nodes host tests docs -name '*.[ch]' -o -name '*.[ch]pp'; }
 
-case $mode in ''|--quick|--long|--format)
+case $mode in ''|--all|--daily|--quick|--long|--format)
     say "Formatting"
     if [ "${2:-}" = --fix ]; then sources | xargs clang-format-14 -i; else sources | xargs clang-format-14 --dry-run -Werror; fi
 esac
@@ -116,9 +124,10 @@ sanitize ()
 {
     # Memory errors depend on the kind of input, rarely on the number of inputs.
     local percent=20 parts=()
-    [ -z "$mode" ] && percent=10 parts=(--label-exclude laws)
-    build asan
-    [ -z "$mode" ] || build asan tactus_law_tests
+    case $mode in
+        --long|--sanitizers) build asan; build asan tactus_law_tests ;;
+        *) percent=10 parts=(--label-exclude '^law$'); build asan ;;
+    esac
     say "Tests under ASan and UBSan"
     RC_PARAMS="$RC_PARAMS max_success=$percent" TACTUS_ROUNDS=$percent run_tests asan "${parts[@]}"
 }
@@ -127,7 +136,7 @@ sanitize_more ()
 {
     build tsan
     say "Tests under TSan"
-    TACTUS_LIVE_SECONDS=60 run_tests tsan --label-exclude laws   # they have one thread
+    TACTUS_LIVE_SECONDS=60 run_tests tsan --label-exclude '^law$'   # they have one thread
     build asan-window tactus_app_tests
     say "The window under ASan and UBSan"
     TACTUS_UI_ACTIONS=10000 run_tests asan-window -R '^app:'
@@ -182,26 +191,26 @@ if [ "$mode" = --sound ]; then
 fi
 
 if [ "$mode" = --export ]; then
-    build release tactus tactus_tests
+    build release tactus tactus_tool_tests
     say "Exported graphs"
     jobs=()
     for compiler in g++ clang++-14; do
-        TACTUS_EXPORT_GRAPHS=500 TACTUS_EXPORT_COMPILERS=$compiler build/release/bin/tactus_tests "[export_all]" &
+        TACTUS_EXPORT_GRAPHS=500 TACTUS_EXPORT_COMPILERS=$compiler build/release/bin/tactus_tool_tests "[export_all]" &
         jobs+=($!)
     done
     for job in "${jobs[@]}"; do wait "$job"; done
-    build/release/bin/tactus_tests "[export],[export_targets]"
+    build/release/bin/tactus_tool_tests "[export],[export_targets]"
     say "Fused graphs"
-    build/release/bin/tactus_tests "[fuse_all]"
+    build/release/bin/tactus_tool_tests "[fuse_all]"
     say "On a Cortex-M7, and in single precision on a Cortex-M4"
     jobs=()
     for board in m7 m4; do
-        build/release/bin/tactus_tests "[export_$board]" &
+        build/release/bin/tactus_tool_tests "[export_$board]" &
         jobs+=($!)
     done
     for job in "${jobs[@]}"; do wait "$job"; done
     say "In node"
-    build/release/bin/tactus_tests "[export_wasm]"
+    build/release/bin/tactus_tool_tests "[export_wasm]"
     exit
 fi
 
@@ -216,7 +225,7 @@ if [ "$mode" = --figures ]; then
     build release
     build release instructions whole_tick
     say "Figures"
-    build/release/bin/tactus_tests "[figures]"
+    build/release/bin/tactus_tool_tests "[figures]"
     /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib
     say "Instructions per tick"
     /usr/bin/python3 tests/bench/instructions.py build/release
@@ -256,13 +265,24 @@ if [ "$mode" = --long ]; then
     sanitize_more
 fi
 
+# Each run trusts what earlier runs built. Once a day, everything is built again in the same folder, and must come out the same.
+kept=
+if [ "$mode" = --daily ] && [ -d build/release ] && [ -d build/asan ]; then
+    build asan
+    build release
+    rm -rf build.kept
+    mv build build.kept
+    kept=build.kept
+fi
+
 if [ "$mode" != --quick ]; then
     tidy --changed
     if [ "$mode" = --long ]; then tidy "$(shuf --input-range 1-8 --head-count 1)/8"; fi
     sanitize
-    say "What the sanitizers leave out, with clang"
-    /usr/bin/python3 -B tests/structure/clang_warnings.py build/tidy build/asan
 fi
+
+# once NAME INPUT... -- COMMAND: a command that is not run again while it reads the same
+once () { if [ ${#again[@]} -eq 0 ]; then /usr/bin/python3 -B .ci/remember.py once build/release "$@"; else while [ "$1" != -- ]; do shift; done; "${@:2}"; fi; }
 
 parts=()
 if [ "$mode" = --quick ]; then
@@ -270,19 +290,38 @@ if [ "$mode" = --quick ]; then
     build release
 else
     say "A newcomer's node"
-    tests/newcomer/run.sh   # before the rest is built: what it compiles is not compiled again
+    mkdir -p build/release
+    once newcomer tests/newcomer tests/CMakeLists.txt tests/parts.cmake tests/join.cmake tests/every_node_test.cpp CMakeLists.txt nodes/CMakeLists.txt \
+        framework/node host/generate/CMakeLists.txt host/fuse/bitcode -- tests/newcomer/run.sh   # before the rest is built: what it compiles is not compiled again
     build release
     say "The demo"
-    ./demo.sh --offline
+    once demo demo.sh .ci/setup.sh graphs build/release/bin/tactus ../shared/data/strokes_evemu ../shared/data/buttons_switchcurves -- ./demo.sh --offline
+fi
+if [ -n "$kept" ]; then
+    say "Comparing with what was kept"
+    status=0
+    /usr/bin/python3 -B .ci/compare_builds.py "$kept" build || status=$?
+    if [ $status -eq 0 ]; then   # then it is true for these, too, that they passed
+        for preset in release asan; do cp "$kept/$preset/passed.json" "build/$preset/" 2>/dev/null || true; done
+    fi
+    rm -rf "$kept"
+    [ $status -eq 0 ] || exit $status
+fi
+if [ "$mode" = --daily ]; then
+    build clang
+    say "Tests, compiled by clang"
+    run_tests clang --label-exclude whole
 fi
 say "Tests"
 run_tests release "${parts[@]}"
 if [ "$mode" = --long ]; then
     more_properties 5
+    say "Files that tests read"
+    /usr/bin/python3 -B tests/structure/reads.py build/release || [ $? -eq 77 ]   # skipped
     say "The energy of elastic surfaces on long loops"
-    build/release/bin/tactus_tests "[long]"
+    build/release/bin/tactus_node_tests "[long]"
     say "Soak"
-    TACTUS_SOAK_TICKS=120000000 TACTUS_SOAK_SECONDS=1800 /usr/bin/python3 -B tests/host/soak.py build/release/bin/tactus_tests
+    TACTUS_SOAK_TICKS=120000000 TACTUS_SOAK_SECONDS=1800 /usr/bin/python3 -B tests/host/soak.py build/release/bin/tactus_*_tests
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
 fi

@@ -24,9 +24,6 @@ class Command:
         included = [pathlib.Path(source or ROOT / node) for source, node in INCLUDED.findall(text)]
         self.sources = {f for f in (included if in_build else [self.file]) if f.is_relative_to(ROOT) and not f.is_relative_to(build)}
 
-    def object(self):
-        return self.arguments[self.arguments.index("-o") + 1]
-
     def without_object(self):
         at = self.arguments.index("-o")
         return self.arguments[:at] + self.arguments[at + 2 :]
