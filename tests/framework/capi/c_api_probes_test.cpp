@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Probes and the log of a run through the C API.
 #include "c_handles.hpp"
+#include "support/waiting.hpp"
 
 #include <support/temporary_folder.hpp>
 #include <tactus/run/replay.hpp>
@@ -13,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace tactus::test;
@@ -176,7 +176,7 @@ TEST_CASE ("C API: probes of a run that was started arrive in order while it pla
         const auto got = tactus_run_collect_probes (run.get(), some_ticks, some, 50);
         ticks.insert (ticks.end(), some_ticks, some_ticks + got);
         values.insert (values.end(), some, some + got);
-        std::this_thread::sleep_for (std::chrono::milliseconds (1));
+        letPass (std::chrono::milliseconds (1));
     }
     for (std::size_t i = 1; i < ticks.size(); ++i)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The C API from five threads at once, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
 #include "c_handles.hpp"
+#include "support/waiting.hpp"
 
 #include <support/temporary_folder.hpp>
 
@@ -62,18 +63,18 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
     });
     beside ([&] (int) {
         broken += tactus_run_emergency_stop (run.get()) != TACTUS_OK;
-        std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        letPass (std::chrono::milliseconds (20));
         broken += tactus_run_rearm (run.get()) != TACTUS_OK;
-        std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        letPass (std::chrono::milliseconds (20));
         ++stopped;
     });
 
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
+    const std::chrono::milliseconds least { wanted ? 1000 * std::stoi (wanted) : 500 };
     std::vector<double> rows (tactus_run_record_count (run.get()) * 1000);
     size_t collected = 0;
     int edits = 0;
-    for (; std::chrono::steady_clock::now() < end || edits < 10 || pushed < 10 || read < 10 || stopped < 2; ++edits)
+    for (const Stopwatch watch; ! watch.hasRun (least) || edits < 10 || pushed < 10 || read < 10 || stopped < 2; ++edits)
     {
         const auto mu = std::to_string (0.2 + 0.01 * (edits % 30));
         broken += tactus_graph_set_param (g.get(), "", "drag", "mu", mu.c_str(), m.get()) != TACTUS_OK;

@@ -4,6 +4,7 @@
 #include <tactus/run/query_thread.hpp>
 
 #include "support/no_allocation.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -261,8 +262,7 @@ TEST_CASE ("a query can be created and destroyed while another one keeps the thr
         std::atomic<long long> answered = 0;
         bool answer() noexcept override
         {
-            for (const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds (300); std::chrono::steady_clock::now() < until;)
-                ;
+            test::busyFor (std::chrono::microseconds (300));
             ++answered;
             return true;
         }

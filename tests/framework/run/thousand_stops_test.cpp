@@ -4,6 +4,7 @@
 #include <tactus/run/runner.hpp>
 
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <thread>
 #include <vector>
 
 using namespace tactus;
@@ -21,8 +21,7 @@ namespace
 {
 constexpr double rate_hz = 4000.0;
 const auto fade_ticks = static_cast<std::uint64_t> (std::ceil (Guard::fade_s * rate_hz));
-
-double now_s() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+const test::Stopwatch watch;   // for what is printed
 
 /// A device that is pushed with 2 N, and the ticks of its run.
 class Pushed final : public Device, public TickHooks
@@ -38,7 +37,7 @@ public:
         if (force != 0.0)
             pushed = tick + 1;
         else if (was != 0.0)
-            zero_at_s = now_s();
+            zero_at_s = watch.s();
         full = force == 2.0;
         was = force;
         ended = tick + 1;
@@ -56,15 +55,6 @@ private:
     double force = 0.0, was = 0.0;   // [tick thread]
 };
 
-/// False if the condition does not hold within half a minute.
-template <typename Condition>
-bool soon (Condition&& holds)
-{
-    for (const double end = now_s() + 30.0; ! holds(); std::this_thread::sleep_for (std::chrono::microseconds (100)))
-        if (now_s() > end) return false;
-    return true;
-}
-
 struct Tries
 {
     std::vector<double> called_s, zero_s;   ///< wall time of the call; from the call until the force was zero
@@ -78,15 +68,15 @@ Tries stopOften (Engine& engine, Pushed& device, int count)
     for (int i = 0; i < count; ++i)
     {
         const auto wait_for = device.ended + 1 + static_cast<std::uint64_t> (i % 3);   // at different places in the tick period, too
-        if (! soon ([&] { return device.full && device.ended >= wait_for; })) break;
-        std::this_thread::sleep_for (std::chrono::microseconds (37 * (i % 7)));
+        if (! test::eventually ([&] { return device.full && device.ended >= wait_for; })) break;
+        test::letPass (std::chrono::microseconds (37 * (i % 7)));
 
-        const double called = now_s();
+        const double called = watch.s();
         engine.emergencyStop();
-        const double returned = now_s();
+        const double returned = watch.s();
         const auto first = device.ticksBegun();   // the number of the tick that follows the call
         const auto end = first + fade_ticks + 1;
-        if (! soon ([&] { return device.ended >= end + 2; })) break;
+        if (! test::eventually ([&] { return device.ended >= end + 2; })) break;
         tries.late += device.pushed > end;
         tries.called_s.push_back (returned - called);
         tries.zero_s.push_back (device.zero_at_s - called);

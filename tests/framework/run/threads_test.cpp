@@ -12,6 +12,7 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -115,9 +116,9 @@ TEST_CASE ("an editor, a turned knob, a probe reader, a recorder and a status re
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
+    const std::chrono::milliseconds least { wanted ? 1000 * std::stoi (wanted) : 500 };
     int edits = 0;
-    for (; std::chrono::steady_clock::now() < end; ++edits)
+    for (const test::Stopwatch watch; ! watch.hasRun (least) || edits <= 10 || probed <= 10 || recorded <= 10 || looked <= 10; ++edits)
     {
         if (live.history().position() > 50)
             while (live.history().position() > 0)
@@ -136,10 +137,6 @@ TEST_CASE ("an editor, a turned knob, a probe reader, a recorder and a status re
     INFO (ticks << " ticks, " << edits << " edits");
     CHECK (broken == 0);
     CHECK (taps.unclean == 0);
-    CHECK (edits > 10);
-    CHECK (probed > 10);
-    CHECK (recorded > 10);
-    CHECK (looked > 10);
     if (wanted) std::cout << ticks << " ticks, " << runner.status().misses << " late, " << edits << " edits, " << recorded
                           << " frames recorded, " << taps.frames.lost() << " lost, " << probed << " probed\n";
 }

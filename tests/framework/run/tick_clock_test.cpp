@@ -4,6 +4,7 @@
 #include <tactus/run/clock/passed_time.hpp>
 
 #include "support/tick_thread_locks.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -42,7 +43,7 @@ TEST_CASE ("an absolute timer never begins a tick early, and does not catch up o
         early = early || now < least - 1e-6;
         if (late > period) least += late;   // the timer restarts when it notices
         least += period;
-        if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        if (k == 20) test::letPass (std::chrono::milliseconds (20));
         return ++k < 50;
     } };
     timer.drive (each);
@@ -117,7 +118,7 @@ TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[r
 TEST_CASE ("ticks of a timer and of a free run take no locks, and neither does the wait between them", "[runtime][clocks]")
 {
     AbsoluteTimer timer { 1e-3, GENERATE (AbsoluteTimer::Wait::punctual, AbsoluteTimer::Wait::idle) };
-    test::checkThatTicksLockNothing (timer, nullptr, 200, [] { std::this_thread::sleep_for (std::chrono::milliseconds (1)); });
+    test::checkThatTicksLockNothing (timer, nullptr, 200, [] { test::letPass (std::chrono::milliseconds (1)); });
     FreeRun free;
     test::checkThatTicksLockNothing (free, nullptr, 2000, [] { std::this_thread::yield(); });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How an elastic surface finds the point of its mesh that the tool touches.
+#include "support/waiting.hpp"
 #include "surface_rig.hpp"
 
 #include <tactus/run/query_thread.hpp>
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <random>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::test;
@@ -73,7 +73,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bi
         std::vector<double> forces;
         for (int k = 0; k < 1200; ++k)
         {
-            std::this_thread::sleep_for (pause);
+            letPass (pause);
             const double t = k / 4000.0;
             const Vec3 p (0.01 * std::sin (30.0 * t), 0.01 * std::cos (20.0 * t), 0.0285 + 0.004 * std::cos (25.0 * t));
             const NoAllocation watch;
