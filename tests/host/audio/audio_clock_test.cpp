@@ -3,6 +3,7 @@
 
 #include "support/sketch.hpp"
 #include "support/tick_thread_locks.hpp"
+#include "support/waiting.hpp"
 
 #include <host/audio/audio_clock.hpp>
 #include <support/property.hpp>
@@ -55,12 +56,6 @@ struct EvenClock final : AudioClock
     const double rate;
 };
 
-bool soon (const std::function<bool()>& isSo)
-{
-    for (int i = 0; i < 10'000 && ! isSo(); ++i)
-        std::this_thread::sleep_for (1ms);
-    return isSo();
-}
 }   // namespace
 
 TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates", "[audio]")
@@ -111,26 +106,26 @@ TEST_CASE ("if the card that ticks the run goes away, a timer ticks with all for
         while (! stop.stop_requested())
         {
             if (plays) clock.block (96, 48'000.0);
-            std::this_thread::sleep_for (1ms);
+            test::letPass (1ms);
         }
     });
     runner.start();
-    REQUIRE (soon ([&] { return device.force == 2.0; }));
+    REQUIRE (test::eventually ([&] { return device.force == 2.0; }));
     CHECK_FALSE (runner.status().clock_replaced);
 
     plays = false;
-    REQUIRE (soon ([&] { return runner.status().clock_replaced && device.force == 0.0; }));
+    REQUIRE (test::eventually ([&] { return runner.status().clock_replaced && device.force == 0.0; }));
     CHECK (runner.status().phase == RunStatus::Phase::running);
     const auto ticks = runner.status().ticks;
-    CHECK (soon ([&] { return runner.status().ticks > ticks + 20; }));
+    CHECK (test::eventually ([&] { return runner.status().ticks > ticks + 20; }));
     CHECK (device.force == 0.0);
     CHECK (clock.ticksByTimer() > 20);
 
     plays = true;
-    REQUIRE (soon ([&] { return device.force == 2.0; }));
+    REQUIRE (test::eventually ([&] { return device.force == 2.0; }));
     CHECK_FALSE (runner.status().clock_replaced);
     runner.stop();
-    CHECK (soon ([&] { return runner.isOver(); }));
+    CHECK (test::eventually ([&] { return runner.isOver(); }));
     CHECK (device.force == 0.0);
     CHECK (device.largest_step <= 2.0 / (Guard::fade_s * rate_hz) + 1e-9);
 }
@@ -141,9 +136,9 @@ TEST_CASE ("a run ticked by a card stops on request even if no block ever arrive
     AudioClock clock { 1000.0 };
     Runner runner { engine, clock, 1000.0, {} };
     runner.start();
-    REQUIRE (soon ([&] { return clock.ticksByTimer() > 3; }));
+    REQUIRE (test::eventually ([&] { return clock.ticksByTimer() > 3; }));
     runner.stop();
-    CHECK (soon ([&] { return runner.isOver(); }));
+    CHECK (test::eventually ([&] { return runner.isOver(); }));
 }
 
 TEST_CASE ("ticks of a sound card take no locks, on the card's thread and on that of the timer that stands in", "[audio][clocks]")
@@ -151,7 +146,7 @@ TEST_CASE ("ticks of a sound card take no locks, on the card's thread and on tha
     AudioClock played { 1000.0 }, silent { 1000.0 };
     test::checkThatTicksLockNothing (played, nullptr, 200, [&] {
         played.block (48, 48'000.0);
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
     });
-    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
+    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { test::letPass (1ms); });
 }

@@ -6,6 +6,7 @@
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/audio/open_audio.hpp>
 #include <support/property.hpp>
@@ -311,7 +312,7 @@ TEST_CASE ("the output of the card is recorded as a WAV file, bit for bit", "[au
     back.card.rate_hz = 44'100.0;
     int reported = 0;
     for (int ms = 0; ms < 2000; ms += 100)   // silent for so long that the card is reopened
-        reported += ! back.rig.poll (CardKeeper::Clock::now() + std::chrono::milliseconds (ms));
+        reported += ! back.rig.poll (tactus::test::fromNow (std::chrono::milliseconds (ms)));
     CHECK (back.card.opened == 2);
     CHECK (reported == 1);
     CHECK (back.rig.end());

@@ -6,6 +6,7 @@
 #include "fake_cards.hpp"
 
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/audio/open_audio.hpp>
 
@@ -134,7 +135,7 @@ TEST_CASE ("a card that went away is closed and reopened when it is back, and un
     } silent;
     FakeCards cards;
     CardKeeper keeper { cards, silent };
-    auto now = CardKeeper::Clock::now();
+    auto now = tactus::test::fromNow (0ms);
     const auto attendFor = [&] (std::chrono::milliseconds time, bool plays) {
         for (const auto end = now + time; now < end; now += 20ms)
         {

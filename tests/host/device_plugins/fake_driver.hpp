@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/waiting.hpp"
+
 #include <host/device_plugins/open_plugin_device.hpp>
 
 #include <catch2/catch.hpp>
@@ -13,7 +15,6 @@
 #include <functional>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace tactus::test
@@ -23,14 +24,12 @@ namespace tactus::test
 class FakeDriver
 {
 public:
-    using Clock = std::chrono::steady_clock;
-
     /// What the device was told.
     struct Told
     {
         std::string what;   // "open", "force", "rest", "close"
         double force = 0.0;
-        Clock::time_point at {};
+        double at_s = 0.0;   // since the fake was made
     };
 
     /// A reading that comes next.
@@ -73,6 +72,7 @@ public:
     std::atomic<int> write_answer = TACTUS_DEVICE_OK;
 
     std::shared_ptr<const host::DeviceDriver> driver;
+    const Stopwatch watch;
 
     /// Ends the calls that hang.
     void letGo()
@@ -138,19 +138,6 @@ public:
     static host::PluginDevice::Options usual()
     {
         return { .silence_s = 5.0, .look_again = std::chrono::milliseconds (2), .patience = std::chrono::milliseconds (500), .real_time = false };
-    }
-
-    /// True as soon as the condition holds; false if it still does not hold after a long time.
-    template <typename F>
-    static bool until (F&& so)
-    {
-        const auto end = Clock::now() + std::chrono::seconds (10);
-        while (! so())
-        {
-            if (Clock::now() > end) return false;
-            std::this_thread::sleep_for (std::chrono::microseconds (200));
-        }
-        return true;
     }
 
 private:
@@ -235,7 +222,7 @@ private:
         auto& self = *now;
         std::unique_lock lock (self.mutex);
         if (self.write_hangs) self.changed.wait (lock, [&self] { return ! self.write_hangs; });
-        self.log.push_back ({ "force", effort->force[0], Clock::now() });
+        self.log.push_back ({ "force", effort->force[0], self.watch.s() });
         self.latest = *effort;
         if (self.write_answer == TACTUS_DEVICE_FAILED) say (report, "it is busy");
         return self.write_answer;
@@ -243,7 +230,7 @@ private:
 
     static std::int32_t rest (void*, const tactus_plugin_report* report) noexcept
     {
-        now->tell ({ "rest", 0.0, Clock::now() });
+        now->tell ({ "rest", 0.0, now->watch.s() });
         if (! now->rest_fails) return TACTUS_DEVICE_OK;
         say (report, "it is stuck");
         return TACTUS_DEVICE_FAILED;
@@ -313,7 +300,7 @@ inline Reading readingOf (host::PluginDevice& device, FakeDriver& fake, FakeDriv
 {
     const auto before = device.counts();
     fake.send (sent);
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         const auto now = device.counts();
         return now.readings + now.refused + now.repeated > before.readings + before.refused + before.repeated;
     }));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A driver that lies, hangs, spins or loses its device: what the run reads, and what reaches the device.
 #include "fake_driver.hpp"
+#include "support/waiting.hpp"
 
 #include <support/temporary_folder.hpp>
 #include <support/tick_thread_locks.hpp>
@@ -15,6 +16,7 @@
 using namespace tactus;
 using namespace std::chrono_literals;
 using host::PluginDevice;
+using test::eventually;
 using test::FakeDriver;
 using test::good;
 
@@ -35,14 +37,14 @@ struct Pushed
         reading = device->read();
         const auto& applied = guard ({ { 1.0, 0.0, 0.0 }, Vec3::Zero() }, reading);
         device->write (applied);
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
         return applied.force.x();
     }
 
     /// Ticks with good readings until the force is there.
     void push()
     {
-        REQUIRE (FakeDriver::until ([&] {
+        REQUIRE (eventually ([&] {
             fake.send (1e-6 * ++k);
             return tick() == 1.0;
         }));
@@ -52,7 +54,7 @@ struct Pushed
     template <typename F>
     bool stopsWhile (F&& each)
     {
-        return FakeDriver::until ([&] {
+        return eventually ([&] {
             each();
             return tick() == 0.0 && guard.stop() == Guard::Stop::stale;
         });
@@ -114,10 +116,10 @@ TEST_CASE ("the force of a driver rises along the ramp of its guard, and never b
     Pushed run (fake);
     run.device->read();
     run.device->write ({ .force = { 1.0, 0.0, 0.0 } });   // as if the guard were not at zero
-    REQUIRE (FakeDriver::until ([&] { return fake.count ("force") > 0; }));
+    REQUIRE (eventually ([&] { return fake.count ("force") > 0; }));
     CHECK (fake.lastEffort().force[0] == 0.0);
     run.push();
-    REQUIRE (FakeDriver::until ([&] { return fake.lastEffort().force[0] == 1.0; }));
+    REQUIRE (eventually ([&] { return fake.lastEffort().force[0] == 1.0; }));
     CHECK (std::ranges::is_sorted (fake.told(), {}, &FakeDriver::Told::force));
 }
 
@@ -194,7 +196,7 @@ TEST_CASE ("a device that reports a fault itself loses the force, and the stop n
     }));
     CHECK (run.guard.latest().fault == ReadingFault::too_hot);
     hot.fault = 999;
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         ++hot.number;
         fake.send (hot);
         run.tick();
@@ -217,12 +219,11 @@ TEST_CASE ("a driver that falls silent loses the force, and the age of the readi
 {
     FakeDriver fake;
     Pushed run (fake);
+    const test::Stopwatch watch;
     run.push();
-    const auto begin = std::chrono::steady_clock::now();
     CHECK (run.stopsWhile ([] {}));
-    const double waited = std::chrono::duration<double> (std::chrono::steady_clock::now() - begin).count();
     CHECK (run.reading.age > watchdog);
-    CHECK (run.reading.age < waited + 0.1);
+    CHECK (run.reading.age <= watch.s());
     run.push();
 }
 
@@ -234,7 +235,7 @@ TEST_CASE ("a read that never returns stops the force, and the device is at rest
         run.push();
         fake.read_hangs = true;
         CHECK (run.stopsWhile ([] {}));
-        REQUIRE (FakeDriver::until ([&] {
+        REQUIRE (eventually ([&] {
             run.tick();
             return run.reading.fault == ReadingFault::stuck;
         }));
@@ -244,7 +245,7 @@ TEST_CASE ("a read that never returns stops the force, and the device is at rest
     CHECK (fake.lastTold() == "rest");   // not closed: `read` still uses it
     CHECK (fake.count ("close") == 0);
     fake.letGo();
-    CHECK (FakeDriver::until ([&] { return fake.lastTold() == "close"; }));   // then the thread closes it
+    CHECK (eventually ([&] { return fake.lastTold() == "close"; }));   // then the thread closes it
 }
 
 TEST_CASE ("a close that never returns does not keep the program", "[plugins][safety]")
@@ -257,7 +258,7 @@ TEST_CASE ("a close that never returns does not keep the program", "[plugins][sa
     }
     CHECK (fake.lastTold() == "rest");
     fake.letGo();
-    CHECK (FakeDriver::until ([&] { return fake.lastTold() == "close"; }));
+    CHECK (eventually ([&] { return fake.lastTold() == "close"; }));
 }
 
 TEST_CASE ("a write that never returns stops the force, and the guardian takes the device", "[plugins][safety]")
@@ -274,20 +275,20 @@ TEST_CASE ("a write that never returns stops the force, and the guardian takes t
         CHECK (contentOf (fake.rest_file).empty());
         run.push();
         fake.write_hangs = true;
-        REQUIRE (FakeDriver::until ([&] {
+        REQUIRE (eventually ([&] {
             fake.send (1e-6 * ++run.k);
             run.tick();
             return run.reading.fault == ReadingFault::stuck;
         }));
         CHECK_FALSE (run.reading.valid);
         CHECK (run.device->trouble().starts_with ("the driver has not returned from `write`"));
-        CHECK (FakeDriver::until ([&] { return contentOf (fake.rest_file).starts_with ("rest!"); }));
+        CHECK (eventually ([&] { return contentOf (fake.rest_file).starts_with ("rest!"); }));
         CHECK (host::Failsafe::alarms() > alarms);   // all forces of the run go to zero until someone rearms
         CHECK (host::Failsafe::alarm().id == "run/frozen");
 
         fake.letGo();   // then it is opened again, because the guardian has it
-        CHECK (FakeDriver::until ([&] { return fake.count ("open") >= 2; }));
-        CHECK (FakeDriver::until ([&] {
+        CHECK (eventually ([&] { return fake.count ("open") >= 2; }));
+        CHECK (eventually ([&] {
             run.tick();
             return run.reading.fault != ReadingFault::stuck;
         }));
@@ -305,11 +306,11 @@ TEST_CASE ("if no effort is offered any more, the device is brought to rest, aga
     fake.rest_fails = true;
     const auto before = run.device->counts().silences;
     const auto rests = fake.count ("rest");
-    REQUIRE (FakeDriver::until ([&] { return fake.count ("rest") > rests + 3; }));   // the run does not tick
+    REQUIRE (eventually ([&] { return fake.count ("rest") > rests + 3; }));   // the run does not tick
     CHECK (run.device->isDriven());
     CHECK (run.device->trouble() == "the device does not come to rest: it is stuck");
     fake.rest_fails = false;
-    REQUIRE (FakeDriver::until ([&] { return ! run.device->isDriven(); }));
+    REQUIRE (eventually ([&] { return ! run.device->isDriven(); }));
     CHECK (run.device->counts().silences == before + 1);
 
     fake.send (1e-6 * ++run.k);
@@ -328,7 +329,7 @@ TEST_CASE ("a driver that cannot write any more brings the device to rest, and i
     options.silence_s = 0.2;
     Pushed run (fake, options);
     const auto tickUntil = [&] (auto so) {
-        return FakeDriver::until ([&] {
+        return eventually ([&] {
             fake.send (1e-6 * ++run.k);
             run.tick();
             return so();
@@ -364,12 +365,12 @@ TEST_CASE ("a device that comes back is not driven while its failsafe cannot be 
     std::filesystem::remove (fake.rest_file);
     const auto opened = fake.count ("open");
     fake.is_gone = true;
-    REQUIRE (FakeDriver::until ([&] { return fake.count ("open") > opened; }));
+    REQUIRE (eventually ([&] { return fake.count ("open") > opened; }));
     fake.is_gone = false;
-    REQUIRE (FakeDriver::until ([&] { return run.device->trouble().starts_with ("if this program dies, nothing brings the device to rest"); }));
+    REQUIRE (eventually ([&] { return run.device->trouble().starts_with ("if this program dies, nothing brings the device to rest"); }));
     CHECK_FALSE (run.device->isConnected());
     std::ofstream { fake.rest_file }.close();
-    REQUIRE (FakeDriver::until ([&] { return run.device->isConnected(); }));
+    REQUIRE (eventually ([&] { return run.device->isConnected(); }));
     CHECK (run.device->trouble().empty());
     run.push();
 }
@@ -389,7 +390,7 @@ TEST_CASE ("a device that does not come to rest at the end is left to the guardi
     }
     CHECK (fake.count ("rest") > 3);
     CHECK (fake.lastTold() == "close");
-    CHECK (FakeDriver::until ([&] { return contentOf (fake.rest_file).starts_with ("rest!"); }));
+    CHECK (eventually ([&] { return contentOf (fake.rest_file).starts_with ("rest!"); }));
 }
 
 TEST_CASE ("a device that is gone is closed and opened again, and pushes from zero", "[plugins][safety]")
@@ -400,21 +401,21 @@ TEST_CASE ("a device that is gone is closed and opened again, and pushes from ze
     fake.opens = false;
     fake.is_gone = true;
     CHECK (run.stopsWhile ([] {}));
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         run.tick();
         return run.reading.fault == ReadingFault::unplugged;
     }));
     CHECK_FALSE (run.reading.valid);
-    REQUIRE (FakeDriver::until ([&] { return fake.count ("close") == 1; }));
-    REQUIRE (FakeDriver::until ([&] { return run.device->trouble().find ("nobody is there") != std::string::npos; }));
+    REQUIRE (eventually ([&] { return fake.count ("close") == 1; }));
+    REQUIRE (eventually ([&] { return run.device->trouble().find ("nobody is there") != std::string::npos; }));
     CHECK_FALSE (run.device->isConnected());
     const auto before = fake.told().size();
     fake.is_gone = false;
     fake.opens = true;
-    REQUIRE (FakeDriver::until ([&] { return run.device->isConnected(); }));
+    REQUIRE (eventually ([&] { return run.device->isConnected(); }));
     CHECK (run.device->counts().departures == 1);
     run.tick();
-    REQUIRE (FakeDriver::until ([&] { return fake.told().size() >= before + 3; }));
+    REQUIRE (eventually ([&] { return fake.told().size() >= before + 3; }));
     const auto all = fake.told();
     CHECK (all[before].what == "open");
     CHECK (all[before + 1].what == "rest");
@@ -429,7 +430,7 @@ TEST_CASE ("a write that says that the device is gone counts, too", "[plugins][s
     Pushed run (fake);
     run.push();
     fake.write_answer = TACTUS_DEVICE_GONE;
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         run.tick();
         return fake.count ("open") >= 2;
     }));
@@ -444,9 +445,9 @@ TEST_CASE ("another device in the place of the one that is gone is not driven", 
     run.push();
     fake.guard = R"({"max_force": "20 N", "ramp": "10 ms", "watchdog": "50 ms"})";
     fake.is_gone = true;
-    REQUIRE (FakeDriver::until ([&] { return fake.count ("open") >= 2; }));
+    REQUIRE (eventually ([&] { return fake.count ("open") >= 2; }));
     fake.is_gone = false;
-    REQUIRE (FakeDriver::until ([&] { return run.device->trouble().find ("other parts or limits") != std::string::npos; }));
+    REQUIRE (eventually ([&] { return run.device->trouble().find ("other parts or limits") != std::string::npos; }));
     CHECK_FALSE (run.device->isConnected());
     CHECK (run.stopsWhile ([] {}));
 }
@@ -456,11 +457,11 @@ TEST_CASE ("a driver that returns at once, again and again, is called more slowl
     FakeDriver fake;
     fake.spins = true;
     const auto device = fake.open();
-    const auto begin = std::chrono::steady_clock::now();
+    const test::Stopwatch watch;
     const auto before = fake.reads();
-    std::this_thread::sleep_for (200ms);
-    const double passed = std::chrono::duration<double> (std::chrono::steady_clock::now() - begin).count();
-    CHECK (fake.reads() - before < 20e3 * passed + 100.0);
+    test::letPass (200ms);
+    const auto reads = fake.reads() - before;
+    CHECK (reads < 20e3 * watch.s() + 100.0);
     CHECK (device->counts().held_up > 0);
 }
 
@@ -477,7 +478,7 @@ TEST_CASE ("a driver whose reads fail says why, and its reading gets old", "[plu
     broken.answer = 77;   // no driver may answer this
     const auto errors = run.device->counts().read_errors;
     fake.send (broken);
-    CHECK (FakeDriver::until ([&] { return run.device->counts().read_errors > errors; }));
+    CHECK (eventually ([&] { return run.device->counts().read_errors > errors; }));
 }
 
 TEST_CASE ("ticks of a device of a driver lock and allocate nothing", "[plugins]")
@@ -490,7 +491,7 @@ TEST_CASE ("ticks of a device of a driver lock and allocate nothing", "[plugins]
         auto sent = good();
         sent.reading.axis_count = 1;
         fake.send (sent);
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
     });
     CHECK (device->counts().readings > 0);
     CHECK (device->counts().writes > 0);

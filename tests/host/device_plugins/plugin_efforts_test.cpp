@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which efforts reach a driver: what it has named, within its limits, and no faster than its slew.
 #include "fake_driver.hpp"
+#include "support/waiting.hpp"
 
 #include <tactus/run/guard.hpp>
 
@@ -9,6 +10,7 @@
 
 using namespace tactus;
 using namespace std::chrono_literals;
+using test::eventually;
 using test::FakeDriver;
 using test::good;
 
@@ -21,7 +23,7 @@ TEST_CASE ("a driver gets only efforts that it has named and limited", "[plugins
     readingOf (*device, fake, good());
     device->write ({});
     readingOf (*device, fake, good());
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         device->write ({ .force = { 5.0, 0.0, 0.0 }, .torque = { 0.0, 0.0, 0.5 } });
         return fake.lastEffort().torque[2] == 0.5;
     }));
@@ -40,7 +42,7 @@ TEST_CASE ("a driver gets no force along a direction without a motor, and the ru
     readingOf (*device, fake, good());
     device->write ({});
     readingOf (*device, fake, good());
-    REQUIRE (FakeDriver::until ([&] {
+    REQUIRE (eventually ([&] {
         device->write ({ .force = { 0.1, 0.2, 0.3 }, .torque = { 0.4, 0.5, 0.6 } });
         return fake.lastEffort().force[0] == 0.1;
     }));
@@ -66,7 +68,7 @@ TEST_CASE ("a driver learns that a stop withholds the effort, and the strictest 
     const auto device = fake.open();
     const auto gets = [&] (double newtons) {
         device->write ({ .force = { newtons, 0.0, 0.0 } });
-        return FakeDriver::until ([&] { return fake.lastEffort().force[0] == newtons; });
+        return eventually ([&] { return fake.lastEffort().force[0] == newtons; });
     };
     device->read();
     device->write ({});
@@ -97,7 +99,7 @@ TEST_CASE ("on the way to a driver, no force changes faster than its slew by the
     {
         device->read();
         device->write ({ .force = { k % 50 < 25 ? 2.0 : -2.0, 0.0, 0.0 } });
-        std::this_thread::sleep_for (k % 7 == 0 ? 8ms : 1ms);
+        test::letPass (k % 7 == 0 ? 8ms : 1ms);
     }
     const auto all = fake.told();
     double most = 0.0;
@@ -106,7 +108,7 @@ TEST_CASE ("on the way to a driver, no force changes faster than its slew by the
         REQUIRE (all[i].what == "force");
         if (all[i + 1].what != "force") break;
         // The limiter reads the clock before the driver does, but after the write before.
-        const double passed = std::chrono::duration<double> (all[i + 1].at - all[i - 1].at).count();
+        const double passed = all[i + 1].at_s - all[i - 1].at_s;
         CHECK (std::abs (all[i + 1].force - all[i].force) <= slew * passed + 1e-9);
         most = std::max (most, std::abs (all[i + 1].force));
     }

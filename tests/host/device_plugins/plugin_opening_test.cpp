@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a driver says of its device when it is opened: what is believed, what is tightened, and what is refused.
 #include "fake_driver.hpp"
+#include "support/waiting.hpp"
 
 using namespace tactus;
 using namespace std::chrono_literals;
@@ -95,8 +96,7 @@ TEST_CASE ("a device without limits is allowed if it takes no efforts", "[plugin
     device->write ({});
     device->read();
     device->write ({ .force = { 1.0, 0.0, 0.0 } });
-    std::this_thread::sleep_for (20ms);
-    CHECK (fake.count ("force") == 0);
+    CHECK (tactus::test::stays (20ms, [&] { return fake.count ("force") == 0; }));
 }
 
 TEST_CASE ("a device that nothing brings to rest when the program dies is not opened", "[plugins][safety]")

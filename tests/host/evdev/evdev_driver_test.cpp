@@ -3,6 +3,7 @@
 
 #include "fake_events.hpp"
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/device_plugins/open_plugin_device.hpp>
 #include <host/device_plugins/plugin_device.hpp>
@@ -18,28 +19,16 @@
 #include <chrono>
 #include <cmath>
 #include <string>
-#include <thread>
 
 using namespace tactus;
 using namespace std::chrono_literals;
+using test::eventually;
 using test::FakeEvents;
 
 namespace
 {
 constexpr double full = 2.5;   // N m
 const Json calibration { { "full_force", "2.5 N*m" }, { "travel", { { "x", "900 deg" } } } };
-
-template <typename F>
-bool eventually (F&& so)
-{
-    const auto end = std::chrono::steady_clock::now() + 30s;
-    while (! so())
-    {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for (1ms);
-    }
-    return true;
-}
 
 /// The driver with a wheel at /nowhere/event5.
 struct Wheel

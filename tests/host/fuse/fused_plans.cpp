@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fused_plans.hpp"
+#include "support/waiting.hpp"
 
 #include <host/fuse/bitcode.hpp>
 #include <host/fuse/fusion_compiler.hpp>
@@ -9,9 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 namespace tactus::test
 {
@@ -23,8 +22,9 @@ Result<std::filesystem::path> compile (const host::FusedCode& code)
 {
     static host::FusionCompiler compiler { { .optimisation = "-O1" } };
     if (auto started = compiler.start (code); ! started) return started.error();
-    for (;; std::this_thread::sleep_for (std::chrono::milliseconds (5)))
-        if (auto done = compiler.finished()) return std::move (*done);
+    std::optional<Result<std::filesystem::path>> done;
+    eventually (std::chrono::milliseconds (5), looks_at_compiler, [&] { return (done = compiler.finished()).has_value(); });
+    return std::move (done.value());
 }
 }   // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fused_plans.hpp"
+#include "support/waiting.hpp"
 
 #include <host/fuse/bitcode.hpp>
 #include <host/fuse/fuser.hpp>
@@ -9,10 +10,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 using namespace tactus;
 using host::Fuser;
@@ -79,12 +78,9 @@ private:
 /// Looks again and again until the fuser has finished.
 std::optional<Message> finish (Fuser& fuser, const std::shared_ptr<Plan>& plan, double now_s)
 {
-    for (;;)
-    {
-        if (auto message = fuser.poll (plan, now_s)) return message;
-        if (fuser.state() != Fuser::State::compiles) return std::nullopt;
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
-    }
+    std::optional<Message> message;
+    REQUIRE (test::eventually (std::chrono::milliseconds (5), test::looks_at_compiler, [&] { return (message = fuser.poll (plan, now_s)) || fuser.state() != Fuser::State::compiles; }));
+    return message;
 }
 
 /// A compiler that puts this file where the output belongs.

@@ -3,6 +3,7 @@
 
 #include "host/websocket/service_bench.hpp"
 #include "support/rounds.hpp"
+#include "support/waiting.hpp"
 
 #include <host/haply/fake_inverse3.hpp>
 #include <host/haply/inverse3.hpp>
@@ -17,7 +18,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace tactus;
@@ -286,12 +286,10 @@ TEST_CASE ("a long run of an Inverse3: each message is answered, one at a time, 
     REQUIRE (arm.pushes());
     const auto before = arm.service->counts();
     int tick = 0;
-    REQUIRE (eventually (
-        [&] {
-            arm.tick (++tick % 2 == 0 ? 0.5 : -0.5);
-            return arm.service->counts().forces - before.forces >= pushes;
-        },
-        std::chrono::seconds (120 + pushes / 20)));
+    REQUIRE (eventually (200us, 10'000 + 100 * static_cast<int> (pushes), [&] {
+        arm.tick (++tick % 2 == 0 ? 0.5 : -0.5);
+        return arm.service->counts().forces - before.forces >= pushes;
+    }));
     CHECK (arm.device->counts().departures == 0);
     const auto n = arm.service->counts();
     CHECK (n.heard - n.answered <= 1);   // the last one may be under way
@@ -326,14 +324,14 @@ TEST_CASE ("a state of an Inverse3 is answered at once by whoever reads it", "[h
     Arm arm { Patience::ample };
     REQUIRE (arm.pushes());
     std::vector<double> us;
-    auto next = std::chrono::steady_clock::now();
+    test::Pace pace { 1ms };
     while (us.size() < static_cast<std::size_t> (states))
     {
         // From a force to the arrival of the next state: the force on its way, the service, and the state on its way. A tick comes each millisecond, and
         // after the answer to the last one; nothing that this thread waits for is in the time.
-        std::this_thread::sleep_until (next = std::max (next + 1ms, std::chrono::steady_clock::now()));
+        pace.next();
         const auto known = arm.device->counts().readings;
-        const auto begin = std::chrono::steady_clock::now();
+        const auto begin = test::fromNow (0ms);
         const bool pushed = arm.tick (0.5);
         REQUIRE (eventually ([&] { return arm.device->counts().readings > known; }));
         if (pushed) us.push_back (1e6 * std::chrono::duration<double> (arm.device->lastArrival() - begin).count());

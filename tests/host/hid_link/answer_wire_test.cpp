@@ -6,6 +6,7 @@
 #include "host/hid/hid.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/wires.hpp>
@@ -85,7 +86,7 @@ struct ArmBench
     bool hears (std::size_t reports)
     {
         return eventually ([&] {
-            if (heard.size() < reports) fake->hear (WireClock::now() + 10ms);
+            if (heard.size() < reports) fake->hear (fromNow (10ms));
             return heard.size() >= reports;
         });
     }
@@ -108,7 +109,7 @@ struct ArmBench
         Effort effort;
         if (reading.valid && reading.age < watchdog) effort.force.z() = newtons;
         device->write (effort);
-        std::this_thread::sleep_for (200us);   // gives way to the threads of the port
+        test::letPass (200us);   // gives way to the threads of the port
     }
 
     bool pushes()
@@ -187,7 +188,7 @@ TEST_CASE ("a report that pushes waits for the answer to the one before, and one
         Effort effort;
         effort.force.z() = newtons;
         bench.device->write (effort);
-        std::this_thread::sleep_for (1ms);   // gives way to the threads of the port
+        test::letPass (1ms);   // gives way to the threads of the port
     };
     for (int k = 0; k < 8; ++k)
         offer (0.1 * k);
@@ -199,7 +200,7 @@ TEST_CASE ("a report that pushes waits for the answer to the one before, and one
     while (bench.fake->time() < end)
         bench.fake->step();
     CHECK (eventually ([&] {
-        bench.fake->hear (WireClock::now() + 1ms);
+        bench.fake->hear (fromNow (1ms));
         return bench.heard.size() > before && bench.heard.back() == rest;
     }));
     CHECK (bench.heard.size() <= before + 3);

@@ -80,7 +80,7 @@ TEST_CASE ("a capture of a device on a wire has all its reports, and replays to 
             REQUIRE (bench.step (reading));
             live[bench.device->model().sample().axes[bench.sequence]] = reading;
             bench.device->write ({ .force = { 0.0, 0.0, reading.valid ? 0.001 * k : 0.0 } });
-            REQUIRE (eventually ([&] { return bench.heard.size() > static_cast<std::size_t> (k) || bench.fake->hear (WireClock::now() + 10ms); }));
+            REQUIRE (eventually ([&] { return bench.heard.size() > static_cast<std::size_t> (k) || bench.fake->hear (fromNow (10ms)); }));
         }
         sent = bench.sent;
         heard = bench.heard;
@@ -134,9 +134,9 @@ TEST_CASE ("a capture of a HID device has its steps, its features and its end", 
         HidDevice device { std::move (*opened) };
         device.prepare (1e-3);
         board.send (test::boardReport (1, 1000));
-        REQUIRE (board.until ([&] { return device.port().counts().reports == 1; }));
+        REQUIRE (eventually ([&] { return device.port().counts().reports == 1; }));
         board.plug (false);
-        REQUIRE (board.until ([&] { return ! device.port().isConnected(); }));
+        REQUIRE (eventually ([&] { return ! device.port().isConnected(); }));
     }
     const auto text = folder.textOf ("board.jsonl");
     CHECK (text.find (R"("vid":4617)") != std::string::npos);

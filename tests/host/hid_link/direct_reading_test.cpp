@@ -16,6 +16,7 @@ using namespace tactus;
 using namespace tactus::host::hid;
 using test::boardReport;
 using test::Bytes;
+using test::eventually;
 using test::FakeBoard;
 using test::openBoard;
 using namespace std::chrono_literals;
@@ -105,7 +106,7 @@ TEST_CASE ("the thread that a board ticks reads the board itself until the run e
 
     // Then the port's own thread reads again.
     driven.send (5);
-    CHECK (board.until ([&] { return driven.device->port().counts().reports == 205; }));
+    CHECK (eventually ([&] { return driven.device->port().counts().reports == 205; }));
     CHECK (std::ranges::count (board.readers(), std::this_thread::get_id()) == here);
     driven.device->read();
     CHECK (driven.device->counts().taken == 205);
@@ -192,7 +193,7 @@ TEST_CASE ("reports that the tick thread is woken too late for are not new ones 
         }
         if (driven.readHere() > 0 && driven.has_come)
             sender = std::jthread ([&] {
-                std::this_thread::sleep_for (2ms);   // so that the tick thread usually sleeps by now; the result does not depend on it
+                test::letPass (2ms);   // so that the tick thread usually sleeps by now; the result does not depend on it
                 board.sendAtOnce (many);
             });
         else

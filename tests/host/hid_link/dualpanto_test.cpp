@@ -87,7 +87,7 @@ struct PantoBench
         const auto before = heard.size();
         device->write (effort);
         return eventually ([&] {
-            fake->hear (WireClock::now() + 10ms);
+            fake->hear (fromNow (10ms));
             return heard.size() > before;
         });
     }
@@ -231,7 +231,7 @@ TEST_CASE ("the fake of a board without a watchdog keeps its force when the prog
     Bytes frame (longestFrame (Framing::dualpanto, pushing.size()));
     frame.resize (writeFrame (Framing::dualpanto, pushing, frame));
     REQUIRE (line->write (frame).size == frame.size());
-    REQUIRE (eventually ([&] { return fake.hear (WireClock::now() + 10ms); }));
+    REQUIRE (eventually ([&] { return fake.hear (fromNow (10ms)); }));
     REQUIRE_FALSE (fake.effort().force.isZero (0.0));
     for (int step = 0; step < 1000; ++step)
         fake.step();
@@ -276,7 +276,7 @@ TEST_CASE ("a DualPanto that is unplugged comes back, with another name, and its
         return reading.valid;
     }));
     CHECK (bench.fake->place() != name);
-    CHECK (eventually ([&] { return bench.fake->hear (WireClock::now() + 10ms) || bench.heard.size() > before; }));
+    CHECK (eventually ([&] { return bench.fake->hear (fromNow (10ms)) || bench.heard.size() > before; }));
     CHECK (std::all_of (bench.heard.begin() + static_cast<std::ptrdiff_t> (before), bench.heard.end(), [] (const auto& r) { return r == panto_rest; }));
     CHECK (bench.pushes());
 }

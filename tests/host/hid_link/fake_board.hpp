@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/waiting.hpp"
+
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/hid_device.hpp>
 
@@ -87,7 +89,7 @@ struct Told
 
     Bytes bytes;
     How how = How::output;
-    std::chrono::steady_clock::time_point at;
+    double at_s = 0.0;   // since the board was made
 
     // An output report begins with a 0.
     bool isEffort() const { return how == How::output && bytes.size() == 25; }
@@ -117,6 +119,7 @@ public:
     }
 
     host::hid::ConnectedDevice what;
+    const Stopwatch watch;
 
     /// True if the tick thread may read the board. Set it before the board is opened.
     bool can_read_until = true;
@@ -189,19 +192,6 @@ public:
         return opened;
     }
 
-    /// True as soon as the condition holds; false if it still does not hold after a long time.
-    template <typename F>
-    bool until (F&& so) const
-    {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
-        while (! so())
-        {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for (std::chrono::microseconds (200));
-        }
-        return true;
-    }
-
     std::vector<host::hid::ConnectedDevice> connected() override
     {
         const std::lock_guard lock (mutex);
@@ -226,7 +216,7 @@ private:
 
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
-            const auto got = take (into, std::chrono::steady_clock::now() + timeout);
+            const auto got = take (into, fromNow (timeout));
             if (got.what == host::ReportFile::Outcome::Kind::failure) return host::hid::transferError ("Input/output error");
             return got.size;
         }
@@ -281,7 +271,7 @@ private:
             if (board.on_write && how == Told::How::output) board.on_write (bytes);
             const std::lock_guard lock (board.mutex);
             if (gone() || board.failing) return host::hid::transferError ("Input/output error");
-            board.log.push_back ({ bytes, how, std::chrono::steady_clock::now() });
+            board.log.push_back ({ bytes, how, board.watch.s() });
             return {};
         }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/hid/hid.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/transport.hpp>
 
@@ -13,7 +14,6 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -148,7 +148,7 @@ private:
         {
             for (int tries = 0; tries < 2; ++tries)
             {
-                if (tries > 0 && timeout > 0ms) std::this_thread::sleep_for (500us);
+                if (tries > 0 && timeout > 0ms) letPass (500us);
                 const std::lock_guard lock (board.mutex);
                 if (board.inbox.empty()) continue;
                 const auto report = board.inbox.front();

@@ -2,6 +2,7 @@
 // A joystick or wheel without a profile, driven according to its own report descriptor.
 
 #include "host/hid/pid_wheel.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -112,7 +112,7 @@ private:
 
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
-            if (timeout > 0ms) std::this_thread::sleep_for (500us);
+            if (timeout > 0ms) test::letPass (500us);
             const std::lock_guard lock (wheel.mutex);
             if (gone()) return transferError ("Input/output error");
             const auto report = wheel.input.empty() && timeout > 0ms ? wheel.chatter : std::exchange (wheel.input, {});
@@ -189,17 +189,14 @@ struct Driven
         device.write (guard (wanted, reading));
     }
 
-    /// Ticks until a condition holds, for a few seconds at most.
+    /// Ticks until a condition holds.
     template <typename F>
     bool until (const Effort& wanted, F&& so)
     {
-        for (int i = 0; i < 4000; ++i)
-        {
+        return test::eventually (1ms, [&] {
             tick (wanted);
-            if (so()) return true;
-            std::this_thread::sleep_for (1ms);
-        }
-        return false;
+            return so();
+        });
     }
 
     Device& device;
@@ -355,7 +352,7 @@ TEST_CASE ("an answer that is late, or older than a report, does not count", "[h
     CHECK (port.counts().reports > 1);
 
     Wheel slow;
-    slow.on_ask = [] { std::this_thread::sleep_for (60ms); };   // longer than its watchdog
+    slow.on_ask = [] { test::letPass (60ms); };   // longer than its watchdog
     auto other = openDevice (of_4_newton, {}, slow, {});
     REQUIRE (other.device);
     Driven late (other);
@@ -472,7 +469,7 @@ TEST_CASE ("an uncalibrated device uses a tenth of its force, with a warning", "
     {
         made.device->read();
         made.device->write ({ .axes = { 50.0 } });
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
     }
     CHECK (std::abs (wheel.magnitude()) <= 1000);
 }

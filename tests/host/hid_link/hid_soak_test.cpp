@@ -5,6 +5,7 @@
 #include "fake_board.hpp"
 #include "socket_board.hpp"
 #include "support/rounds.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/open_device.hpp>
 #include <tactus/run/guard.hpp>
@@ -25,7 +26,6 @@ using namespace std::chrono_literals;
 
 namespace
 {
-using Clock = std::chrono::steady_clock;
 
 /// A guard ticks on the device, with a push that turns round. Each answer is checked as it comes.
 struct HidSoak
@@ -60,8 +60,8 @@ struct HidSoak
         const auto depth = static_cast<std::int32_t> (ticks % 2'000'000);   // nm
         if (! board.send (test::boardReport (number, depth, 0, -depth))) return false;
         Reading reading;
-        for (const auto end = Clock::now() + 1min; device->port().counts().reports < ticks;)
-            if (! device->port().waitForReport (Clock::now() + 10ms) && Clock::now() > end) return false;
+        const bool arrived = test::eventually (0ms, [&] { return device->port().counts().reports >= ticks || (device->port().waitForReport (test::fromNow (10ms)), false); });
+        if (! arrived) return false;
         reading = device->read();
         moved += reading.position.x() == 1e-9 * depth && reading.position.z() == -1e-9 * depth ? 1 : 0;
         const double push = 0.5 * static_cast<double> (static_cast<int> (ticks % 200) - 100) / 100.0;

@@ -14,6 +14,7 @@ using namespace tactus;
 using namespace tactus::host::hid;
 using test::boardReport;
 using test::Bytes;
+using test::eventually;
 using test::FakeBoard;
 using test::openBoard;
 
@@ -53,7 +54,7 @@ struct Pushed
         board.virtual_ns += 1'000'000;
         const auto before = device->port().lastArrival();   // changes once the report is in the ring
         board.send (std::move (report));
-        REQUIRE (board.until ([&] { return device->port().lastArrival() != before; }));
+        REQUIRE (eventually ([&] { return device->port().lastArrival() != before; }));
         return answer();
     }
 
@@ -236,7 +237,7 @@ TEST_CASE ("each reason for having no reading is named: no report yet, unplugged
     CHECK (run.reading.fault == ReadingFault::malformed);
     run.push();
     run.board.plug (false);
-    REQUIRE (run.board.until ([&] { return ! run.device->port().isConnected(); }));
+    REQUIRE (eventually ([&] { return ! run.device->port().isConnected(); }));
     run.tick();
     CHECK (run.reading.fault == ReadingFault::unplugged);
     CHECK (run.why() == "the device is unplugged");

@@ -2,6 +2,7 @@
 // The OpenFFBoard: standard force feedback along two axes, and its own channel for torques and the emergency stop.
 
 #include "far_board.hpp"
+#include "support/waiting.hpp"
 #include "wire_bench.hpp"
 
 #include <host/hid/board_stop.hpp>
@@ -63,7 +64,7 @@ struct OpenBoard
         reading = device->read();
         guard ({}, reading);
         device->write ({ .force = newtons });
-        std::this_thread::sleep_for (200us);   // gives way to the threads of the port
+        test::letPass (200us);   // gives way to the threads of the port
     }
 
     double axis (const char* name) const { return reading.axes[indexOf (device->layout().axes, name)]; }
@@ -320,7 +321,7 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
             board.moveTo (torn + ++ticks % 2, 0);   // a sensor that trembles is not frozen
             board.ns += 50'000;
             session.run().tick();
-            std::this_thread::sleep_for (200us);
+            test::letPass (200us);
             return so();
         });
     };
@@ -328,7 +329,7 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
     stops.emergencyStop();
     REQUIRE (ticksUntil ([&] { return board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (1));
-    CHECK (session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause));
+    CHECK (session.rearm (test::fromNow (StopSwitch::pause)));
     CHECK (ticksUntil ([&] { return ! board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (0));
     CHECK (ticksUntil ([&] { return board.torque()[0] == 8192; }));
@@ -341,7 +342,7 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
     CHECK (session.engine().guardOf ("stylus").isLatched());
     CHECK_FALSE (session.engine().isEmergency());
     CHECK (board.seen().commands[commands] == stopCommand (1));
-    CHECK (ticksUntil ([&] { return bool (session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause)); }));
+    CHECK (ticksUntil ([&] { return bool (session.rearm (test::fromNow (StopSwitch::pause))); }));
     CHECK (ticksUntil ([&] { return ! board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (0));
     CHECK (ticksUntil ([&] { return board.torque()[0] == 8192; }));

@@ -5,6 +5,7 @@
 #include "fake_board.hpp"
 #include "socket_board.hpp"
 #include "support/no_allocation.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/hid_clock.hpp>
 #include <host/hid_link/line_reader.hpp>
@@ -77,7 +78,7 @@ struct SerialEnd final : FarEnd
     Bytes hear() override
     {
         Bytes bytes (65);
-        const auto got = lines.read (*file, std::span (bytes).subspan (1), Clock::now() + 20s);
+        const auto got = lines.read (*file, std::span (bytes).subspan (1), test::fromNow (60s));
         bytes.resize (got.what == WireFile::Outcome::Kind::report ? got.size + 1 : 0);   // over HID, a 0 comes first
         return bytes;
     }
@@ -109,7 +110,7 @@ struct UdpEnd final : FarEnd
     Bytes hear() override
     {
         Bytes bytes (65);
-        const auto got = file->read (std::span (bytes).subspan (1), Clock::now() + 20s);
+        const auto got = file->read (std::span (bytes).subspan (1), test::fromNow (60s));
         bytes.resize (got.what == WireFile::Outcome::Kind::report ? got.size + 1 : 0);
         return bytes;
     }
@@ -199,7 +200,7 @@ Measured measure (Wire wire, bool lend, int reports, bool real_time)
     Bytes asked (1);
     while (end->speaksFirst() && opening.wait_for (1ms) != std::future_status::ready)
     {
-        static_cast<UdpEnd&> (*end).file->read (asked, Clock::now());   // learns who asks
+        static_cast<UdpEnd&> (*end).file->read (asked, {});   // learns who asks
         end->send (test::boardReport (0));
     }
     auto opened = opening.get();
@@ -220,19 +221,19 @@ Measured measure (Wire wire, bool lend, int reports, bool real_time)
         if (real_time) becomeRealTime (std::nullopt);
         for (int i = 1; i <= 20; ++i)
             if (! isAnswered (*end, static_cast<std::uint16_t> (i))) return;
-        const auto begin = Clock::now();
+        const test::Stopwatch all;
         const auto sleeps = sleepsOfAll(), of_reader = sleepsOf (sockets.reading_thread);
-        auto next = begin;
+        test::Pace pace { 1ms };
         for (int i = 21; i <= reports + 20; ++i)
         {
-            std::this_thread::sleep_until (next = std::max (next + 1ms, Clock::now()));
-            const auto sent = Clock::now();
+            pace.next();
+            const test::Stopwatch one;
             if (! isAnswered (*end, static_cast<std::uint16_t> (i))) break;
-            measured.us.push_back (1e6 * std::chrono::duration<double> (Clock::now() - sent).count());
+            measured.us.push_back (1e6 * one.s());
         }
-        measured.seconds = std::chrono::duration<double> (Clock::now() - begin).count();
         measured.sleeps = sleepsOfAll() - sleeps;
         measured.sleeps_of_reader = sleepsOf (sockets.reading_thread) - of_reader;
+        measured.seconds = all.s();
     } };
     board.join();
     ticking.over = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/waiting.hpp"
+
 #include <host/hid_link/transport.hpp>
 
 #include <algorithm>
@@ -68,7 +70,7 @@ private:
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
             board.reading_thread = static_cast<int> (::syscall (SYS_gettid));
-            const auto got = file.read (into, host::ReportFile::Clock::now() + timeout);
+            const auto got = file.read (into, fromNow (timeout));
             if (got.what == host::ReportFile::Outcome::Kind::failure) return host::hid::transferError ("unplugged");
             return got.size;
         }

@@ -8,6 +8,7 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid_link/hid_clock.hpp>
 #include <host/platform/failsafe.hpp>
@@ -71,7 +72,7 @@ public:
     void add (std::chrono::microseconds pause, F what)
     {
         all.emplace_back ([pause, what] (const std::stop_token& over) mutable {
-            for (; ! over.stop_requested(); std::this_thread::sleep_for (pause))
+            for (; ! over.stop_requested(); test::letPass (pause))
                 what();
         });
     }
@@ -135,8 +136,8 @@ TEST_CASE ("stops by a signal, from threads and by the failsafe, rearms, edits a
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
-    while (std::chrono::steady_clock::now() < end || stops < 10 || rearms < 10 || pushes < 10)
+    const std::chrono::milliseconds least { wanted ? 1000 * std::stoi (wanted) : 500 };
+    for (const test::Stopwatch watch; ! watch.hasRun (least) || stops < 10 || rearms < 10 || pushes < 10;)
     {
         if (live.history().position() > 50)
             while (live.history().position() > 0)

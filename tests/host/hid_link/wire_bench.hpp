@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/hid/hid.hpp"
-#include "support/eventually.hpp"
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/hid/hex.hpp>
 #include <host/hid_link/capture.hpp>
@@ -26,7 +26,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -37,6 +36,7 @@ using namespace host;
 using namespace host::hid;
 using namespace std::chrono_literals;
 using test::eventually;
+using test::fromNow;
 using WireClock = WireFile::Clock;
 
 /// An open device without a failsafe. On a busy computer, that would take a test for suspended, and open the device again. It has tests of its own.
@@ -146,14 +146,10 @@ struct Bench
         system.ns += 1'000'000;
         if (sent.size() == at) return false;
         const auto number = numberAt (sent[at], 4);
-        const auto end = WireClock::now() + 10s;
-        do
-        {
+        return eventually (50us, [&] {
             reading = device->read();
-            if (device->model().sample().axes[sequence] == static_cast<double> (number)) return true;
-            std::this_thread::sleep_for (50us);   // a thread that yields in a loop may keep the kernel from passing the bytes on
-        } while (WireClock::now() < end);
-        return false;
+            return device->model().sample().axes[sequence] == static_cast<double> (number);
+        });   // a thread that only yields may keep the kernel from passing the bytes on
     }
 
     /// The same with a force; waits until the fake has heard it.
@@ -165,7 +161,7 @@ struct Bench
         if (reading.valid) effort.force.z() = force;
         const auto before = heard.size();
         device->write (effort);
-        return eventually ([&] { return fake->hear (WireClock::now() + 10ms) || heard.size() > before; });
+        return eventually ([&] { return fake->hear (fromNow (10ms)) || heard.size() > before; });
     }
 
     HidSystem& opener() { return capturing ? static_cast<HidSystem&> (*capturing) : system; }

@@ -8,6 +8,7 @@
 // what has come of it, as on a real line. Such a report is counted, and the next one has to be in order again.
 
 #include "support/rounds.hpp"
+#include "support/waiting.hpp"
 #include "wire_bench.hpp"
 
 #include <host/hid_link/open_device.hpp>
@@ -77,13 +78,13 @@ struct Soak
         bench.system.ns += 1'000'000;
         const double number = numberAt (sent, 4);
         Reading reading;
-        const auto end = WireClock::now() + 1min;
         auto& port = bench.device->port();
-        for (;;)
-        {
+        const bool arrived = eventually (0ms, [&] {
             reading = bench.device->read();
-            if (bench.device->model().sample().axes[bench.sequence] == number) break;
-            if (port.waitForReport (WireClock::now() + 10ms) || WireClock::now() < end) continue;
+            return bench.device->model().sample().axes[bench.sequence] == number || (port.waitForReport (fromNow (10ms)), false);
+        });
+        if (! arrived)
+        {
             ++cut;
             ++ticks;
             return port.isConnected();
@@ -91,12 +92,14 @@ struct Soak
         const auto before = heard, stray = bench.fake->counts().stray;
         const double push = 0.5 * static_cast<double> (static_cast<int> (ticks++ % 200) - 100) / 100.0;
         bench.device->write (guard ({ .force = { push, 0.0, push } }, reading));
-        while (heard == before)
+        const bool answered = eventually (0ms, [&] {
+            bench.fake->hear (fromNow (10ms));
+            return heard != before;
+        });
+        if (! answered)
         {
-            if (bench.fake->hear (WireClock::now() + 10ms) || WireClock::now() < end) continue;
-            if (bench.fake->counts().stray == stray) return false;   // nothing on the line explains it
             ++unheard;
-            return true;
+            return bench.fake->counts().stray != stray;   // otherwise, nothing on the line explains it
         }
         return echoed == numberAt (sent, 4);
     }
@@ -157,7 +160,7 @@ void soakOver (Wire wire, const char* framing)
     CHECK (soak.pushing == pushing);
     soak.giveBack();
     bench.device.reset();
-    while (bench.fake->hear (WireClock::now() + 100ms))
+    while (bench.fake->hear (fromNow (100ms)))
         ;
     CHECK_FALSE (pushes (soak.answer));
     CHECK ((soak.answer[2] & 1u) == 0);   // the motors are off

@@ -13,6 +13,7 @@
 
 using namespace tactus;
 using test::boardReport;
+using test::eventually;
 using test::FakeBoard;
 
 namespace
@@ -36,7 +37,7 @@ struct Bench
         board.virtual_ns += static_cast<std::int64_t> (1e9 * after_s);
         const auto before = device->port().counts().reports;
         board.send (boardReport (++number));
-        REQUIRE (board.until ([&] { return device->port().counts().reports > before; }));
+        REQUIRE (eventually ([&] { return device->port().counts().reports > before; }));
         const auto reading = device->read();
         const double passed = passed_time (1e-9 * static_cast<double> (board.virtual_ns), 0.0);
         device->write (guard ({ .force = { wanted, 0, 0 } }, reading, counts ? passed : dt));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Live sessions in C++, on simulated devices: edits, sessions of the user, and stops.
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/live/live_session.hpp>
 #include <tactus/graph/history.hpp>
@@ -98,13 +99,14 @@ TEST_CASE ("a press before the first tick, or a session that begins stopped, has
     Offline o { std::move (options) };
     REQUIRE_FALSE (hasErrors (o.session.load (spring())));
     CHECK_FALSE (hasErrors (o.session.openDevices()));
+    const auto before = test::fromNow ({});
     if (! begins_stopped) stops.emergencyStop();
     const auto& applied = o.session.engine().guardOf ("stylus");
     for (int k = 0; k < 1000; ++k)
         o.session.run().tick();
     CHECK (applied.stop() != Guard::Stop::none);
-    if (! begins_stopped) CHECK_FALSE (o.session.rearm());
-    CHECK (o.session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause));
+    if (! begins_stopped) CHECK_FALSE (o.session.rearm (before + StopSwitch::pause / 2));
+    CHECK (o.session.rearm (test::fromNow (StopSwitch::pause)));
     for (int k = 0; k < 1000; ++k)
         o.session.run().tick();
     CHECK (applied.stop() == Guard::Stop::none);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/waiting.hpp"
+
 #include <host/osc/remote_control.hpp>
 
 #include <catch2/catch.hpp>
@@ -6,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -233,7 +234,7 @@ TEST_CASE ("the emergency stop works, and rearm ends it", "[osc]")
     CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 2) == "osc/rearm");   // it needs the token
     CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c4"), stage.me()), 2) == "osc/rearm");
     CHECK (stage.puppet.emergency);
-    std::this_thread::sleep_for (std::chrono::milliseconds (150));   // after a wrong token, none is accepted for 100 ms
+    tactus::test::letPass (std::chrono::milliseconds (150));   // after a wrong token, none is accepted for 100 ms
     CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c3"), stage.me()), 0) == "/tactus/rearm");
     CHECK_FALSE (stage.puppet.emergency);
 
@@ -252,12 +253,10 @@ TEST_CASE ("an emergency stop over OSC passes all messages that wait, and needs 
         stage.other->send (stage.port->number(), OSCMessage ("/tactus/param", String ("drag.mu"), 0.5f));
         if (i % 100 == 99) stage.other->send (stage.port->number(), OSCMessage ("/tactus/emergency"));
     }
-    for (int i = 0; i < 4000 && stage.puppet.emergencies_now == 0; ++i)
-    {
+    CHECK (tactus::test::eventually (5ms, [&] {
         stage.other->send (stage.port->number(), OSCMessage ("/tactus/emergency"));
-        std::this_thread::sleep_for (5ms);
-    }
-    CHECK (stage.puppet.emergencies_now > 0);
+        return stage.puppet.emergencies_now > 0;
+    }));
     CHECK_FALSE (stage.puppet.emergency);   // the main thread has not handled a single message
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/no_allocation.hpp"
+#include "support/waiting.hpp"
 
 #include <host/platform/doorbell.hpp>
 
@@ -9,23 +10,19 @@
 #include <thread>
 
 using tactus::host::Doorbell;
+using tactus::test::fromNow;
 using namespace std::chrono_literals;
-
-namespace
-{
-Doorbell::Clock::time_point after (std::chrono::milliseconds time) { return Doorbell::Clock::now() + time; }
-}   // namespace
 
 TEST_CASE ("several rings before a wait count as one", "[platform]")
 {
     Doorbell bell;
-    CHECK_FALSE (bell.wait (Doorbell::Clock::now()));
+    CHECK_FALSE (bell.wait (fromNow (0ms)));
     for (int i = 0; i < 3; ++i)
         bell.ring();
-    CHECK (bell.wait (Doorbell::Clock::now()));
-    CHECK_FALSE (bell.wait (after (1ms)));
+    CHECK (bell.wait (fromNow (0ms)));
+    CHECK_FALSE (bell.wait (fromNow (1ms)));
     bell.ring();
-    CHECK (bell.wait (after (10s)));
+    CHECK (bell.wait (fromNow (10s)));
 }
 
 TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "[platform][threads]")
@@ -48,7 +45,7 @@ TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "
     int seen = 0;
     bool silent = false;
     for (; seen < rings && ! silent; seen = announced.load (std::memory_order_relaxed))
-        silent = ! bell.wait (after (20s));
+        silent = ! bell.wait (fromNow (60s));
     ringer.join();
     CHECK_FALSE (silent);
     CHECK (seen == rings);
@@ -62,7 +59,7 @@ TEST_CASE ("two threads take turns through two doorbells", "[platform][threads]"
     Doorbell there, back;
     int shared = 0;   // not atomic: the doorbells order the accesses
     std::jthread other ([&] {
-        for (int i = 0; i < turns && there.wait (after (20s)); ++i)
+        for (int i = 0; i < turns && there.wait (fromNow (60s)); ++i)
         {
             ++shared;
             back.ring();
@@ -73,7 +70,7 @@ TEST_CASE ("two threads take turns through two doorbells", "[platform][threads]"
     {
         ++shared;
         there.ring();
-        if (! back.wait (after (20s))) break;
+        if (! back.wait (fromNow (60s))) break;
     }
     other.join();
     CHECK (answered == turns);

@@ -2,6 +2,7 @@
 #include "support/guardian.hpp"
 #include "support/no_system_calls.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/platform/failsafe.hpp>
 #include <host/platform/last_failsafe.hpp>
@@ -16,7 +17,6 @@
 #include <fstream>
 #include <functional>
 #include <sstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <sched.h>
@@ -26,6 +26,7 @@
 
 using namespace tactus;
 using host::Failsafe;
+using test::eventually;
 
 namespace
 {
@@ -38,18 +39,6 @@ std::string contentOf (const std::string& file)
 }
 
 std::vector<Failsafe::Report> rest() { return { { { 'r', 'e', 's', 't' }, false }, { { '!' }, false } }; }
-
-/// True as soon as the condition holds; false if it still does not hold after a long time.
-template <typename F>
-bool until (F&& isSo)
-{
-    for (int i = 0; i < 5000; ++i)
-    {
-        if (isSo()) return true;
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
-    }
-    return false;
-}
 
 /// Suspends this process, with all its threads, until the other function returns. `freeze` sends the signal.
 void freezeDuring (const std::function<void()>& freeze, const std::function<void()>& wait)
@@ -72,7 +61,7 @@ void freezeDuring (const std::function<void()>& freeze, const std::function<void
 void freezeUntil (
     const std::string& file, const std::string& content, const std::function<void()>& freeze = [] { ::raise (SIGSTOP); })
 {
-    freezeDuring (freeze, [&] { until ([&] { return contentOf (file) == content; }); });
+    freezeDuring (freeze, [&] { eventually ([&] { return contentOf (file) == content; }); });
 }
 
 /// Makes it look to the child processes of this one as if the computer had slept for 100 s. False if the system refuses.
@@ -97,7 +86,7 @@ std::string afterDying (const std::string& file, const std::function<void()>& di
         return 2;
     });
     if (end.status > 0) return "status " + std::to_string (end.status);
-    until ([&] { return contentOf (file) == awaited; });   // the guardian writes a moment later
+    eventually ([&] { return contentOf (file) == awaited; });   // the guardian writes a moment later
     return contentOf (file);
 }
 }   // namespace
@@ -123,7 +112,7 @@ TEST_CASE ("the guardian notes when and why it brought a device to rest", "[plat
     CHECK (afterDying (
                file, [] { ::kill (::getpid(), SIGKILL); }, "rest!")
            == "rest!");
-    CHECK (until ([] { return host::lastFailsafe().ends_with ("Z the program ended without closing its devices"); }));
+    CHECK (eventually ([] { return host::lastFailsafe().ends_with ("Z the program ended without closing its devices"); }));
     const auto noted = host::lastFailsafe();
 
     const auto note = folder / "home" / "last_failsafe.txt", other = folder / "other";   // the guardian follows no link
@@ -133,8 +122,7 @@ TEST_CASE ("the guardian notes when and why it brought a device to rest", "[plat
     CHECK (afterDying (
                file, [] { ::kill (::getpid(), SIGKILL); }, "rest!")
            == "rest!");
-    std::this_thread::sleep_for (std::chrono::milliseconds (100));
-    CHECK (contentOf (other.string()) == "mine");
+    CHECK (test::stays (std::chrono::milliseconds (100), [&] { return contentOf (other.string()) == "mine"; }));
     before != nullptr ? ::setenv ("TACTUS_HOME", kept.c_str(), 1) : ::unsetenv ("TACTUS_HOME");
     CHECK (noted.starts_with ("20"));
 }
@@ -148,7 +136,7 @@ TEST_CASE ("a process that dies leaves its device at rest, even if a child of it
         const auto child = ::fork();
         if (child == 0)
         {
-            std::this_thread::sleep_for (std::chrono::seconds (60));
+            test::letPass (std::chrono::seconds (60));
             ::_exit (0);
         }
         std::ofstream (pid_file) << child << std::flush;
@@ -196,7 +184,7 @@ TEST_CASE ("the handlers of a program run after the last reports, and are back w
         return 1;
     });
     CHECK (faults.status == by_handler);
-    CHECK (until ([&] { return contentOf (file).starts_with ("rest!"); }));
+    CHECK (eventually ([&] { return contentOf (file).starts_with ("rest!"); }));
 
     const auto restored = test::inChild ([&] {
         ::signal (SIGBUS, own);
@@ -235,9 +223,9 @@ TEST_CASE ("a device that is too busy for the last reports gets them as soon as 
         ::kill (::getpid(), SIGKILL);
         return 0;
     });
-    std::this_thread::sleep_for (std::chrono::milliseconds (100));   // the first tries fail
+    test::letPass (std::chrono::milliseconds (100));   // the first tries fail
     std::string last;
-    CHECK (until ([&] {
+    CHECK (eventually ([&] {
         for (ssize_t got = 0; (got = ::read (device, some.data(), some.size())) > 0;)
             last.append (some.data(), static_cast<std::size_t> (got));
         return last.ends_with ("rest!");
@@ -271,8 +259,7 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
         ::kill (::getpid(), SIGKILL);
         return 0;
     });
-    std::this_thread::sleep_for (std::chrono::milliseconds (50));
-    CHECK (contentOf (file).empty());
+    CHECK (test::stays (std::chrono::milliseconds (100), [&] { return contentOf (file).empty(); }));
 }
 
 TEST_CASE ("the guardian brings the device of a frozen process to rest, and the process finds out when it continues", "[platform]")
@@ -308,11 +295,11 @@ TEST_CASE ("a process that was frozen together with its guardian finds out when 
         auto failsafe = Failsafe::arm (file, rest());
         if (! failsafe || ! failsafe->beat (false)) return 1;
         pid_t guardian = -1;
-        if (! until ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return 2;
+        if (! eventually ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return 2;
         ::kill (guardian, SIGSTOP);
         if (::waitpid (guardian, nullptr, WUNTRACED) != guardian) return 3;
         if (! failsafe->beat (true)) return 4;
-        freezeDuring ([] { ::raise (SIGSTOP); }, [] { std::this_thread::sleep_for (std::chrono::milliseconds (1100)); });
+        freezeDuring ([] { ::raise (SIGSTOP); }, [] { test::letPass (std::chrono::milliseconds (1100)); });
         const bool noticed = ! failsafe->beat (true) && ! failsafe->beat (false) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen";
         ::kill (guardian, SIGCONT);
         return noticed ? 0 : 5;
@@ -333,7 +320,7 @@ TEST_CASE ("a signal to the whole group of a process freezes it, but not the gua
             ::setpgid (0, 0);   // or the test would be frozen too
             ::signal (signal, SIG_DFL);
             auto failsafe = Failsafe::arm (file, rest());
-            if (! failsafe || ! until ([] { return test::guardianOf (::getpid()) > 0; }) || ! failsafe->beat (true)) return 1;
+            if (! failsafe || ! eventually ([] { return test::guardianOf (::getpid()) > 0; }) || ! failsafe->beat (true)) return 1;
             freezeUntil (file, "rest!", [signal] { ::kill (0, signal); });
             return ! failsafe->beat (true) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen" ? 0 : 2;
         });
@@ -348,7 +335,7 @@ TEST_CASE ("no signal but KILL, STOP and faults takes the guardian away from a d
     const auto file = (folder / "device").string();
     const auto signalThenDie = [] {
         pid_t guardian = -1;
-        if (! until ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return;
+        if (! eventually ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return;
         const std::array others { SIGKILL, SIGSTOP, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
         for (int signal = 1; signal <= SIGRTMAX; ++signal)   // those just below SIGRTMIN belong to the C library
             if ((signal <= SIGSYS || signal >= SIGRTMIN) && std::ranges::count (others, signal) == 0) ::kill (guardian, signal);
@@ -366,14 +353,14 @@ TEST_CASE ("if the guardian is killed or frozen, there is an alarm, and another 
     const auto loseGuardianFirst = [&] {
         const auto guardian = [] { return test::guardianOf (::getpid()); };
         pid_t first = -1;
-        if (! until ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) ::_exit (3);
+        if (! eventually ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) ::_exit (3);
         ::kill (first, signal);
         const auto hasNext = [&] {
             const auto now = guardian();   // read once: a process that is being killed raises the alarm before it is gone
             return now > 0 && now != first;
         };
-        if (! until ([&] { return Failsafe::alarms() == 1 && hasNext(); })) ::_exit (4);
-        if (! until ([] { return Failsafe::alarm().id == "run/unguarded"; })) ::_exit (5);
+        if (! eventually ([&] { return Failsafe::alarms() == 1 && hasNext(); })) ::_exit (4);
+        if (! eventually ([] { return Failsafe::alarm().id == "run/unguarded"; })) ::_exit (5);
         static_cast<void> (Failsafe::arm (file, {}));   // returns only after the next guardian has been told everything
         ::kill (::getpid(), SIGKILL);
     };

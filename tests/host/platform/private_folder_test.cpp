@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What live C++ leaves to the system: a private folder, and a limit on the compiler.
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +12,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <thread>
 
 using namespace tactus;
 namespace fs = std::filesystem;
@@ -36,9 +36,7 @@ TEST_CASE ("a program in the background that never ends is ended by the system a
     const TemporaryFolder folder;
     const auto program = host::BackgroundProgram::start ({ "sh", "-c", "while :; do :; done" }, folder / "says", 1);
     REQUIRE (program);
-    auto status = program->status();
-    for (; ! status; status = program->status())
-        std::this_thread::sleep_for (std::chrono::milliseconds (20));
-    CHECK (status == -1);
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (20), [&] { return program->status().has_value(); }));
+    CHECK (program->status() == -1);
 }
 #endif

@@ -2,6 +2,7 @@
 // Files that keep reports apart, over a pair of sockets.
 
 #include "support/no_allocation.hpp"
+#include "support/waiting.hpp"
 
 #include <host/platform/report_file.hpp>
 
@@ -72,21 +73,22 @@ TEST_CASE ("a report file waits until the given time, or until a report arrives,
 {
     Link link;
     std::array<std::uint8_t, 8> into {};
-    const auto until = Clock::now() + 1500us;
+    const tactus::test::Stopwatch watch;
+    const auto until = tactus::test::fromNow (1500us);
     const NoAllocation watched;
     const auto in_vain = link.file.read (into, until);
     const int allocations = watched.allocations(), locks = watched.locks();
     CHECK (in_vain.what == Kind::nothing);
-    CHECK (Clock::now() >= until);
+    CHECK (watch.hasRun (1500us));
     CHECK (allocations == 0);
     CHECK (locks == 0);
 
     bool sent = false;
     std::jthread sender { [&] {
-        std::this_thread::sleep_for (2ms);
+        tactus::test::letPass (2ms);
         sent = link.send (first);
     } };
-    const auto got = link.file.read (into, Clock::now() + 60s);
+    const auto got = link.file.read (into, tactus::test::fromNow (60s));
     sender.join();
     CHECK (sent);
     CHECK (got.what == Kind::report);
@@ -97,10 +99,10 @@ TEST_CASE ("a report file says when its device is gone", "[hid][platform]")
     Link link;
     std::array<std::uint8_t, 8> into {};
     std::jthread puller { [&] {
-        std::this_thread::sleep_for (2ms);
+        tactus::test::letPass (2ms);
         link.unplug();
     } };
-    const auto waited = link.file.read (into, Clock::now() + 60s);
+    const auto waited = link.file.read (into, tactus::test::fromNow (60s));
     puller.join();
     CHECK (waited.what == Kind::failure);
     CHECK (waited.error != 0);

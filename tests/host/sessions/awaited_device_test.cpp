@@ -14,6 +14,7 @@
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 #include "support/tick_thread_locks.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -22,6 +23,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using test::boardReport;
+using test::eventually;
 using test::FakeBoard;
 using namespace std::chrono_literals;
 
@@ -96,14 +98,14 @@ TEST_CASE ("a role whose device is missing waits without force, and then starts 
     }
     CHECK (guard.stop() == Guard::Stop::stale);
     CHECK (device.device() == nullptr);
-    REQUIRE (board.until ([&] { return ! device.trouble().empty(); }));
+    REQUIRE (eventually ([&] { return ! device.trouble().empty(); }));
     CHECK (board.told().empty());
 
     is_held_by_another ? board.forbid (false) : board.plug (true);
-    REQUIRE (board.until ([&] { return device.device() != nullptr; }));
+    REQUIRE (eventually ([&] { return device.device() != nullptr; }));
     std::uint16_t count = 0;
     double most_step = 0.0, before = 0.0;
-    const bool reached = board.until ([&] {
+    const bool reached = eventually ([&] {
         board.send (boardReport (++count));
         const double now = tick();
         most_step = std::max (most_step, now - before);
@@ -169,7 +171,7 @@ TEST_CASE ("while the clock of a run is away, no device gets a force, not even o
     Runner runner { engine, clock, 1000.0, {} };
     std::atomic<bool> sending = true;
     std::jthread reports { [&] (const std::stop_token& over) {
-        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+        for (std::uint16_t n = 0; ! over.stop_requested(); test::letPass (1ms))
             if (sending) board.send (boardReport (++n));
     } };
     runner.start();
@@ -180,18 +182,18 @@ TEST_CASE ("while the clock of a run is away, no device gets a force, not even o
             all.insert (role.force);
         return all;
     };
-    CHECK (board.until ([&] { return forces() == std::set { 1.0 }; }));
+    CHECK (eventually ([&] { return forces() == std::set { 1.0 }; }));
 
     const bool by_cable = GENERATE (false, true);
     by_cable ? board.plug (false) : void (sending = false);
-    CHECK (board.until ([&] { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
+    CHECK (eventually ([&] { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
     const auto held = runner.status();
     CHECK (held.roles[0].stop == Guard::Stop::stale);   // "beside", whose own reading is still valid
     CHECK (held.roles[1].stop == Guard::Stop::stale);
     CHECK (clock.isByTimer());
 
     by_cable ? board.plug (true) : void (sending = true);
-    CHECK (board.until ([&] { return ! runner.status().clock_replaced && forces() == std::set { 1.0 }; }));
+    CHECK (eventually ([&] { return ! runner.status().clock_replaced && forces() == std::set { 1.0 }; }));
     reports = {};
     sending = false;
     runner.stop();
@@ -211,17 +213,17 @@ TEST_CASE ("a run with an awaited clock is ticked by a timer at its rate, withou
     RunClock clock { real, 1000.0 };
     Runner runner { engine, clock, 1000.0, {} };
     runner.start();
-    REQUIRE (board.until ([&] { return runner.status().ticks > 30; }));
+    REQUIRE (eventually ([&] { return runner.status().ticks > 30; }));
     CHECK (runner.status().clock_replaced);
     CHECK (runner.status().peak == 0.0);
     CHECK (clock.ticksByTimer() >= 30);
 
     board.plug (true);
     std::jthread reports { [&] (const std::stop_token& over) {
-        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+        for (std::uint16_t n = 0; ! over.stop_requested(); test::letPass (1ms))
             board.send (boardReport (++n));
     } };
-    CHECK (board.until ([&] { return ! clock.isByTimer() && runner.status().force == 1.0; }));
+    CHECK (eventually ([&] { return ! clock.isByTimer() && runner.status().force == 1.0; }));
     runner.stop();
     runner.wait();
 }
@@ -250,7 +252,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     const auto device = realDevice ("stylus", real);
     REQUIRE (device);
     HealthWatch watch { "stylus" };
-    REQUIRE (board.until ([&] {
+    REQUIRE (eventually ([&] {
         watch.poll (std::span (&*device, 1));
         return ! watch.health().front().trouble.empty();
     }));
@@ -259,7 +261,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
 
     board.plug (true);
     std::uint16_t n = 0;
-    CHECK (board.until ([&] {
+    CHECK (eventually ([&] {
         board.send (boardReport (++n));
         real.read();
         watch.poll (std::span (&*device, 1));
@@ -273,7 +275,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     CHECK (describe (there).find ("reports/s") != std::string::npos);
 
     board.plug (false);
-    CHECK (board.until ([&] {
+    CHECK (eventually ([&] {
         watch.poll (std::span (&*device, 1));
         return ! watch.health().front().connected;
     }));
@@ -293,12 +295,12 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
     const std::vector<RealDevice> devices { { "stylus", owner.get(), nullptr }, { "thumb", follower.get(), nullptr } };
     HealthWatch by_device { "stylus", 0.05 }, too_early { "stylus" };
     std::uint16_t n = 0, m = 0;
-    const bool measured = boards[0].until ([&] {
+    const bool measured = eventually ([&] {
         for (int k = 0; k < 4; ++k)
             boards[0].send (boardReport (++n));
         for (int k = 0; k < 5; ++k)
             boards[1].send (boardReport (++m));   // 5 for every 4 of the other board, however fast the machine is
-        std::this_thread::sleep_for (2ms);
+        test::letPass (2ms);
         owner->read();
         follower->read();
         by_device.poll (devices);
@@ -328,7 +330,7 @@ TEST_CASE ("a board whose rate is not that of its profile is reported, and a pau
         for (int k = 0; k < reports; ++k)
             board.send (boardReport (++number));
         all += static_cast<std::uint64_t> (reports);
-        REQUIRE (board.until ([&] { return device->port().counts().reports == all; }));
+        REQUIRE (eventually ([&] { return device->port().counts().reports == all; }));
         device->read();
         watch.poll (devices);
     };
@@ -385,11 +387,11 @@ TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer th
     test::checkThatTicksLockNothing (read, &direct, 200, [&] {
         ++sent;
         sockets.send (boardReport (sent, sent));
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
     });
     CHECK (direct.port().counts().read_by_tick > 0);
     RunClock nothing_to_read { direct, 1000.0 };
-    test::checkThatTicksLockNothing (nothing_to_read, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
+    test::checkThatTicksLockNothing (nothing_to_read, nullptr, 50, [] { test::letPass (1ms); });
 #endif
 
     FakeBoard board;
@@ -400,14 +402,14 @@ TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer th
     test::checkThatTicksLockNothing (reported, device.get(), 200, [&] {
         ++count;
         board.send (boardReport (count, count));
-        std::this_thread::sleep_for (1ms);
+        test::letPass (1ms);
     });
     RunClock silent { *device, 1000.0 };
-    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
+    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { test::letPass (1ms); });
 
     FakeBoard nowhere;
     nowhere.plug (false);
     AwaitedDevice missing { on_board, test::BoardProfile {}.make(), nowhere, 2ms };
     RunClock awaiting { missing, 1000.0 };
-    test::checkThatTicksLockNothing (awaiting, &missing, 50, [] { std::this_thread::sleep_for (1ms); });
+    test::checkThatTicksLockNothing (awaiting, &missing, 50, [] { test::letPass (1ms); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Turns with a service that answers late, and requests of web pages to the end that waits for drivers.
 
-#include "support/eventually.hpp"
+#include "support/waiting.hpp"
 
 #include <host/websocket/exchange.hpp>
 #include <host/websocket/service_relay.hpp>
@@ -79,7 +79,7 @@ struct LateService
             heard.push_back (client.hear());
         }
         while (! answers && ! stop.stop_requested())
-            std::this_thread::sleep_for (1ms);
+            test::letPass (1ms);
         client.say ("{}");
     }
 
@@ -126,7 +126,7 @@ TEST_CASE ("what is offered while a service is late is refused, and is still wha
     Exchange exchange { number, "the service", Exchange::Answer::message, { 20ms, 60s, 60s, 60s } };
     REQUIRE (exchange.open ({ "localhost", std::to_string (service.server.port()) }, "/", nullptr).empty());
     exchange.begin();
-    const auto listens = [&] { exchange.wait (Exchange::Clock::now() + 1ms, [] { return false; }); };
+    const auto listens = [&] { exchange.wait (test::fromNow (1ms), [] { return false; }); };
     const auto offers = [&] (int n) { return exchange.offer ([&] { number.put (n); }); };
     CHECK (offers (1).empty());
     REQUIRE (eventually ([&] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "support/eventually.hpp"
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/device_plugins/device_driver.hpp>
 #include <host/device_plugins/open_plugin_device.hpp>

@@ -2,9 +2,9 @@
 // Captures of the messages between a driver and its service: what is recorded, and what it gives when it is replayed.
 
 #include "host/cli/program.hpp"
-#include "support/eventually.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/bhaptics/fake_player.hpp>
 #include <host/bhaptics/vest.hpp>
