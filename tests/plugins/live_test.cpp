@@ -4,6 +4,7 @@
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,12 +14,10 @@
 #include <tactus/run/turn.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <string>
-#include <thread>
 
 using namespace tactus;
 namespace fs = std::filesystem;
@@ -113,13 +112,9 @@ long residentPages()
 /// Waits for news.
 host::LivePlugins::RebuiltPlugin next (host::LivePlugins& live)
 {
-    for (int i = 0; i < 60000; ++i)
-    {
-        if (auto news = live.poll()) return std::move (*news);
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
-    }
-    FAIL ("the compiler does not finish");
-    return {};
+    std::optional<host::LivePlugins::RebuiltPlugin> news;
+    REQUIRE (test::eventually (std::chrono::milliseconds (5), test::looks_at_compiler, [&] { return (news = live.poll()).has_value(); }));
+    return std::move (*news);
 }
 
 std::string replaced (std::string text, const std::string& what, const std::string& by)

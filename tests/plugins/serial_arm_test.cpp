@@ -3,6 +3,7 @@
 #include "load.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -65,7 +66,7 @@ public:
     /// As if the cable was pulled.
     void unplug()
     {
-        if (! is_over.exchange (true)) ::usleep (5000);
+        if (! is_over.exchange (true)) test::letPass (5ms);   // the other thread ends its turn
         const std::lock_guard lock (mutex);
         if (line >= 0) ::close (std::exchange (line, -1));
         if (kept_open >= 0) ::close (std::exchange (kept_open, -1));
@@ -93,7 +94,7 @@ private:
     void run()
     {
         std::string waiting, lines;
-        auto next = std::chrono::steady_clock::now();
+        test::Pace pace { 1ms };
         double z = height;
         for (unsigned long long count = 1; ! is_over; ++count)
         {
@@ -118,8 +119,7 @@ private:
                     waiting.erase (0, end + 1);
                 }
             }
-            next += 1ms;
-            std::this_thread::sleep_until (next);
+            pace.next();
         }
     }
 
@@ -150,7 +150,7 @@ constexpr auto wall = R"({ "format": "tactus-graph", "version": 2, "name": "wall
              "motor": { "type": "device.force", "role": "stylus" } },
   "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
 
-using test::eventually;
+using test::soon;
 
 const host::hid::LoadedProfiles& noProfiles()
 {
@@ -185,7 +185,7 @@ TEST_CASE ("a graph is played on a serial device whose driver is a plugin", "[pl
         CHECK (board.force() == 0.0);
         session.start ({});
         const auto until = [&] (auto isSo) {
-            return eventually ([&] {
+            return soon ([&] {
                 session.poll();
                 return isSo();
             });
@@ -213,9 +213,9 @@ TEST_CASE ("a graph is played on a serial device whose driver is a plugin", "[pl
 
         const auto ended = session.end();
         CHECK (ended.log);
-        CHECK (eventually ([&] { return board.force() == 0.0; }));
+        CHECK (soon ([&] { return board.force() == 0.0; }));
     }
-    CHECK (eventually ([&] { return board.lastLine() == "0 0 0"; }));
+    CHECK (soon ([&] { return board.lastLine() == "0 0 0"; }));
     CHECK (board.broken() == 0);
     double most = 0.0;
     for (const double f : board.forces())
@@ -240,15 +240,15 @@ TEST_CASE ("a serial device that is unplugged loses the force, and the driver fi
         device.write ({});
         return reading.valid;
     };
-    CHECK (eventually (isValid));
+    CHECK (soon (isValid));
     board.reset();
-    CHECK (eventually ([&] { return ! device.isConnected(); }));
+    CHECK (soon ([&] { return ! device.isConnected(); }));
     CHECK_FALSE (isValid());
 
     board = std::make_unique<Board>();
     std::filesystem::remove (port);
     std::filesystem::create_symlink (board->port, port);
-    CHECK (eventually (isValid));
+    CHECK (soon (isValid));
     CHECK (device.counts().departures == 1);
 }
 
@@ -269,12 +269,9 @@ TEST_CASE ("a serial device whose lines come in batches is driven, and none of t
         Effort effort;
         if (reading.valid) effort.force.z() = 1.0;
         device.write (effort);
-        std::this_thread::sleep_for (1ms);
+        return board.force() == Approx (1.0) && valid >= 500;
     };
-    for (int i = 0; i < 10'000 && (board.force() != Approx (1.0) || valid < 500); ++i)
-        tick();
-    CHECK (board.force() == Approx (1.0));
-    CHECK (valid >= 500);
+    CHECK (test::eventually (1ms, tick));
     CHECK (after_lost == 0);
     CHECK (device.counts().readings > 100);
     CHECK (device.counts().lost == 0);
@@ -290,11 +287,10 @@ TEST_CASE ("a program that is killed while it pushes leaves a serial device at r
     test::Running play { { "play", graph, "--device", "stylus=serial_arm:" + board.port, "--plugins", test::driverFolder().string(), "--session", "off",
                            "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    REQUIRE (eventually ([&] { return board.force() == Approx (1.0); }));
+    REQUIRE (soon ([&] { return board.force() == Approx (1.0); }));
     play.signal (SIGKILL);
-    CHECK (eventually ([&] { return board.lastLine() == "0 0 0"; }));
-    std::this_thread::sleep_for (50ms);
-    CHECK (board.force() == 0.0);
+    CHECK (soon ([&] { return board.lastLine() == "0 0 0"; }));
+    CHECK (test::stays (50ms, [&] { return board.force() == 0.0; }));
 }
 
 TEST_CASE ("play on a serial device ends with an account of it, and check-plugin examines it", "[plugins]")

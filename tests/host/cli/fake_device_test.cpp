@@ -21,9 +21,9 @@
 #include <vector>
 
 using namespace tactus;
-using test::eventually;
 using test::Running;
 using test::runTactus;
+using test::soon;
 
 namespace
 {
@@ -49,7 +49,7 @@ const std::string drives = "< 54 01 01 00", rests = "< 54 01 00 00";
 struct Fake
 {
     explicit Fake (const std::string& wire, const std::string& profile = "tactus_board")
-        : log (scratch.path ("log")), program (words (wire, profile)), is_there (eventually ([this] { return program.out().find ('\n') != std::string::npos; }))
+        : log (scratch.path ("log")), program (words (wire, profile)), is_there (soon ([this] { return program.out().find ('\n') != std::string::npos; }))
     {
         const auto told = program.out();
         const auto at = told.find ("ROLE=");
@@ -81,11 +81,11 @@ TEST_CASE ("a program that is killed while it pushes leaves the device on a wire
     Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
     // 0.5 N are 500000 uN, 0007a120.
-    REQUIRE (eventually (
+    REQUIRE (soon (
         [&] { return linesOf (fake.log, drives).size() > 100 && linesOf (fake.log, drives).back().find (" 20 a1 07 00 ") != std::string::npos; }));
     play.signal (SIGKILL);
-    CHECK (eventually ([&] { return ! linesOf (fake.log, "< ").empty() && linesOf (fake.log, "< ").back().starts_with (rests); }));
-    if (wire == "udp") CHECK (eventually ([&] { return linesOf (fake.log, rests).size() >= 3; }));   // a datagram may be lost
+    CHECK (soon ([&] { return ! linesOf (fake.log, "< ").empty() && linesOf (fake.log, "< ").back().starts_with (rests); }));
+    if (wire == "udp") CHECK (soon ([&] { return linesOf (fake.log, rests).size() >= 3; }));   // a datagram may be lost
     const auto ran = fake.program.stop();
     CHECK (ran.status == 0);
     CHECK (ran.out.find (" 0 refused") != std::string::npos);
@@ -98,7 +98,7 @@ TEST_CASE ("a second program cannot drive a device over UDP that a first one dri
     const auto graph = fake.scratch.write ("push.json", pushing);
     Running first { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (first.says ("Ctrl-C stops"));
-    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
     const auto port = fake.device.substr (fake.device.rfind (':'));
     for (const auto* name : { "127.0.0.1", "0.0.0.0", "127.1.2.3", "[::ffff:127.0.0.1]" })
     {
@@ -134,9 +134,9 @@ TEST_CASE ("a program that is killed while it pushes an arm without a watchdog l
         const auto heard = linesOf (fake.log, arm.force);
         return heard.size() > 100 && heard.back() != at_rest;
     };
-    REQUIRE (eventually (isPushed));
+    REQUIRE (soon (isPushed));
     play.signal (SIGKILL);
-    CHECK (eventually ([&] { return linesOf (fake.log, arm.force).back() == at_rest; }));
+    CHECK (soon ([&] { return linesOf (fake.log, arm.force).back() == at_rest; }));
     CHECK (fake.program.stop().status == 0);
 }
 
@@ -148,9 +148,9 @@ TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire
     const auto graph = fake.scratch.write ("push.json", pushing);
     Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
     play.signal (SIGSTOP);
-    CHECK (eventually ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
+    CHECK (soon ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
     play.signal (SIGCONT);
     play.stop();
     fake.program.stop();
@@ -165,7 +165,7 @@ TEST_CASE ("play on a wire accounts for its reports, and ends with the device at
     INFO (ran.err);
     CHECK (ran.status == 0);
     CHECK (ran.err.find (" taken") != std::string::npos);
-    CHECK (eventually ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
+    CHECK (soon ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
     CHECK (linesOf (fake.log, drives).size() > 100);
     fake.program.stop();
 }
@@ -175,7 +175,7 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     const test::Scratch scratch;
     const auto link = scratch.path ("board");
     Running fake { { "fake-device", "tactus_board", "--link", link } };
-    REQUIRE (eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
+    REQUIRE (soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
     const auto ran = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + link, "--duration", "2",
                                   "--session", "off", "--osc", "off", "--out", scratch.path ("out.csv"), "--record", "drag.force" });
     INFO (ran.out + ran.err);
@@ -189,7 +189,7 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
     // A device that never answers: its stop at the start is the news.
     const auto silent = scratch.path ("silent");
     Running mute { { "fake-device", "tactus_board", "--link", silent, "--fault", "stall" } };
-    REQUIRE (eventually ([&] { return mute.out().find ("ROLE=") != std::string::npos; }));
+    REQUIRE (soon ([&] { return mute.out().find ("ROLE=") != std::string::npos; }));
     const auto waited = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + silent, "--duration", "0.5",
                                      "--session", "off", "--osc", "off" });
     INFO (waited.out + waited.err);
@@ -229,7 +229,7 @@ TEST_CASE ("a line that carries only garbage is told from one that carries nothi
     const test::Scratch scratch;
     const auto link = scratch.path ("board"), device = "serial:tactus_board@" + link;
     Running fake { { "fake-device", "tactus_board", "--link", link, "--fault", "garbage" } };
-    REQUIRE (eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
+    REQUIRE (soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
     const std::string told = " bytes arrived, but no frame: check baud, framing and CRC";
     const auto captured = runTactus ({ "devices", "--capture", scratch.path ("board.jsonl"), "--device", device, "--duration", "1" });
     INFO (captured.out + captured.err);
@@ -259,7 +259,7 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     setenv ("TACTUS_PROFILES", scratch.path ("").c_str(), 1);
     const auto link = scratch.path ("board");
     Running fake { { "fake-device", "slow_board", "--link", link } };
-    const bool is_there = eventually ([&] { return fake.out().find ("ROLE=") != std::string::npos; });
+    const bool is_there = soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; });
     unsetenv ("TACTUS_PROFILES");
     INFO (fake.err());
     REQUIRE (is_there);
@@ -359,7 +359,7 @@ TEST_CASE ("tactus devices --capture reads no serial port that a run drives", "[
     REQUIRE (fake.is_there);
     Running play { { "play", dry_wood, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
     for (const auto& port : { fake.scratch.path ("board"), std::filesystem::canonical (fake.scratch.path ("board")).string() })
     {
         const auto ran = runTactus ({ "devices", "--capture", fake.scratch.path ("taken.jsonl"), "--device", port, "--duration", "0.1" });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "running.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,7 +13,6 @@
 #include <fstream>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -102,8 +102,11 @@ public:
     int finish()
     {
         int result = -1;
-        for (; waitpid (process, &result, WNOHANG) == 0; std::this_thread::sleep_for (std::chrono::milliseconds (20)))
+        const bool is_over = eventually (std::chrono::milliseconds (20), [&] {
             err();   // otherwise it would wait for the terminal
+            return waitpid (process, &result, WNOHANG) != 0;
+        });
+        if (! is_over) return -1;
         process = -1;
         return WIFEXITED (result) ? WEXITSTATUS (result) : -WTERMSIG (result);
     }

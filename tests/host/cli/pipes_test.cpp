@@ -20,11 +20,11 @@
 #include <unistd.h>
 
 using namespace tactus;
-using test::eventually;
 using test::Running;
 using test::runProgram;
 using test::runTactus;
 using test::Scratch;
+using test::soon;
 
 namespace
 {
@@ -50,7 +50,7 @@ bool handles (const Running& program, int signal)
 /// Waits until the program has ended. False if it does not.
 bool ends (const Running& program)
 {
-    return eventually ([&] {
+    return soon ([&] {
         const auto stat = test::textOf ("/proc/" + std::to_string (program.id()) + "/stat");
         return stat.empty() || stat[stat.rfind (')') + 2] == 'Z';
     });
@@ -68,7 +68,7 @@ struct Stalled
     bool isWritten() const
     {
         int bytes = 0;
-        return eventually ([&] { return ioctl (reader, FIONREAD, &bytes) == 0 && bytes > 0; });
+        return soon ([&] { return ioctl (reader, FIONREAD, &bytes) == 0 && bytes > 0; });
     }
 
     const int reader;
@@ -80,7 +80,7 @@ TEST_CASE ("a render into a pipe that nobody opens ends with every stopping sign
     const int number = GENERATE (SIGTERM, SIGINT, SIGHUP);
     const Scratch scratch;
     Running render { { "render", wood, "--duration", "1", "--out", fifo (scratch, "out.csv") } };
-    REQUIRE (eventually ([&] { return handles (render, number); }));
+    REQUIRE (soon ([&] { return handles (render, number); }));
     render.signal (number);
     REQUIRE (ends (render));
     const auto ran = render.finish();
@@ -118,7 +118,7 @@ TEST_CASE ("a program that writes to a pipe that nobody reads ends when it is to
         const auto file = scratch.write ("g.json", graph (""));
         Running play { "sh", { "-c", "exec " TACTUS_PROGRAM " play " + file + " --osc off --watch 2> " + pipe } };
         std::string said;
-        REQUIRE (eventually ([&] {
+        REQUIRE (soon ([&] {
             char bytes[256];
             const auto got = read (stalled.reader, bytes, sizeof bytes);
             if (got > 0) said.append (bytes, static_cast<std::size_t> (got));

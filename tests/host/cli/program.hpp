@@ -36,6 +36,10 @@ void checkRefused (const std::vector<std::string>& arguments, int status, const 
 
 std::string textOf (const std::string& path);
 
+/// True if the file of a live run has the rows of this other one, to the byte, but for as many as the run says that it has lost: on a busy computer, writing
+/// may not keep up with the ticks. WAV files are compared only if nothing was lost.
+bool sameRows (const std::string& live, const std::string& again, const std::string& said);
+
 /// The folder ../shared/data; "" if it does not exist, with a warning that the test is skipped.
 std::string sharedData (const std::string& folder);
 

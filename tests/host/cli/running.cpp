@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "running.hpp"
 
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <thread>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -39,7 +37,7 @@ Running::~Running()
 
 bool Running::says (const std::string& text, int times)
 {
-    return eventually ([&] {
+    return soon ([&] {
         const auto all = err();
         int n = 0;
         for (auto at = all.find (text); at != std::string::npos; at = all.find (text, at + 1))
@@ -62,16 +60,6 @@ Ran Running::finish()
     waitpid (static_cast<pid_t> (process), &result, 0);
     process = -1;
     return { WIFEXITED (result) ? WEXITSTATUS (result) : -WTERMSIG (result), out(), err() };
-}
-
-bool eventually (const std::function<bool()>& what)
-{
-    for (int i = 0; i < 1500; ++i)
-    {
-        if (what()) return true;
-        std::this_thread::sleep_for (std::chrono::milliseconds (20));
-    }
-    return what();
 }
 
 }   // namespace tactus::test

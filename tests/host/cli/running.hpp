@@ -2,8 +2,7 @@
 #pragma once
 
 #include "program.hpp"
-
-#include <functional>
+#include "support/waiting.hpp"
 
 namespace tactus::test
 {
@@ -39,7 +38,11 @@ private:
     long process = -1;
 };
 
-/// Returns true as soon as the condition holds; false if it does not hold within half a minute.
-bool eventually (const std::function<bool()>&);
+/// As eventually(), with naps that leave the processor to the program.
+template <typename F>
+bool soon (F&& so)
+{
+    return eventually (std::chrono::milliseconds (20), so);
+}
 
 }   // namespace tactus::test

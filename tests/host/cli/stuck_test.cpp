@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 using namespace tactus;
-using test::eventually;
 using test::Running;
 using test::Scratch;
+using test::soon;
 
 namespace
 {
@@ -40,7 +40,7 @@ TEST_CASE ("a play whose tick does not end can still be ended, and says why its 
     const Scratch scratch;
     Running play { { "play", scratch.write ("g.json", graph), "--osc", "off", "--limits", "runs=100G" } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    REQUIRE (eventually ([&] { return cpuSeconds (play.id()) > 2.0; }));   // only the tick takes that much
+    REQUIRE (soon ([&] { return cpuSeconds (play.id()) > 2.0; }));   // only the tick takes that much
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 1);

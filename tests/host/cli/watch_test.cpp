@@ -2,6 +2,7 @@
 // `tactus play --watch`: the graph file is edited during a run.
 
 #include "running.hpp"
+#include "support/waiting.hpp"
 
 #include <tactus/file/csv.hpp>
 
@@ -9,7 +10,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
 using namespace tactus;
 using test::Running;
@@ -197,7 +197,7 @@ TEST_CASE ("with --watch, play outlasts the trace of its device", "[cli][watch]"
     REQUIRE (play.says ("Ctrl-C stops"));
     scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
     REQUIRE (play.says (": reloaded"));
-    std::this_thread::sleep_for (std::chrono::milliseconds (200));   // longer than the trace
+    test::letPass (std::chrono::milliseconds (200));   // longer than the trace
     scratch.write ("g.json", counter());
     REQUIRE (play.says (": reloaded", 2));
     CHECK (play.stop().status == 0);

@@ -50,7 +50,7 @@ TEST_CASE ("another program can set parameters of a running graph and watch its 
     const auto set = runTactus ({ "set", "level=0.5", "--osc", port });
     INFO (set.err);
     CHECK (set.status == 0);
-    CHECK (test::eventually ([&] { return runTactus ({ "probe", "turn.out", "--osc", port, "--duration", "0.01" }).out.find (",5\n") != std::string::npos; }));
+    CHECK (test::soon ([&] { return runTactus ({ "probe", "turn.out", "--osc", port, "--duration", "0.01" }).out.find (",5\n") != std::string::npos; }));
     CHECK (runTactus ({ "set", "turn.value=0.1", "--osc", port }).status == 0);
 
     const auto probe = runTactus ({ "probe", "count.out", "--osc", port, "--rate", "100", "--duration", "0.2" });
@@ -123,14 +123,14 @@ TEST_CASE ("a probe continues when the graph is edited, and ends when its port i
     Running play { { "play", graph, "--osc", "0", "--watch", "--duration", "600" } };
     const auto port = portOf (play);
     Running stays { { "probe", "last.out", "--osc", port } }, goes { { "probe", "one.out", "--osc", port } };
-    REQUIRE (test::eventually ([&] { return stays.out().size() > 50 && goes.out().size() > 50; }));
+    REQUIRE (test::soon ([&] { return stays.out().size() > 50 && goes.out().size() > 50; }));
     scratch.write ("g.json", text (""));
     REQUIRE (play.says (": reloaded"));
     const auto gone = goes.finish();
     CHECK (gone.status == 1);
     CHECK (gone.err.find ("[port/unknown") != std::string::npos);
     const auto before = stays.out().size();
-    CHECK (test::eventually ([&] { return stays.out().size() > before + 50; }));
+    CHECK (test::soon ([&] { return stays.out().size() > before + 50; }));
     CHECK (stays.stop().status == 0);
     CHECK (play.stop().status == 0);
 }

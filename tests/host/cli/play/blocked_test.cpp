@@ -5,6 +5,7 @@
 // and only then is the main thread released. So if the log contains the stop, no step of the stop waited for the main thread.
 
 #include "host/cli/on_terminal.hpp"
+#include "support/waiting.hpp"
 
 #include <host/osc/osc_port.hpp>
 #include <tactus/file/csv.hpp>
@@ -20,7 +21,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -30,10 +30,10 @@
 #include <unistd.h>
 
 using namespace tactus;
-using test::eventually;
 using test::OnTerminal;
 using test::runTactus;
 using test::Scratch;
+using test::soon;
 using test::textOf;
 
 namespace
@@ -138,17 +138,17 @@ void press (Way way, const OnTerminal& play, int port)
     {
     case Way::key:
         play.type ("  ");   // the second key is read after the first one has been acted upon
-        REQUIRE (eventually ([&] { return ! play.hasUnreadKeys(); }));
+        REQUIRE (soon ([&] { return ! play.hasUnreadKeys(); }));
         return;
     case Way::signal:
         play.signal (SIGUSR1);
-        REQUIRE (eventually ([&] { return ! play.hasPending (SIGUSR1); }));
+        REQUIRE (soon ([&] { return ! play.hasPending (SIGUSR1); }));
         return;
     case Way::osc:
         const auto us = std::move (*host::OscPort::open (0));
         for (int i = 0; i < 2; ++i)   // the same
             us->send (port, juce::OSCMessage ("/tactus/emergency"));
-        REQUIRE (eventually ([&] { return ! hasUnreadPackets (port); }));
+        REQUIRE (soon ([&] { return ! hasUnreadPackets (port); }));
     }
 }
 
@@ -156,10 +156,9 @@ void press (Way way, const OnTerminal& play, int port)
 template <typename Written>
 bool waitForSilence (Written&& written, std::chrono::milliseconds patience = std::chrono::milliseconds (300))
 {
-    return eventually ([&] {
+    return soon ([&] {
         const std::size_t before = written();
-        std::this_thread::sleep_for (patience);
-        return before > 0 && written() == before;
+        return before > 0 && test::stays (patience, [&] { return written() == before; });
     });
 }
 
@@ -169,10 +168,10 @@ bool stopAndEnd (Way way, OnTerminal& play)
     const auto text = play.err();
     const std::string before = "OSC on 127.0.0.1:";
     press (way, play, std::stoi (text.substr (text.find (before) + before.size())));
-    std::this_thread::sleep_for (std::chrono::milliseconds (200));   // for some ticks without force; not judged
+    test::letPass (std::chrono::milliseconds (200));   // for some ticks without force; not judged
     const auto threads = play.threads();
     play.signal (SIGINT);
-    return eventually ([&] { return play.threads() < threads; });   // the tick thread has ended
+    return soon ([&] { return play.threads() < threads; });   // the tick thread has ended
 }
 
 /// Checks that the log contains the stop, and that a replay has no force after it.
@@ -206,7 +205,7 @@ TEST_CASE ("an emergency stop takes effect while the main thread waits for a sto
     const Scratch scratch;
     const auto log = scratch.path ("run.jsonl");
     OnTerminal play { { "play", scratch.write ("g.json", graphWith ("")), "--osc", "0", "--duration", "600", "--log", log }, true };
-    REQUIRE (eventually ([&] { return play.err().find (ready) != std::string::npos; }));
+    REQUIRE (soon ([&] { return play.err().find (ready) != std::string::npos; }));
     play.type ("\x13");   // Ctrl-S
     REQUIRE (waitForSilence ([&] { return textOf (log).size(); }));
     REQUIRE (stopAndEnd (way, play));
@@ -228,10 +227,10 @@ TEST_CASE ("an emergency stop takes effect while the main thread waits for the r
     else
         arguments.insert (arguments.end(), { log, "--record", "hand.position,hand.rotation,motor.applied", "--out", scratch.path ("pipe.csv") });
     OnTerminal play { arguments, false };
-    REQUIRE (eventually ([&] { return play.err().find (ready) != std::string::npos; }));
+    REQUIRE (soon ([&] { return play.err().find (ready) != std::string::npos; }));
     REQUIRE (waitForSilence ([&] { return pipe.waiting(); }, std::chrono::milliseconds (800)));   // a recording is written every 500 ms
     REQUIRE (stopAndEnd (way, play));
-    REQUIRE (eventually ([&] { return ! pipe.readOn(); }));
+    REQUIRE (soon ([&] { return ! pipe.readOn(); }));
     CHECK (play.finish() == 0);
     if (into_log) scratch.write ("run.jsonl", pipe.text);
     checkLog (log, scratch);
@@ -245,7 +244,7 @@ TEST_CASE ("an emergency stop takes effect while the main thread compiles an edi
     const auto edited = scratch.write ("edited.json", graphWith (R"("big": { "type": "deform.surface", "settings": { "surface": { "mesh": ")" + largeMesh()
                                                                  + R"(", "mu": 0.3, "curves": [ [ { "power": [60, 1] } ] ] } } }, )"));
     OnTerminal play { { "play", graph, "--watch", "--osc", "0", "--duration", "600", "--log", log }, false };
-    REQUIRE (eventually ([&] { return play.err().find (ready) != std::string::npos; }));
+    REQUIRE (soon ([&] { return play.err().find (ready) != std::string::npos; }));
     std::filesystem::rename (edited, graph);
     REQUIRE (waitForSilence ([&] {
         REQUIRE (play.err().find ("error") == std::string::npos);   // the edit is refused, and nothing is compiled
@@ -262,7 +261,7 @@ TEST_CASE ("a rearm over OSC that came before a stop does not undo it, however l
     const Scratch scratch;
     const auto log = scratch.path ("run.jsonl");
     OnTerminal play { { "play", scratch.write ("g.json", graphWith ("")), "--osc", "0", "--duration", "600", "--log", log }, true };
-    REQUIRE (eventually ([&] { return play.err().find (ready) != std::string::npos; }));
+    REQUIRE (soon ([&] { return play.err().find (ready) != std::string::npos; }));
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
@@ -274,10 +273,10 @@ TEST_CASE ("a rearm over OSC that came before a stop does not undo it, however l
     play.type ("\x13");   // Ctrl-S
     REQUIRE (waitForSilence ([&] { return textOf (log).size(); }));
     us->send (port, rearm);
-    REQUIRE (eventually ([&] { return ! hasUnreadPackets (port); }));
+    REQUIRE (soon ([&] { return ! hasUnreadPackets (port); }));
     press (Way::signal, play, port);
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a stop
-    play.type ("\x11");                                               // Ctrl-Q
+    test::letPass (std::chrono::milliseconds (1200));   // longer than the pause after a stop
+    play.type ("\x11");                                 // Ctrl-Q
     const auto answer = us->next (std::chrono::seconds (30));
     REQUIRE (answer);
     CHECK (answer->getAddressPattern().toString() == "/tactus/error");

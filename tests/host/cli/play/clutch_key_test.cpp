@@ -2,6 +2,7 @@
 // The key of `tactus play` that lets the workspace of a device move with the hand.
 
 #include "host/cli/on_terminal.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,13 +11,12 @@
 #include <csignal>
 #include <fstream>
 #include <string>
-#include <thread>
 
 using namespace tactus;
-using test::eventually;
 using test::OnTerminal;
 using test::Running;
 using test::Scratch;
+using test::soon;
 
 namespace
 {
@@ -47,19 +47,19 @@ TEST_CASE ("S in the terminal of a play lets the workspace move, without force, 
     const auto log = scratch.path ("log"), board = scratch.path ("board");
     Running fake { { "fake-device", "tactus_board", "--wire", "serial", "--link", board, "--log", log, "--hand",
                      scratch.write ("hand.json", R"({ "driver": "sim", "mass": "1000 kg" })") } };
-    REQUIRE (eventually ([&] { return fake.out().find ('\n') != std::string::npos; }));
+    REQUIRE (soon ([&] { return fake.out().find ('\n') != std::string::npos; }));
     OnTerminal play { { "play", scratch.write ("push.json", graph), "--device", "stylus=serial:tactus_board@" + board, "--session", "off", "--osc", "off" },
                       false };
-    REQUIRE (eventually ([&] { return play.err().find (apart) != std::string::npos; }));
-    REQUIRE (eventually ([&] { return lastForce (log) == pushed; }));
+    REQUIRE (soon ([&] { return play.err().find (apart) != std::string::npos; }));
+    REQUIRE (soon ([&] { return lastForce (log) == pushed; }));
     play.type ("s");
-    REQUIRE (eventually ([&] { return play.err().find ("moves with the hand, without force") != std::string::npos; }));
-    CHECK (eventually ([&] { return lastForce (log) == none; }));
-    std::this_thread::sleep_for (std::chrono::milliseconds (900));   // an S that follows sooner is that of a key held down
-    CHECK (lastForce (log) == none);
+    REQUIRE (soon ([&] { return play.err().find ("moves with the hand, without force") != std::string::npos; }));
+    CHECK (soon ([&] { return lastForce (log) == none; }));
+    // An S that follows sooner is that of a key held down.
+    CHECK (test::stays (std::chrono::milliseconds (900), [&] { return lastForce (log) == none; }));
     play.type ("S");
-    CHECK (eventually ([&] { return play.err().find ("the workspace stays") != std::string::npos; }));
-    CHECK (eventually ([&] { return lastForce (log) == pushed; }));
+    CHECK (soon ([&] { return play.err().find ("the workspace stays") != std::string::npos; }));
+    CHECK (soon ([&] { return lastForce (log) == pushed; }));
     play.signal (SIGINT);
     CHECK (play.finish() == 0);
 }
@@ -68,9 +68,9 @@ TEST_CASE ("S in the terminal of a play without a real device says that there is
 {
     const Scratch scratch;
     OnTerminal play { { "play", scratch.write ("push.json", graph), "--device", "stylus=sim", "--session", "off", "--osc", "off" }, false };
-    REQUIRE (eventually ([&] { return play.err().find (apart) != std::string::npos; }));
+    REQUIRE (soon ([&] { return play.err().find (apart) != std::string::npos; }));
     play.type ("s");
-    CHECK (eventually ([&] { return play.err().find ("no device whose position its graph reads") != std::string::npos; }));
+    CHECK (soon ([&] { return play.err().find ("no device whose position its graph reads") != std::string::npos; }));
     play.signal (SIGINT);
     CHECK (play.finish() == 0);
 }

@@ -2,6 +2,7 @@
 // The emergency stop of `tactus play`.
 
 #include "host/cli/running.hpp"
+#include "support/waiting.hpp"
 
 #include <host/osc/osc_port.hpp>
 #include <tactus/file/csv.hpp>
@@ -15,7 +16,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace tactus;
@@ -29,9 +29,9 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
       "nodes": { "hand": { "type": "device.position", "role": "tip" }, "push": { "type": "signal.constant", "params": { "value": 2.0 } },
         "motor": { "type": "device.force", "role": "tip" } },
       "wires": [ "push.out -> motor.force.x" ] })";
-    const auto recorded = scratch.path ("applied.csv");
+    const auto recorded = scratch.path ("applied.csv"), log = scratch.path ("run.jsonl");
     Running play { { "play", scratch.write ("g.json", graph), "--device", "tip=sim", "--osc", "0", "--record", "motor.applied.x",
-                     "--out", recorded } };
+                     "--out", recorded, "--log", log } };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
@@ -40,21 +40,32 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
     const auto us = std::move (*host::OscPort::open (0));
     const auto rearm = [&] {
         us->send (port, juce::OSCMessage ("/tactus/rearm", juce::String (token), us->number()));
-        const auto answer = us->next (std::chrono::seconds (20));
+        const auto answer = us->next (std::chrono::minutes (1));
         REQUIRE (answer);
         return answer->getAddressPattern().toString().toStdString();
     };
 
-    std::this_thread::sleep_for (std::chrono::milliseconds (300));
+    const auto ticks = [&] {
+        const auto text = test::textOf (log);
+        const std::string key = "\"tick\":";
+        const auto at = text.rfind (key, text.rfind ('\n'));
+        return at == std::string::npos ? 0 : std::stoi (text.substr (at + key.size()));
+    };
+    const auto goesOn = [&] {
+        const int from = ticks();
+        return test::soon ([&] { return ticks() > from + 200; });
+    };
+
+    REQUIRE (goesOn());
+    const test::Stopwatch since_stop;
     play.signal (SIGUSR1);
-    const auto stopped = std::chrono::steady_clock::now();
     play.signal (SIGUSR2);
     CHECK (play.says ("SIGUSR2 does not rearm"));
     const auto first = rearm();
-    if (std::chrono::steady_clock::now() < stopped + std::chrono::milliseconds (900)) CHECK (first == "/tactus/error");
-    std::this_thread::sleep_until (stopped + std::chrono::milliseconds (1100));
+    if (! since_stop.hasRun (std::chrono::milliseconds (900))) CHECK (first == "/tactus/error");
+    test::letPass (std::chrono::milliseconds (1100));
     CHECK (rearm() == "/tactus/done");
-    std::this_thread::sleep_for (std::chrono::milliseconds (300));
+    REQUIRE (goesOn());
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 0);
@@ -89,7 +100,7 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
         const auto recorded = scratch.path (std::to_string (number) + ".csv");
         const auto log = scratch.path (std::to_string (number) + ".jsonl");
         Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded, "--log", log } };
-        REQUIRE (test::eventually ([&] { return test::textOf (log).find ("\"tick\":0,") != std::string::npos; }));   // it ticks
+        REQUIRE (test::soon ([&] { return test::textOf (log).find ("\"tick\":0,") != std::string::npos; }));   // it ticks
         // Reading and writing in the background neither suspends nor ends the program.
         play.signal (SIGTTIN);
         play.signal (SIGTTOU);
@@ -138,7 +149,7 @@ TEST_CASE ("one thread of a play handles the emergency signals, and where real-t
         return all;
     };
     const auto handlers = [&] { return std::ranges::count (threads(), true, &Thread::handles_signals); };
-    REQUIRE (test::eventually ([&] { return handlers() == 1; }));
+    REQUIRE (test::soon ([&] { return handlers() == 1; }));
     const auto all = threads();
     const auto handler = std::ranges::find (all, true, &Thread::handles_signals);
     const auto highest = std::ranges::max (all, {}, &Thread::priority).priority;

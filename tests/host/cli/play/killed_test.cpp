@@ -14,10 +14,10 @@
 #include <string>
 
 using namespace tactus;
-using test::eventually;
 using test::Running;
 using test::runTactus;
 using test::Scratch;
+using test::soon;
 using test::textOf;
 
 namespace
@@ -77,7 +77,7 @@ TEST_CASE ("a recording and a log survive kill -9 up to their last second, and t
         auto arguments = play;
         arguments.insert (arguments.end(), { "--log", log, "--duration", "600" });
         Running killed { arguments };
-        REQUIRE (eventually ([&] { return linesIn (left_csv) > 600 && framesIn (left_wav) > 600; }));
+        REQUIRE (soon ([&] { return linesIn (left_csv) > 600 && framesIn (left_wav) > 600; }));
         killed.signal (SIGKILL);
         CHECK (killed.finish().status == -SIGKILL);
     }
@@ -143,7 +143,7 @@ TEST_CASE ("the temporary file of a killed render is removed by the next one", "
     };
     {
         Running killed { { "render", graph, "--duration", "100000", "--record", "count.out", "--out", scratch.path ("killed.csv") } };
-        REQUIRE (eventually ([&] { return temporary() == 1; }));
+        REQUIRE (soon ([&] { return temporary() == 1; }));
         killed.signal (SIGKILL);
         CHECK (killed.finish().status == -SIGKILL);
     }
