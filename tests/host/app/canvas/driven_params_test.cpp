@@ -2,7 +2,7 @@
 // The rows of params on a node: their order, and what wires set.
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include "support/sketch.hpp"
 

@@ -2,9 +2,10 @@
 // Times painting and editing of large graphs. Prints the times without checking them, because machines are shared.
 #include "host/app/support/canvas_rig.hpp"
 
+#include "support/waiting.hpp"
+
 #include <catch2/catch.hpp>
 
-#include <chrono>
 #include <iostream>
 
 using namespace tactus;
@@ -35,10 +36,10 @@ graph::Graph chainOf (int nodes)
 double milliseconds (const std::function<void()>& work)
 {
     constexpr int times = 10;
-    const auto begin = std::chrono::steady_clock::now();
+    const tactus::test::Stopwatch watch;
     for (int i = 0; i < times; ++i)
         work();
-    return std::chrono::duration<double, std::milli> (std::chrono::steady_clock::now() - begin).count() / times;
+    return 1e3 * watch.s() / times;
 }
 }   // namespace
 

@@ -13,6 +13,7 @@ using namespace tactus::host;
 using host::test::CanvasRig;
 using tactus::test::BoardProfile;
 using tactus::test::boardReport;
+using tactus::test::eventually;
 using tactus::test::FakeBoard;
 
 namespace
@@ -32,7 +33,7 @@ struct Rig
     template <typename F>
     bool until (F&& isSo)
     {
-        return board.until ([&] {
+        return eventually ([&] {
             run.poll();
             panel.refresh();
             return isSo();
@@ -116,7 +117,7 @@ TEST_CASE ("a run uses the bound device, is ticked by it, and restarts when the 
     }));
     std::atomic<bool> sends = true;
     std::jthread reports { [&] (const std::stop_token& over) {
-        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (std::chrono::milliseconds (1)))
+        for (std::uint16_t n = 0; ! over.stop_requested(); tactus::test::letPass (std::chrono::milliseconds (1)))
             if (sends) r.board.send (boardReport (++n, 1'000'000, 0, -10'000'000));
     } };
     r.run.start ({});

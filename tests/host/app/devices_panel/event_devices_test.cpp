@@ -3,6 +3,8 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include "support/waiting.hpp"
+
 #include <host/app/presets/preset_list.hpp>
 #include <tactus/file/graph_file.hpp>
 
@@ -52,14 +54,12 @@ struct Bench
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (60);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-        {
+        return tactus::test::eventually ({}, [&] {
             run.poll();
             panel->refresh();
             WindowRig::settle (5);
-        }
-        return isSo();
+            return isSo();
+        });
     }
 
     juce::Component& part (const juce::String& title)

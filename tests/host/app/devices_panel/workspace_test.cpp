@@ -8,8 +8,6 @@
 #include <host/app/devices_panel/axes_text.hpp>
 #include <tactus/file/graph_file.hpp>
 
-#include <chrono>
-
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::latestStep;
@@ -58,10 +56,7 @@ struct Bench : WindowRig
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (60);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-            settle (5);
-        return isSo();
+        return host::test::waitFor (isSo, 5);
     }
 
     void start()

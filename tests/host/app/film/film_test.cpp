@@ -2,6 +2,8 @@
 #include "host/app/scene/preset_bodies.hpp"
 #include "host/io/played_png.hpp"
 
+#include "support/waiting.hpp"
+
 #include <host/app/film/film_job.hpp>
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/audio/listening.hpp>
@@ -17,7 +19,6 @@
 #include <fstream>
 #include <iostream>
 #include <numbers>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -219,14 +220,11 @@ TEST_CASE ("the button saves what the scene showed, while the run continues", "[
     panel.showScene (true);
     auto& film = panel.film();
     const auto until = [&] (auto&& isSo) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (60);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-        {
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
             playback.poll();
             panel.refresh();
-            std::this_thread::sleep_for (std::chrono::milliseconds (5));
-        }
-        return isSo();
+            return isSo();
+        });
     };
     CHECK (film.isVisible());
     panel.refresh();
@@ -278,12 +276,13 @@ TEST_CASE ("a film is made of the scene while it is hidden, too", "[app][film]")
     const auto poll = [&] {
         playback.poll();
         panel.refresh();
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        tactus::test::letPass (std::chrono::milliseconds (5));
     };
     const auto until = [&] (auto&& isSo) {
-        for (int i = 0; i < 12000 && ! isSo(); ++i)
+        return tactus::test::eventually ({}, [&] {
             poll();
-        return isSo();
+            return isSo();
+        });
     };
     REQUIRE (until ([&] { return playback.run().status() && playback.run().status()->ticks > 2000; }));
     CHECK (tape.end() == 0);   // a hidden scene costs nothing

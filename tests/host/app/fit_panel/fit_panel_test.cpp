@@ -6,6 +6,7 @@
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <tactus/kit/random.hpp>
 
@@ -49,12 +50,10 @@ struct FitRig
 
     void finish()
     {
-        for (int i = 0; i < 4000 && panel().isFitting(); ++i)
-        {
+        REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] {
             panel().poll();
-            juce::Thread::sleep (5);
-        }
-        REQUIRE_FALSE (panel().isFitting());
+            return ! panel().isFitting();
+        }));
     }
 };
 

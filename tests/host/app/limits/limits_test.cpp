@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/limits/limit_light.hpp>
@@ -12,7 +12,6 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -174,15 +173,13 @@ TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app]
     feed.limits = &watch;
     LimitLight light;
     const auto settled = [&] {
-        for (int i = 0; i < 4000; ++i)
-        {
+        int looks = 0;
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
             watch.poll();
             feed.refresh();
             light.show (watch.list());
-            if (i > 10 && watch.isUpToDate()) return true;
-            std::this_thread::sleep_for (std::chrono::milliseconds (5));
-        }
-        return false;
+            return ++looks > 10 && watch.isUpToDate();
+        });
     };
     const auto tooltip = [&] (const char* node) { return rig.canvas->tooltipAt (rig.canvas->view().toPixels (limitLightOf (rig.node (node),
                                                                                                                            1.0f)
@@ -245,15 +242,14 @@ TEST_CASE ("closing stops a running check, and a series of edits ends with a che
     {
         rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 - 50.0 * k });
         watch.poll();
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        tactus::test::letPass (std::chrono::milliseconds (5));
         CHECK_FALSE (watch.isUpToDate());
     }
     rig.document.perform (graph::SetParam { "", "wall", "stiffness", 100.0 });
-    for (int i = 0; i < 4000 && ! watch.isUpToDate(); ++i)
-    {
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] {
         watch.poll();
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
-    }
+        return watch.isUpToDate();
+    }));
     CHECK (watch.list().is_checked);
     CHECK (watch.list().limits.empty());
     rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/seen_text.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <host/app/palette/palette.hpp>
 
@@ -80,13 +81,13 @@ TEST_CASE ("while one types, the palette shrinks to the hits, and its field stay
     const auto field = r.query().getScreenBounds();
     const int all = r.palette->getHeight();
     r.query().setText ("node 39", true);
-    juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+    tactus::host::test::settle();
     REQUIRE (r.palette->entries().size() == 1);
     CHECK (r.palette->getHeight() <= all - 7 * r.list().getRowHeight());
     CHECK (r.query().getScreenBounds() == field);
 
     r.query().setText ("zzqq", true);
-    juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+    tactus::host::test::settle();
     REQUIRE (r.palette->entries().empty());
     const auto texts = readTexts (*r.palette);
     CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.startsWith ("No match"); }));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/seen_text.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/presets/browser.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -58,8 +59,7 @@ TEST_CASE ("the picture of a preset is drawn again after its file has been writt
     PictureStore pictures (catalogue());
     const auto drawn = [&] (int times) {
         auto picture = pictures.get (file);
-        for (int i = 0; i < 6000 && pictures.done() < times; ++i)
-            juce::Thread::sleep (10);
+        tactus::test::eventually (std::chrono::milliseconds (10), [&] { return pictures.done() >= times; });
         REQUIRE (pictures.done() == times);
         picture = pictures.get (file);
         REQUIRE (picture);

@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/run/playback.hpp>
 
@@ -9,7 +10,6 @@
 #include <rapidcheck.h>
 
 #include <chrono>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -28,13 +28,10 @@ struct TrialRig
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (20);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-        {
+        return tactus::test::eventually (std::chrono::milliseconds (2), [&] {
             playback.poll();
-            std::this_thread::sleep_for (std::chrono::milliseconds (2));
-        }
-        return isSo();
+            return isSo();
+        });
     }
 };
 

@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/run/live_run.hpp>
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <thread>
 #include <vector>
 
 using namespace tactus;
@@ -27,13 +27,10 @@ namespace
 template <typename F>
 bool until (LiveRun& p, F&& isSo)
 {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (300);
-    while (! isSo() && std::chrono::steady_clock::now() < end)
-    {
+    return tactus::test::eventually (std::chrono::milliseconds (2), tactus::test::looks_at_compiler, [&] {
         p.poll();
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
-    }
-    return isSo();
+        return isSo();
+    });
 }
 
 bool isFused (const LiveRun& p) { return p.fusion() == "fused"; }

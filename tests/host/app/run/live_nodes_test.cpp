@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Live C++ in the window: the header of a node is saved while its graph runs.
+#include "host/app/support/wait_for.hpp"
+
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -131,13 +133,7 @@ struct Window
     template <typename F>
     bool until (F&& f)
     {
-        constexpr int patience = 50000;
-        for (int i = 0; i < patience; ++i)
-        {
-            if (f()) return true;
-            juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
-        }
-        return false;
+        return host::test::waitFor (f, 60);
     }
 
     bool pushes (double force)

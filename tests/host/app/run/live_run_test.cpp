@@ -4,6 +4,7 @@
 #include "host/hid_link/fake_board.hpp"
 #include "support/guardian.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
@@ -18,7 +19,6 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include <unistd.h>
 
@@ -30,19 +30,16 @@ using tactus::test::FakeBoard;
 
 namespace
 {
-/// Attends to a run until the condition holds, for at most 10 s.
+/// Attends to a run until the condition holds.
 template <typename F>
 bool until (
     LiveRun& p, F&& isSo, const std::function<void()>& meanwhile = [] {})
 {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
-    while (! isSo() && std::chrono::steady_clock::now() < end)
-    {
+    return tactus::test::eventually (std::chrono::milliseconds (2), [&] {
         meanwhile();
         p.poll();
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
-    }
-    return isSo();
+        return isSo();
+    });
 }
 
 /// The forces that the motor receives, tick by tick, while the user does something else.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/wait_for.hpp"
+
+#include "support/waiting.hpp"
 
 #include <host/app/run/osc_server.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <random>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -33,14 +35,11 @@ struct Rig
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + 20s;
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-        {
+        return tactus::test::eventually (2ms, [&] {
             live_run.poll();
             server.poll();
-            std::this_thread::sleep_for (2ms);
-        }
-        return isSo();
+            return isSo();
+        });
     }
 
     template <typename... Args>
@@ -92,9 +91,7 @@ TEST_CASE ("a message that arrives is reported on the main thread, so that a win
     bool is_reported = false;
     r.server.onMessage = [&] { is_reported = juce::MessageManager::existsAndIsCurrentThread(); };
     r.other->send (r.server.port(), OSCMessage ("/tactus/status", r.me()));
-    for (const auto end = std::chrono::steady_clock::now() + 20s; ! is_reported && std::chrono::steady_clock::now() < end;)
-        juce::MessageManager::getInstance()->runDispatchLoopUntil (1);
-    CHECK (is_reported);
+    CHECK (host::test::waitFor ([&] { return is_reported; }, 1));
 }
 
 TEST_CASE ("an OSC client can probe a port of the window, even after an edit, until the port is removed", "[app][osc]")
@@ -177,12 +174,9 @@ TEST_CASE ("an emergency stop over OSC removes the force while the message threa
 
     r.other->send (r.server.port(), OSCMessage ("/tactus/emergency"));
     const auto isLatched = [&] { return r.live_run.isStoppedForGood(); };   // reads only what the tick thread has published
-    for (const auto end = std::chrono::steady_clock::now() + 20s; ! isLatched() && std::chrono::steady_clock::now() < end;)
-        std::this_thread::sleep_for (1ms);
-    REQUIRE (isLatched());
+    REQUIRE (tactus::test::eventually (isLatched));
     r.live_run.rearm();   // the message thread has not noticed the stop yet, so rearm() must have no effect
-    std::this_thread::sleep_for (50ms);
-    CHECK (isLatched());
+    CHECK (tactus::test::stays (50ms, isLatched));
 }
 
 TEST_CASE ("nothing starts over OSC while the window asks a question", "[app][osc][safety]")

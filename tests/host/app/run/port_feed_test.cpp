@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include "support/sketch.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/run/port_feed.hpp>
 #include <host/app/run/views/live_feed.hpp>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -169,18 +169,15 @@ TEST_CASE ("a canvas wants the ports where its wires begin, also those of an edi
 
 namespace
 {
-/// Refreshes the canvas while a graph runs, until the condition holds. The limit is only for a program that hangs.
+/// Refreshes the canvas while a graph runs, until the condition holds.
 template <typename F>
 bool until (LiveRun& live_run, LiveFeed& live, F&& isSo)
 {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (300);
-    while (! isSo() && std::chrono::steady_clock::now() < end)
-    {
+    return tactus::test::eventually (std::chrono::milliseconds (2), [&] {
         live_run.poll();
         live.refresh();
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
-    }
-    return isSo();
+        return isSo();
+    });
 }
 }   // namespace
 

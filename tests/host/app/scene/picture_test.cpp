@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preset_bodies.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/scene/overlay.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <numbers>
 
@@ -40,11 +40,11 @@ struct Studio
 
     void draw (const SceneState& now = {}, int fineness = 1)
     {
-        const auto begin = std::chrono::steady_clock::now();
+        const tactus::test::Stopwatch watch;
         raster.begin (width, height, fineness);
         scene.draw (raster, camera, scene::Paint (Theme::dark()), now);
         raster.write (image);
-        took_s = std::chrono::duration<double> (std::chrono::steady_clock::now() - begin).count();
+        took_s = watch.s();
     }
 
     juce::Colour at (const Vec3& p) const

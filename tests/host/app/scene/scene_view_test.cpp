@@ -2,12 +2,13 @@
 #include "host/app/support/hand.hpp"
 #include "preset_bodies.hpp"
 
+#include "support/waiting.hpp"
+
 #include <host/app/run/views/hand_panel.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -53,18 +54,15 @@ struct Rig
 
     juce::Image picture() { return view.createComponentSnapshot (view.getLocalBounds()); }
 
-    /// Attends to the run until the condition holds, for at most 10 s.
+    /// Attends to the run until the condition holds.
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
-        {
+        return tactus::test::eventually (std::chrono::milliseconds (2), [&] {
             playback.poll();
             panel.refresh();
-            std::this_thread::sleep_for (std::chrono::milliseconds (2));
-        }
-        return isSo();
+            return isSo();
+        });
     }
 };
 }   // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/seen_text.hpp"
+#include "host/app/support/wait_for.hpp"
 #include "scope_bench.hpp"
+
+#include "support/waiting.hpp"
 
 #include <host/app/scopes/energy_plot.hpp>
 #include <host/app/scopes/spectrogram_plot.hpp>
@@ -180,7 +183,7 @@ TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][s
     };
     const auto at = [&] (float x) {
         clickAt (chip(), { x, 12.0f });
-        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+        host::test::settle();
     };
     at (20.0f);
     CHECK (b.panel->isProbed ("motor.force"));
@@ -306,7 +309,7 @@ TEST_CASE ("scopes: all scopes can be closed, and an empty panel suggests a port
         const auto left = b.panel->shown().size();
         for (auto* child : b.panel->shown().front()->getChildren())
             if (child->getName() == "Close this scope") dynamic_cast<juce::Button&> (*child).onClick();
-        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+        host::test::settle();
         REQUIRE (b.panel->shown().size() == left - 1);
     }
     CHECK (b.live_run.traces().ports().empty());
@@ -350,15 +353,12 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
         const auto traces = client.of (port);
         return traces.empty() ? std::uint64_t { 0 } : traces.front()->end() - traces.front()->begin();
     };
-    // Waits up to ten seconds, for slow machines.
     const auto waitFor = [&] (const std::string& port, std::uint64_t ticks) {
-        for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
-        {
-            juce::Thread::sleep (10);
+        return tactus::test::eventually (std::chrono::milliseconds (10), [&] {
             b.live_run.poll();
             b.panel->refresh();
-        }
-        return ticksOf (port) >= ticks;
+            return ticksOf (port) >= ticks;
+        });
     };
     REQUIRE (waitFor ("motor.force", 400));
     const auto first = client.of ("motor.force").front()->begin();
@@ -407,19 +407,18 @@ TEST_CASE ("scopes: the cost of scopes over ten seconds", "[.][bench]")
             if (is_long)
                 for (const auto& s : b.panel->scopes().scopes)
                     s->seconds = 10.0;
-            using Clock = std::chrono::steady_clock;
             juce::Image image (juce::Image::ARGB, v->getWidth(), v->getHeight(), true);
             double reading = 0.0, painting = 0.0;
             constexpr int times = 30;
             for (int i = 0; i < times; ++i)
             {
-                const auto start = Clock::now();
+                const tactus::test::Stopwatch watch;
                 v->refresh();
-                const auto read = Clock::now();
+                const double read_s = watch.s();
                 juce::Graphics g (image);
                 v->paintEntireComponent (g, false);
-                reading += std::chrono::duration<double, std::milli> (read - start).count() / times;
-                painting += std::chrono::duration<double, std::milli> (Clock::now() - read).count() / times;
+                reading += 1e3 * read_s / times;
+                painting += 1e3 * (watch.s() - read_s) / times;
             }
             std::cout << titleOf (v->shown().kind) << " over " << v->shown().seconds << " s: refresh " << reading << " ms, paint " << painting << " ms\n";
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the scopes share their panel, on small and large screens.
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/over_plot.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The life of the window, and the choice of an action.
 #include "monkey.hpp"
+#include "wait_for.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,7 +32,7 @@ Monkey::~Monkey()
     view.reset();
     stage.reset();
     juce::PopupMenu::dismissAllActiveMenus();   // later messages delete the menus, which use the look until then
-    juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+    settle();
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     juce::Desktop::getInstance().setGlobalScaleFactor (1.0f);
     juce::SystemClipboard::copyTextToClipboard ({});
@@ -102,7 +103,7 @@ std::string Monkey::act()
 
 void Monkey::poll (int ms)
 {
-    juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
+    handleMessages (ms);
     juce::ModifierKeys::currentModifiers = {};
     Stage::plugIn();
     // Close dialogs of JUCE, which are separate windows.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "stage.hpp"
+#include "wait_for.hpp"
 
 #include <host/app/window/main_view.hpp>
 
@@ -52,18 +53,7 @@ struct WindowRig
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     }
 
-    /// Lets the window work for a while, at least until it has handled all messages so far and those that they cause.
-    static void settle (int ms = 20)
-    {
-        for (int round = 0; round < 3; ++round)
-        {
-            bool handled = false;
-            juce::MessageManager::callAsync ([&handled] { handled = true; });
-            while (! handled)
-                juce::MessageManager::getInstance()->runDispatchLoopUntil (1);
-        }
-        juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
-    }
+    static void settle (int ms = 20) { test::settle (ms); }   ///< see wait_for.hpp
 
     static juce::Button* buttonIn (juce::Component& c, const juce::String& text)
     {

@@ -7,12 +7,12 @@
 #include <tactus/run/log/run_test.hpp>
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -58,20 +58,21 @@ struct TakeRig
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     }
 
-    /// Does what the window's timer does, until the condition holds. False after 30 s.
+    /// Does what the window's timer does, until the condition holds.
     template <typename F>
     bool until (F&& isSo)
     {
-        for (int i = 0; i < 6000 && ! isSo(); ++i)
+        return tactus::test::eventually ({}, [&] {
             poll();
-        return isSo();
+            return isSo();
+        });
     }
 
     void poll()
     {
         playback->poll();
         panel->refresh();
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        tactus::test::letPass (std::chrono::milliseconds (5));
     }
 
     bool isReady() { return panel->take().state() == Take::State::ready && panel->plot().length() > 0.0; }

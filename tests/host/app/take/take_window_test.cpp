@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The Take tab in the whole window, with a mouse.
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <tactus/run/log/stretch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What helps to begin: templates, the tour, and the list of nodes.
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <host/app/storage/settings.hpp>
 #include <tactus/file/graph_file.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closing the window, or opening another graph, loses no film and no take without a question.
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>

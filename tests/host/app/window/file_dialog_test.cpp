@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/screen.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A key that the window has never seen come up does not count as held for ever.
 #include "host/app/support/screen.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include <host/juce/native_window.hpp>
 
@@ -27,7 +28,7 @@ struct KeysWindow final : private Application, public juce::Component
         other.addToDesktop (0);
         other.setVisible (true);
         toFront (true);
-        REQUIRE (until ([&] { return hasKeyboardFocus (false); }));
+        REQUIRE (tactus::host::test::waitFor ([&] { return hasKeyboardFocus (false); }));
     }
 
     void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
@@ -38,20 +39,12 @@ struct KeysWindow final : private Application, public juce::Component
         return true;
     }
 
-    template <typename F>
-    static bool until (F&& isSo)
-    {
-        for (int i = 0; i < 2000 && ! isSo(); ++i)
-            juce::MessageManager::getInstance()->runDispatchLoopUntil (10);
-        return isSo();
-    }
-
     /// The key that arrives when xdotool presses one.
     juce::KeyPress pressed (const std::string& key)
     {
         keys.clear();
         xdo ("key " + key);
-        REQUIRE (until ([&] { return ! keys.empty(); }));
+        REQUIRE (tactus::host::test::waitFor ([&] { return ! keys.empty(); }));
         return keys.front();
     }
 
@@ -60,7 +53,7 @@ struct KeysWindow final : private Application, public juce::Component
     void pressAltForEver()
     {
         xdo ("keydown --window " + std::to_string (reinterpret_cast<std::uintptr_t> (other.getPeer()->getNativeHandle())) + " alt");
-        REQUIRE (until ([] { return juce::ModifierKeys::currentModifiers.isAltDown(); }));
+        REQUIRE (tactus::host::test::waitFor ([] { return juce::ModifierKeys::currentModifiers.isAltDown(); }));
     }
 
     juce::Component other;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/wait_for.hpp"
+
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <tactus/file/graph_file.hpp>
 
@@ -39,16 +42,14 @@ struct Opened
         return made;
     }
 
-    /// Does what the timer does for the run, until the condition holds. False after 20 s.
+    /// Does what the timer does for the run, until the condition holds.
     template <typename F>
     bool until (F&& isSo)
     {
-        for (int i = 0; i < 4000 && ! isSo(); ++i)
-        {
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
             view->run().poll();
-            juce::Thread::sleep (5);
-        }
-        return isSo();
+            return isSo();
+        });
     }
 
     void press (const char* key) { view->keyPressed (juce::KeyPress::createFromDescription (key)); }
@@ -127,9 +128,7 @@ TEST_CASE ("a window without input rests: only its own slow timer runs, and no t
     o.view->begin ({ .home = o.home.path(), .safe = true, .files = { o.wood } });
     const auto hasTooltips = [&] { return std::ranges::any_of (o.view->getChildren(), [] (const auto* c) { return c->getName() == "tooltip"; }); };
     const auto comesTo = [&] (bool rest) {
-        for (int i = 0; i < 4000 && o.view->isAtRest() != rest; ++i)
-            juce::MessageManager::getInstance()->runDispatchLoopUntil (5);
-        return o.view->isAtRest() == rest;
+        return host::test::waitFor ([&] { return o.view->isAtRest() == rest; }, 5);
     };
     CHECK_FALSE (o.view->isAtRest());
     CHECK (hasTooltips());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that settings name, in the whole window: a saved graph finds them again, and a missing one is chosen where it is missed.
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>

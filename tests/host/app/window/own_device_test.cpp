@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What moves a tool if the user has a device for it and also a mouse, and what the window says about that.
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <catch2/catch.hpp>
 

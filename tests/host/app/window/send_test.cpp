@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layers that are sent to a vibration motor, and the tool that the mouse moves, in the window while the graph runs.
-#include "host/app/support/wait_for.hpp"
+#include "host/app/support/window_rig.hpp"
 
 #include <tactus/run/device/gestures.hpp>
 

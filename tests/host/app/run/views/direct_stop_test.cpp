@@ -5,6 +5,9 @@
 
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/screen.hpp"
+#include "host/app/support/wait_for.hpp"
+
+#include "support/waiting.hpp"
 
 #include <host/app/run/views/direct_stop.hpp>
 #include <host/app/run/views/safety_strip.hpp>
@@ -16,11 +19,13 @@
 #include <fstream>
 #include <set>
 #include <string>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
 using namespace tactus::host::test;
+using tactus::test::eventually;
+using tactus::test::stays;
+using tactus::test::Stopwatch;
 using namespace std::chrono_literals;
 
 namespace
@@ -54,7 +59,7 @@ struct Window final : private Application, public juce::Component
     /// Handles messages for 10 ms, then does what the timer of the real window does.
     void poll()
     {
-        juce::MessageManager::getInstance()->runDispatchLoopUntil (10);
+        host::test::handleMessages (10);
         playback.poll();
         strip.refresh();
         if (const auto why = direct.follow (strip, strip.stopPlace())) FAIL (why->text);
@@ -63,18 +68,10 @@ struct Window final : private Application, public juce::Component
     template <typename F>
     bool until (F&& isSo)
     {
-        for (const auto end = std::chrono::steady_clock::now() + 20s; ! isSo() && std::chrono::steady_clock::now() < end;)
+        return tactus::test::eventually ({}, [&] {
             poll();
-        return isSo();
-    }
-
-    /// Waits without handling messages.
-    template <typename F>
-    static bool untilStuck (F&& isSo)
-    {
-        for (const auto end = std::chrono::steady_clock::now() + 20s; ! isSo() && std::chrono::steady_clock::now() < end;)
-            std::this_thread::sleep_for (1ms);
-        return isSo();
+            return isSo();
+        });
     }
 
     LiveRun& run() { return playback.run(); }
@@ -86,8 +83,8 @@ struct Window final : private Application, public juce::Component
         run().start ({});
         REQUIRE (until ([&] { return force() == 2.0; }));
         toFront (true);
-        const auto settled = std::chrono::steady_clock::now() + 200ms;
-        REQUIRE (until ([&] { return std::chrono::steady_clock::now() > settled && hasKeyboardFocus (true); }));
+        const Stopwatch watch;
+        REQUIRE (until ([&] { return watch.hasRun (200ms) && hasKeyboardFocus (true); }));
     }
 
     std::string stopPlace()
@@ -116,20 +113,17 @@ TEST_CASE ("on a screen: Shift+Esc", "[.screen]")
     Window w;
     w.start();
     xdo ("key a space Return ctrl+s");   // these keys must not stop anything
-    std::this_thread::sleep_for (100ms);
-    REQUIRE (w.force() == 2.0);
+    REQUIRE (stays (100ms, [&] { return w.force() == 2.0; }));
 
     xdo ("key shift+Escape");
-    const auto pressed = std::chrono::steady_clock::now();
-    REQUIRE (Window::untilStuck ([&] { return w.force() == 0.0; }));
-    std::printf ("zero force at most %.1f ms after xdotool ended\n", 1e3 * std::chrono::duration<double> (std::chrono::steady_clock::now() - pressed).count());
+    const Stopwatch watch;
+    REQUIRE (eventually ([&] { return w.force() == 0.0; }));
+    std::printf ("zero force at most %.1f ms after xdotool ended\n", 1e3 * watch.s());
     CHECK (w.run().isRunning());          // the graph keeps running
     CHECK (w.run().isStoppedForGood());   // latched
     w.run().rearm();                      // a REARM that was clicked before the stop, but is handled after it
-    std::this_thread::sleep_for (100ms);
-    CHECK (w.force() == 0.0);
-    std::this_thread::sleep_for (2s);   // the message thread is still stuck
-    CHECK (w.force() == 0.0);
+    CHECK (stays (100ms, [&] { return w.force() == 0.0; }));
+    CHECK (stays (2s, [&] { return w.force() == 0.0; }));   // the message thread is still stuck
 
     w.poll();
     CHECK_FALSE (w.run().canRearm());   // the pause before a REARM counts from when the window notices the stop
@@ -150,30 +144,29 @@ TEST_CASE ("on a screen: a click on STOP", "[.screen]")
     w.start();
     xdo ("mousemove 200 300 click 1");                         // elsewhere in the window
     xdo ("mousemove " + w.stopPlace() + " click 4 click 5");   // the mouse wheel, over STOP
-    std::this_thread::sleep_for (100ms);
-    REQUIRE (w.force() == 2.0);
+    REQUIRE (stays (100ms, [&] { return w.force() == 2.0; }));
 
     xdo ("click --repeat 3 --delay 30 1");
-    REQUIRE (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    REQUIRE (eventually ([&] { return ! w.run().isRunning(); }));
     CHECK (w.run().isWanted());   // the window has not noticed the stop yet
-    std::this_thread::sleep_for (1s);
-    const auto shown = std::chrono::steady_clock::now();
+    tactus::test::letPass (1s);
+    const Stopwatch shown;
     for (int i = 0; i < 10; ++i)
         w.poll();
     CHECK_FALSE (w.run().isWanted());
     CHECK_FALSE (w.run().isRunning());
 
     xdo ("click 1");   // the button has been START for less than a second
-    std::this_thread::sleep_for (50ms);
+    tactus::test::letPass (50ms);
     w.poll();
-    if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // otherwise the machine was too slow for this test
-    const auto later = std::chrono::steady_clock::now() + 1200ms;
-    w.until ([&] { return std::chrono::steady_clock::now() > later; });
+    if (! shown.hasRun (950ms)) CHECK_FALSE (w.run().isWanted());   // otherwise the machine was too slow for this test
+    const Stopwatch later;
+    w.until ([&] { return later.hasRun (1200ms); });
     if (! w.run().isWanted()) xdo ("click 1");
     CHECK (w.until ([&] { return w.force() == 2.0; }));
 
     xdo ("key Escape");
-    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    CHECK (eventually ([&] { return ! w.run().isRunning(); }));
 }
 
 TEST_CASE ("a click on another window that covers STOP does not stop", "[app][run]")
@@ -193,13 +186,12 @@ TEST_CASE ("on a screen: a covered STOP", "[.screen]")
     for (int i = 0; i < 20; ++i)
         w.poll();
     xdo ("mousemove " + w.stopPlace() + " click 1");
-    std::this_thread::sleep_for (200ms);
-    CHECK (w.force() == 2.0);
+    CHECK (stays (200ms, [&] { return w.force() == 2.0; }));
     cover.removeFromDesktop();
     for (int i = 0; i < 20; ++i)
         w.poll();
     xdo ("click 1");
-    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    CHECK (eventually ([&] { return ! w.run().isRunning(); }));
 }
 
 TEST_CASE ("Esc stops the forces while a file dialog has the keyboard and the message thread is stuck", "[app][run][safety]")
@@ -214,15 +206,14 @@ TEST_CASE ("on a screen: Esc in a dialog", "[.screen]")
     juce::FileChooser dialog ("Save graph", juce::File::getCurrentWorkingDirectory(), "*.json", false);
     dialog.launchAsync (juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles, [] (const juce::FileChooser&) {});
     const auto isInText = [] { return dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr; };
-    const auto opened = std::chrono::steady_clock::now() + 500ms;
-    REQUIRE (w.until ([&] { return std::chrono::steady_clock::now() > opened && ! w.hasKeyboardFocus (true); }));
-    w.until ([&] { return isInText() || std::chrono::steady_clock::now() > opened + 1s; });
+    const Stopwatch opened;
+    REQUIRE (w.until ([&] { return opened.hasRun (500ms) && ! w.hasKeyboardFocus (true); }));
+    w.until ([&] { return isInText() || opened.hasRun (1500ms); });
 
     xdo ("key a space");   // these keys are text
-    std::this_thread::sleep_for (100ms);
-    REQUIRE (w.force() == 2.0);
+    REQUIRE (stays (100ms, [&] { return w.force() == 2.0; }));
     xdo ("key Escape");
-    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    CHECK (eventually ([&] { return ! w.run().isRunning(); }));
 }
 
 TEST_CASE ("on a screen: Esc that closes something", "[.screen]")
@@ -231,10 +222,9 @@ TEST_CASE ("on a screen: Esc that closes something", "[.screen]")
     w.start();
     w.direct.letEscStop (false);
     xdo ("key Escape");
-    std::this_thread::sleep_for (200ms);
-    CHECK (w.force() == 2.0);
+    CHECK (stays (200ms, [&] { return w.force() == 2.0; }));
     xdo ("key shift+Escape");
-    CHECK (Window::untilStuck ([&] { return w.force() == 0.0; }));
+    CHECK (eventually ([&] { return w.force() == 0.0; }));
 }
 
 TEST_CASE ("Shift+Esc removes the force even while Esc would only close something", "[app][run][safety]")
@@ -271,15 +261,15 @@ TEST_CASE ("on a screen: a watcher at rest", "[.screen]")
     std::ranges::set_difference (threads(), before, std::back_inserter (made));
     REQUIRE (made.size() == 1);
     std::string waits;
-    CHECK (Window::untilStuck ([&] {   // once it has begun, it waits, and nothing wakes it
+    CHECK (eventually ([&] {   // once it has begun, it waits, and nothing wakes it
         const auto last = std::exchange (waits, waitsOf (made.front()));
-        std::this_thread::sleep_for (200ms);
+        tactus::test::letPass (200ms);
         return ! waits.empty() && waits == last && w.direct.follow (w.strip, w.strip.stopPlace()) == std::nullopt && waitsOf (made.front()) == waits;
     }));
     w.strip.setBounds (60, 90, 900, SafetyStrip::height);
     w.start();   // what has moved is where it is now
     xdo ("mousemove " + w.stopPlace() + " click 1");
-    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    CHECK (eventually ([&] { return ! w.run().isRunning(); }));
 }
 
 TEST_CASE ("nothing wakes the thread that waits for stops but a stop, or a STOP that has moved", "[app][run]")
@@ -301,6 +291,6 @@ TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][
     CHECK_FALSE (playback.run().isRunning());
 
     playback.restart();
-    CHECK (Window::untilStuck ([&] { return playback.run().isRunning() && playback.run().status()->force == 2.0; }));
+    CHECK (eventually ([&] { return playback.run().isRunning() && playback.run().status()->force == 2.0; }));
     playback.run().letGo();
 }

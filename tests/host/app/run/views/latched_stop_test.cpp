@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
 
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/app/run/views/hand_view.hpp>
@@ -11,7 +12,6 @@
 
 #include <chrono>
 #include <functional>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -40,14 +40,12 @@ struct Rig
     template <typename F>
     bool until (F&& isSo)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (20);
-        for (int times = 0; times < 20; times = isSo() ? times + 1 : 0)
-        {
-            if (std::chrono::steady_clock::now() > end) return false;
+        int times = 0;
+        return tactus::test::eventually (std::chrono::milliseconds (2), [&] {
             playback.poll();
-            std::this_thread::sleep_for (std::chrono::milliseconds (2));
-        }
-        return true;
+            times = isSo() ? times + 1 : 0;
+            return times == 20;
+        });
     }
 
     std::string state()
@@ -113,12 +111,10 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     INFO (r.state());
     REQUIRE (is_running);
     CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
-    for (int k = 0; k < 50; ++k)
-    {
+    CHECK (tactus::test::stays (std::chrono::milliseconds (50), [&] {
         r.playback.poll();
-        REQUIRE (r.run.status()->force == 0.0);
-        std::this_thread::sleep_for (std::chrono::milliseconds (1));
-    }
+        return r.run.status()->force == 0.0;
+    }));
 
     r.playback.restart();   // START
     const bool is_free = r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); });

@@ -2,6 +2,8 @@
 // The window does nothing that could make a tick of the run late.
 #include "host/app/scene/preset_bodies.hpp"
 
+#include "support/waiting.hpp"
+
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 #include <support/no_allocation.hpp>
@@ -12,7 +14,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -108,7 +109,6 @@ TEST_CASE ("with the scene and the scopes on the screen, ticks are late no more 
         for (const auto kind : { ScopeKind::spectrum, ScopeKind::spectrogram })
             scopes.add (kind);
         playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
-        using Clock = std::chrono::steady_clock;
         constexpr auto half = std::chrono::milliseconds (300), picture = std::chrono::milliseconds (33);
         juce::Image image (juce::Image::ARGB, 1100, 400, true);
 
@@ -118,11 +118,11 @@ TEST_CASE ("with the scene and the scopes on the screen, ticks are late no more 
         {
             const bool is_shown = part % 2 == 1;
             panel.showScene (is_shown);
-            const auto end = Clock::now() + half;
+            const tactus::test::Stopwatch watch;
+            tactus::test::Pace pace { picture };
             const auto before = playback.run().status();
-            while (Clock::now() < end)
+            while (! watch.hasRun (half))
             {
-                const auto next = Clock::now() + picture;
                 playback.poll();
                 if (is_shown)
                 {
@@ -132,7 +132,7 @@ TEST_CASE ("with the scene and the scopes on the screen, ticks are late no more 
                     panel.paintEntireComponent (g, false);
                     scopes.paintEntireComponent (g, false);
                 }
-                std::this_thread::sleep_until (next);
+                pace.next();
             }
             const auto after = playback.run().status();
             if (! before || ! after || after->ticks <= before->ticks || part < 2) continue;   // the first two are a warm-up

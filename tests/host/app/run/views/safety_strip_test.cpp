@@ -2,13 +2,14 @@
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/seen_text.hpp"
 
+#include "support/waiting.hpp"
+
 #include <host/app/run/views/safety_strip.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -49,14 +50,11 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     auto& strip = seen.strip;
     auto& run = playback.run();
     const auto until = [&] (auto isSo) {
-        for (int i = 0; i < 2000; ++i)
-        {
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
             run.poll();
             strip.refresh();
-            if (isSo()) return true;
-            std::this_thread::sleep_for (std::chrono::milliseconds (5));
-        }
-        return false;
+            return isSo();
+        });
     };
     strip.refresh();
     REQUIRE (buttonCalled (strip, "START"));
@@ -119,11 +117,10 @@ TEST_CASE ("while an edit has errors, the strip says that the last valid version
         strip.mouseUp ({ juce::Desktop::getInstance().getMainMouseSource(), at, {}, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &strip, &strip, now, at, now, 1, false });
     };
     playback.run().start ({});
-    for (int i = 0; i < 2000 && ! playback.run().isRunning(); ++i)
-    {
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] {
         refresh();
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
-    }
+        return playback.run().isRunning();
+    }));
     refresh();
     click();
     CHECK (shown == 0);
@@ -151,23 +148,20 @@ TEST_CASE ("a graph with errors that was started says that it waits, and STOP en
     auto& playback = seen.playback;
     auto& strip = seen.strip;
     const auto runs = [&] {
-        for (int i = 0; i < 200 && ! playback.run().isRunning(); ++i)
-        {
-            playback.poll();
-            std::this_thread::sleep_for (std::chrono::milliseconds (5));
-        }
+        playback.poll();
         strip.refresh();
         return playback.run().isRunning();
     };
+    const auto rests = [&] { return tactus::test::stays (std::chrono::seconds (1), [&] { return ! runs(); }); };
     playback.run().start ({});
-    CHECK_FALSE (runs());
+    CHECK (rests());
     CHECK (strip.text() == "starts once the problems are solved");
     REQUIRE (buttonCalled (strip, "STOP"));
     CHECK_FALSE (strip.stopPlace().isEmpty());
     SECTION ("it starts when they are")
     {
         rig.document.undo();
-        CHECK (runs());
+        CHECK (tactus::test::eventually (runs));
     }
     SECTION ("after STOP it does not")
     {
@@ -176,7 +170,7 @@ TEST_CASE ("a graph with errors that was started says that it waits, and STOP en
         CHECK (strip.text() == "cannot run: see Problems");
         CHECK (buttonCalled (strip, "START"));
         rig.document.undo();
-        CHECK_FALSE (runs());
+        CHECK (rests());
         CHECK (strip.text() == "stopped");
     }
 }
