@@ -144,7 +144,7 @@ class Page:
         finally:
             for process in self.background:
                 os.killpg(process.pid, signal.SIGINT)
-                process.wait(timeout=20)
+                process.wait(timeout=120)
         return counts, left
 
     def write(self, block):

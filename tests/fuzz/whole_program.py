@@ -18,10 +18,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/support"))
+from waiting import Stopwatch   # noqa: E402
+
 KINDS = ("graph", "session", "profile", "run_log", "trace")
 LONGEST_CPU_S = 10        # twice the budget of time
 MOST_BYTES = 700 << 20    # more than the budget of memory, as libraries and stacks count too
@@ -174,7 +176,7 @@ def main():
         jobs = (job(i) for i in range(args.count))
         print(f"{args.count} files, --seed {args.seed}")
 
-    begin, failures, total = time.monotonic(), [], 0
+    watch, failures, total = Stopwatch(), [], 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for failure in pool.map(lambda j: attempt(args.tactus, *j[:2], args.keep, j[2]), jobs):
             total += 1
@@ -182,8 +184,8 @@ def main():
                 failures.append(failure)
                 print(failure, flush=True)
             elif total % 1000 == 0:
-                print(f"  {total} files, {time.monotonic() - begin:.0f} s", flush=True)
-    print(f"{total} files, {len(failures)} failures, {time.monotonic() - begin:.0f} s")
+                print(f"  {total} files, {watch}", flush=True)
+    print(f"{total} files, {len(failures)} failures, {watch}")
     return 1 if failures or total == 0 else 0
 
 

@@ -6,11 +6,14 @@ TACTUS_SOAK_SECONDS and TACTUS_SOAK_TICKS say how long they are. None of them ju
 how long it took and how much of a processor it needed. Exits with 1 if one of them fails."""
 
 import os
+import pathlib
 import re
 import subprocess
 import sys
 import tempfile
-import time
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import Stopwatch   # noqa: E402
 
 names = []
 for program in sys.argv[1:]:
@@ -19,7 +22,7 @@ for program in sys.argv[1:]:
 if not names:
     sys.exit("there is no test with the tag [soak]")
 
-begin = time.monotonic()
+watch = Stopwatch()
 running = {}
 for program, name in names:
     output = tempfile.TemporaryFile("w+")
@@ -34,7 +37,7 @@ while running:
     text = output.read()
     passed = status == 0 and "All tests passed" in text
     failed += not passed
-    print(f"{'passed' if passed else 'FAILED'} after {time.monotonic() - begin:.0f} s, {used.ru_utime + used.ru_stime:.0f} s of a processor, "
+    print(f"{'passed' if passed else 'FAILED'} after {watch}, {used.ru_utime + used.ru_stime:.0f} s of a processor, "
           f"{used.ru_maxrss / 1024:.0f} MB at most: {name}")
     shown = [line for line in text.splitlines() if line.strip() and not line.startswith(("=", "All tests passed"))] if passed else text.splitlines()
     print("".join("    " + line + "\n" for line in shown), end="", flush=True)

@@ -79,7 +79,7 @@ expect "an alternative" "$(in_bash tactus render dry_wood --set drag.adhesion = 
 expect "a list" "$(in_bash tactus render dry_wood --record drag.force,drag.defl)" drag.force,drag.deflection
 tactus play dry_wood --duration 60 --osc off >/dev/null 2>&1 &
 playing=$!
-sleep 1
+for attempt in $(seq 60); do in_bash tactus probe drag.fo | grep -q drag.force && break; sleep 0.5; done
 offers drag.force tactus probe drag.fo
 kill -INT $playing
 wait $playing || true

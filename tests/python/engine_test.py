@@ -5,13 +5,12 @@ import _thread
 import concurrent.futures
 import subprocess
 import sys
-import threading
-import time
 import unittest
 
 import numpy as np
 import tactus
 from support import GRAPHS, TestCase, drag, positions
+from waiting import eventually, while_busy
 
 FEED = {"drag.position": (0, 0, 0), "drag.normal_force": 1.0}
 
@@ -89,8 +88,8 @@ class Steps(TestCase):
 
     def test_an_interrupted_step_is_counted(self):
         engine = tactus.Engine(drag(), feed=FEED, record=["drag.state"])
-        threading.Timer(0.2, _thread.interrupt_main).start()
         with self.assertRaises(KeyboardInterrupt):
+            while_busy(_thread.interrupt_main)
             engine.step(n=10**8)
         self.assertGreater(engine.ticks, 0)
         self.assertEqual(engine.step()["t"][0], (engine.ticks - 1) / 1000)
@@ -163,11 +162,11 @@ class Live(TestCase):
         engine.start(duration=0.3)
         self.fails("engine/not_now", engine.step)
         parts = []
-        for _ in range(1000):
+
+        def is_over():
             parts.append(engine.collect())
-            if engine.status().phase == "over":
-                break
-            time.sleep(0.02)
+            return engine.status().phase == "over"
+        self.assertTrue(eventually(is_over))
         parts.append(engine.collect())
         engine.stop()
         self.assertEqual(engine.lost, 0)

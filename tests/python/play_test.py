@@ -5,12 +5,12 @@ import queue
 import subprocess
 import sys
 import threading
-import time
 import unittest
 
 import numpy as np
 import tactus
 from support import GRAPHS, TestCase
+from waiting import eventually
 
 WOOD = str(GRAPHS / "dry_wood.json")
 CIRCLE = ["stylus=gesture:circle"]
@@ -22,12 +22,7 @@ def play(**options):
 
 class Play(TestCase):
     def wait_for(self, holds):
-        """A busy computer only takes longer."""
-        for _ in range(12000):
-            if holds():
-                return
-            time.sleep(0.005)
-        self.fail("it did not happen")
+        self.assertTrue(eventually(holds))
 
     def test_a_session_plays_a_preset_and_records_it(self):
         with tactus.play("dry_wood", device=CIRCLE, session="off", duration=0.5, record=["motor.force"]) as session:
@@ -80,13 +75,13 @@ class Play(TestCase):
 
     def test_a_program_that_ends_or_raises_with_a_session_open_does_not_hang(self):
         for end in ("", "raise SystemExit(0)", "1 / 0", "import os; os.kill(os.getpid(), 2)"):
-            code = f"import tactus, time; s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off'); time.sleep(0.1); {end}"
+            code = f"import tactus; s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off'); s.wait(0.1); {end}"
             done = subprocess.run([sys.executable, "-B", "-c", code], stderr=subprocess.PIPE, timeout=120, check=False)
             self.assertIn(done.returncode, (0, 1, -2, 130), done.stderr.decode())
 
     def test_a_thread_may_stop_what_another_one_waits_for(self):
         with play() as session:
-            threading.Timer(0.2, session.stop).start()
+            threading.Thread(target=lambda: eventually(lambda: session.status().ticks > 400) and session.stop()).start()
             self.assertTrue(session.wait(60))
 
 
@@ -188,9 +183,9 @@ class Callback(TestCase):
 
     def test_a_program_that_ends_with_a_callback_does_not_hang_and_shows_its_exception(self):
         for body, shown in (("pass", ""), ("raise ZeroDivisionError", "ZeroDivisionError")):
-            code = (f"import tactus, time\ndef f(r):\n    {body}\n"
+            code = (f"import tactus\ndef f(r):\n    {body}\n"
                     f"s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off', record='motor.force', callback=f)\n"
-                    "while s.status().ticks < 100 and s.status().phase != 'over': time.sleep(0.01)")
+                    "while s.status().ticks < 100 and s.status().phase != 'over': s.wait(0.01)")
             done = subprocess.run([sys.executable, "-B", "-c", code], stderr=subprocess.PIPE, timeout=120, check=False)
             self.assertIn(shown, done.stderr.decode())
             self.assertEqual(done.returncode, 0)

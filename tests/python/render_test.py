@@ -6,13 +6,13 @@ import concurrent.futures
 import pathlib
 import pickle
 import tempfile
-import threading
 import unittest
 import warnings
 
 import numpy as np
 import tactus
 from support import GRAPHS, PROGRAM, TestCase, by_program, columns, drag, pixels, positions, quiet
+from waiting import while_busy
 
 
 @unittest.skipUnless(PROGRAM, "the program is not built")
@@ -112,8 +112,8 @@ class Render(TestCase):
 
     def test_ctrl_c_ends_a_render_because_other_threads_run_meanwhile(self):
         # The other thread can interrupt the render only if the render lets it run, and the render ends early only if it looks for signals.
-        threading.Timer(0.2, _thread.interrupt_main).start()
         with self.assertRaises(KeyboardInterrupt):
+            while_busy(_thread.interrupt_main)
             drag().render(duration=1e5, record=["drag.state"])
 
     def test_a_feed_without_rows_is_refused(self):

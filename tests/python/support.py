@@ -20,7 +20,7 @@ except ImportError:
 import tactus
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "tests/install"))
+sys.path += [str(ROOT / "tests/install"), str(ROOT / "tests/support")]
 import png_to_pgm   # noqa: E402
 
 GRAPHS = ROOT / "graphs"

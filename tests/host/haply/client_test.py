@@ -12,7 +12,9 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
 from fake import Fake, demand   # noqa: E402
+from waiting import let_pass   # noqa: E402
 
 try:
     import websockets
@@ -44,7 +46,7 @@ async def talk(port):
                 state = json.loads(await service.recv())
                 demand("config" not in state["inverse3"][0], "only the inventory has the configuration")
                 demand(state["inverse3"][0]["state"]["control_mode"] == "cursor_force", "a push is not idle")
-                await asyncio.sleep(1 / 200)
+                let_pass(1 / 200)
         moved = state["inverse3"][0]["state"]["cursor_position"]
         demand(moved["x"] != 0.01 and abs(moved["y"] - 0.02) < 1e-3, "the hand has felt the force along x only")
         await service.send(json.dumps({"inverse3": [{"device_id": arm["device_id"], "commands": {"probe_position": {}}}]}))

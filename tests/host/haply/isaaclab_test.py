@@ -14,10 +14,11 @@ import os
 import pathlib
 import sys
 import tempfile
-import time
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
 from fake import Fake, demand   # noqa: E402
+from waiting import eventually   # noqa: E402
 
 BASE = '''
 from dataclasses import dataclass
@@ -32,14 +33,6 @@ class DeviceBase:
     def __init__(self, retargeters=None):
         pass
 '''
-PATIENCE_S = 60
-
-
-def eventually(condition, what):
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        demand(time.monotonic() < end, what)
-        time.sleep(0.01)
 
 
 def skip(why):
@@ -80,7 +73,7 @@ def feels_the_force(haply, program, folder):
         for push, sign in ((0.5, 1), (-9.0, -1)):   # the client cuts the second one to 2 N
             before = float(device.advance()[0])
             device.set_force_feedback(push, 0, 0)
-            eventually(lambda b=before, s=sign: s * (float(device.advance()[0]) - b) > 0.005, f"a force of {push} N moves the hand")
+            demand(eventually(lambda b=before, s=sign: s * (float(device.advance()[0]) - b) > 0.005), f"a force of {push} N moves the hand")
     print(fake.seen)
     demand(fake.seen["clients"] == 1 and fake.seen["refused"] == 0 and fake.seen["together"] == 0, f"one message at a time: {fake.seen}")
     demand(fake.seen["heard"] - fake.seen["answered"] <= 1, f"each message has its answer: {fake.seen}")   # it may leave before the last one
@@ -98,7 +91,7 @@ def sees_the_buttons(haply, program, folder):
     with Fake(program, f"trace:{trace}") as fake, opened(haply, fake) as device:
         for name in presses:
             device.add_callback(name, lambda n=name: presses.__setitem__(n, presses[n] + 1))
-        eventually(lambda: float(device.advance()[0]) > 0.0398 and presses["c"] == 1, "the recording is played to its end")
+        demand(eventually(lambda: float(device.advance()[0]) > 0.0398 and presses["c"] == 1), "the recording is played to its end")
         at_end = device.advance()
     demand(presses["b"] == 0 and presses["a"] >= 1, f"the buttons are those of the recording: {presses}")
     demand(abs(float(at_end[0]) - 0.0399) < 1e-6 and abs(float(at_end[5]) - 0.198179) < 1e-4, "position and orientation belong together")
