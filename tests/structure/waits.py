@@ -38,6 +38,7 @@ LEFT_OUT = [
     ("tests/host/app/screens", "films and listens to the program"),
     ("tests/host/generate/exported_code.cpp", "the program that it writes prints its time"),
     ("tests/plugins/objects", "devices and nodes, which are slow on purpose"),
+    ("tests/mutants", "a program that people start by hand: it ends compilers that do not end"),
     ("tests/structure/waits.py", "examples"),
 ]
 
