@@ -2,6 +2,7 @@
 #include "host/app/support/files_rig.hpp"
 
 #include <fstream>
+#include <set>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -250,10 +251,117 @@ TEST_CASE ("an opened clip becomes an unsaved graph that plays the clip, and a d
 
     d.chosen = d.folder / "mine.json";
     d.files->save();
+    d.question.answer (0);
     CHECK (fs::exists (d.folder / "zip.json"));   // the clip is copied along
     std::ofstream (d.folder / "broken.haptic") << "{}";
     d.files->open (d.folder / "broken.haptic");
     CHECK (d.question.title() == "Cannot open broken.haptic");
     CHECK (d.document.graph().name == "Mine");   // as its file
     d.question.cancel();
+}
+
+namespace
+{
+/// The files in a folder and below it.
+std::set<std::string> filesIn (const fs::path& folder)
+{
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator (folder))
+        if (! entry.is_directory()) names.insert (entry.path().lexically_relative (folder).generic_string());
+    return names;
+}
+
+/// An environment variable for the length of a test.
+class SetVariable
+{
+public:
+    SetVariable (const char* n, const fs::path& value) : name (n) { setenv (name, value.c_str(), 1); }
+    ~SetVariable() { unsetenv (name); }
+    SetVariable (const SetVariable&) = delete;
+    SetVariable& operator= (const SetVariable&) = delete;
+
+private:
+    const char* name;
+};
+
+constexpr auto clip_text = R"({"format": "tactus-clip", "version": 1, "tracks": [{"continuous": [{"from": 0, "to": 0.1}]}]})";
+}   // namespace
+
+TEST_CASE ("a graph of a stranger brings its own recordings, pictures and tables into the home folder, and no other files")
+{
+    TemporaryFolder theirs, home;
+    const SetVariable settings ("TACTUS_HOME", home / "Tactus"), profiles ("TACTUS_PROFILES", home / "boards"), plugins ("TACTUS_PLUGINS", home / "lab");
+    Json strings = Json::array(), nodes = Json::object();
+    const auto bring = [&] (const std::string& name, const std::string& text) {
+        fs::create_directories ((theirs / name).parent_path());
+        theirs.write (name, text);
+        strings.push_back (name);
+        const auto add = [&] (const std::string& type, Json written) {
+            nodes["n" + std::to_string (nodes.size())] = Json { { "type", type }, { "settings", std::move (written) } };
+        };
+        add ("signal.clip", { { "clip", name } });
+        add ("texture.height_map", { { "image", name } });
+        add ("vibration.wavetable", { { "table", { { "wav", name } } } });
+        add ("deform.surface", { { "surface", { { "mesh", name } } } });
+        add ("maker.unknown", { { "whatever", name } });
+        add ("file:" + name, Json::object());
+    };
+    for (const auto* name : { ".bash_login", ".config/autostart/evil.desktop", "bin/ls", "Tactus/plugins/evil.tactus", "lab/evil.tactus", "boards/board.json",
+                              "Tactus/session.json", "Tactus/known.csv", ".hidden.wav", ".hidden/tap.wav", "notes.json" })
+        bring (name, "{}");
+    bring ("boards/clip.json", clip_text);
+    const auto graph = [&] (const Json& all) {
+        return Json { { "format", "tactus-graph" }, { "version", 2 }, { "nodes", all }, { "wires", Json::array() }, { "devices", { { "pen", { { "driver", "sim" }, { "mass", "50 g" }, { "about", ".bash_login" }, { "files", strings } } } } } }
+            .dump();
+    };
+    bring ("assets/tap.wav", "RIFF");
+    bring ("assets/bark.png", "PNG");
+    const auto all = nodes;
+    nodes = Json::object();
+    for (const auto& [name, node] : all.items())
+        if (! node["type"].asString().starts_with ("file:")) nodes[name] = node;   // a file that is no graph refuses the whole graph
+    theirs.write ("g.json", graph (nodes));
+
+    Rig d;
+    d.files->open (theirs / "g.json");
+    REQUIRE (d.document.file() == theirs / "g.json");
+    d.chosen = home / "mine.json";
+    d.files->saveAs();
+    CHECK (filesIn (home.path()) == std::set<std::string> (d.question.isOpen() ? std::set<std::string> {} : std::set<std::string> { "mine.json" }));
+    d.question.answer (0);
+    CHECK (filesIn (home.path()) == std::set<std::string> { "assets/bark.png", "assets/tap.wav", "mine.json" });
+}
+
+TEST_CASE ("before files of a graph go along, a question names them: they are copied, or left where they are, or nothing is saved")
+{
+    TemporaryFolder theirs, mine;
+    fs::create_directories (theirs / "assets");
+    theirs.write ("assets/beat.json", clip_text);
+    theirs.write ("g.json", R"({"format": "tactus-graph", "version": 2, "wires": [],
+        "nodes": {"clip": {"type": "signal.clip", "settings": {"clip": "assets/beat.json"}}}})");
+    Rig d;
+    d.files->open (theirs / "g.json");
+    d.chosen = mine / "mine.json";
+    const auto clip = [&] { return loadGraph (mine / "mine.json").graph.root.find ("clip")->settings["clip"].asString(); };
+
+    d.files->saveAs();
+    CHECK (d.question.title().startsWith ("Copy these files to "));
+    CHECK (d.question.getDescription().contains ("assets/beat.json"));
+    d.question.cancel();
+    CHECK (mine.isEmpty());
+
+    d.files->saveAs();
+    d.question.answer (1);
+    CHECK (filesIn (mine.path()) == std::set<std::string> { "mine.json" });
+    CHECK (fs::equivalent (mine / clip(), theirs / "assets/beat.json"));
+
+    d.files->open (theirs / "g.json");
+    d.files->saveAs();
+    d.question.answer (0);
+    CHECK (filesIn (mine.path()) == std::set<std::string> { "assets/beat.json", "mine.json" });
+    CHECK (clip() == "assets/beat.json");
+
+    d.files->open (theirs / "g.json");   // now nothing has to be copied
+    d.files->saveAs();
+    CHECK_FALSE (d.question.isOpen());
 }
