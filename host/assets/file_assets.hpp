@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/file/assets/file_assets.hpp>
+#include <tactus/node/setting.hpp>
 
 namespace tactus::host
 {
@@ -14,5 +15,8 @@ protected:
     Result<Signal> readSignal (const std::string& path) override;
     Result<Grid> readImage (std::string_view bytes, std::string_view path) override;
 };
+
+/// The names of files of kind signal, image, table, or surface (a mesh), as in "*.wav". [any thread]
+const char* patternsOf (SettingSheet::Kind);
 
 }   // namespace tactus::host

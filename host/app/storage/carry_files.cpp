@@ -2,13 +2,19 @@
 #include "carry_files.hpp"
 
 #include <host/app/text/file_path.hpp>
-#include <tactus/file/atomic_file.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/hid_link/profile_library.hpp>
+#include <host/platform/home_folder.hpp>
+#include <host/plugins/installed_plugins.hpp>
+
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/node/catalogue.hpp>
 #include <tactus/text/budget.hpp>
 
-#include <optional>
-#include <string>
+#include <algorithm>
+
+#include <juce_core/juce_core.h>
 
 namespace tactus::host
 {
@@ -17,99 +23,270 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr std::size_t longest_path = 1000;
-constexpr int most_names = 100;   // that are tried for a copy
+using Kind = SettingSheet::Kind;
 
-/// Writes a file with these bytes, and the folders that lead to it.
-bool write (const std::string& bytes, const fs::path& to)
+constexpr int most_names = 100;   // that are tried for a copy
+constexpr const char* traces = "*.csv;*.tsv;*.txt";
+
+bool hasExtensionOf (const fs::path& name, const juce::String& patterns)
 {
-    std::error_code error;
-    fs::create_directories (to.parent_path(), error);
-    auto file = AtomicFile::create (to);   // follows no link that leads to nothing, or that belongs to another user
-    return file && file->stream() << bytes && file->commit();
+    const auto file = juce::String (name.filename().string());
+    return std::ranges::any_of (juce::StringArray::fromTokens (patterns, ";", {}), [&] (const auto& p) { return file.matchesWildcard (p, true); });
+}
+
+bool isHidden (const fs::path& part) { return part.string().starts_with ('.'); }
+
+/// True if a path below a folder leads only through folders, or through nothing yet, and not through a link.
+bool hasOnlyFolders (const fs::path& folder, const fs::path& name)
+{
+    auto at = folder;
+    std::error_code ignored;
+    return std::ranges::all_of (name, [&] (const fs::path& part) {
+        at /= part;
+        const auto type = fs::symlink_status (at, ignored).type();
+        return type == fs::file_type::directory || type == fs::file_type::not_found;
+    });
+}
+
+/// True for a file that is no link.
+bool isFile (const fs::path& file)
+{
+    std::error_code ignored;
+    return fs::is_regular_file (fs::symlink_status (file, ignored));
+}
+
+bool isThere (const fs::path& file)
+{
+    std::error_code ignored;
+    return fs::exists (fs::symlink_status (file, ignored));
+}
+
+bool isWithin (const fs::path& file, const fs::path& folder)
+{
+    std::error_code ignored;
+    const auto inner = fs::weakly_canonical (file, ignored);
+    auto outer = fs::weakly_canonical (fs::absolute (folder, ignored), ignored);
+    if (! outer.has_filename()) outer = outer.parent_path();   // "lab/"
+    return ! outer.empty() && std::ranges::mismatch (outer, inner).in1 == outer.end();
+}
+
+/// True where a file would become a plugin, a profile, the session or a setting.
+bool isReadByTactus (const fs::path& file)
+{
+    auto folders = usedPluginFolders();
+    for (const auto& more : { homeFolder(), hid::ownProfileFolder(), hid::profileFolder() })
+        if (! more.empty()) folders.push_back (more);
+    return std::ranges::any_of (folders, [&] (const auto& folder) { return isWithin (file, folder); });
 }
 
 class Carrier
 {
 public:
-    Carrier (fs::path f, fs::path t) : from (std::move (f)), to (std::move (t)) {}
+    Carrier (fs::path f, fs::path t, const std::optional<std::vector<fs::path>>& o) : from (std::move (f)), to (std::move (t)), only (o) {}
 
-    void carry (graph::Graph& g) const
+    void carry (graph::Graph& g)
     {
         carry (g, g.root);
         for (auto& [name, patch] : g.graphs)
             carry (g, patch);
         for (auto& [role, description] : g.devices)
-            carryNamedIn (description);
+            carryTraces (description);
     }
 
-private:
-    fs::path from, to;
+    std::vector<CarriedFile> files;
 
-    void carry (const graph::Graph& g, graph::Patch& patch) const
+private:
+    const fs::path from, to;   // folders
+    fs::path below;            // both: the folder of an included graph
+    const std::optional<std::vector<fs::path>>& only;
+
+    void carry (const graph::Graph& g, graph::Patch& patch)
     {
         for (auto& node : patch.nodes)
         {
-            carryNamedIn (node.settings);
-            if (! node.type.starts_with ("file:")) continue;
-            const auto written = node.type.substr (5);
-            const auto inner = g.files.find (written);
-            node.type = "file:" + carried (written, inner == g.files.end() ? nullptr : inner->second.get());
+            if (node.type.starts_with ("file:"))
+            {
+                const auto written = node.type.substr (5);
+                const auto inner = g.files.find (written);
+                node.type = "file:" + carriedGraph (written, inner == g.files.end() ? nullptr : inner->second.get());
+            }
+            else if (const auto* type = catalogue().find (node.type))
+            {
+                for (const auto& sheet : type->settings)
+                    if (const auto value = node.settings.find (sheet.id); value != node.settings.end()) carry (*value, sheet);
+            }
+            else
+                leave (node.settings);
         }
     }
 
-    /// A string names a file if such a file exists.
-    void carryNamedIn (Json& value) const
+    void carry (Json& value, const SettingSheet& sheet)
     {
+        const auto inRecord = [&] (Json& record) {
+            for (const auto& f : sheet.fields)
+                if (const auto field = record.find (f.id); field != record.end()) carry (*field, f);
+        };
+        switch (sheet.kind)
+        {
+        case Kind::signal:
+        case Kind::image:
+        case Kind::table:
+            return carryFile (value, sheet.kind);
+        case Kind::surface:
+            if (const auto mesh = value.find ("mesh"); mesh != value.end()) carryFile (*mesh, sheet.kind);
+            return;
+        case Kind::record:
+            return inRecord (value);
+        case Kind::records:
+            if (value.is_array()) std::ranges::for_each (value, inRecord);
+            return;
+        default:
+            return;
+        }
+    }
+
+    void carryFile (Json& value, Kind kind)
+    {
+        if (! value.is_string()) return;
+        const auto fits = [&] (const fs::path& file) {
+            if (! hasExtensionOf (file, patternsOf (kind))) return false;
+            return ! hasExtensionOf (file, "*.json") || FileAssets().table (file.string()).has_value();   // many programs read such files
+        };
+        value = carried (value.asString(), fits);
+    }
+
+    /// The name of a gesture has no point and no slash.
+    void carryTraces (Json& description)
+    {
+        if (! description.is_object()) return;
+        const auto carryPath = [&] (Json& in) {
+            const auto path = in.find ("path");
+            if (path == in.end() || ! path->is_string() || path->asString().find_first_of ("./\\") == std::string::npos) return;
+            *path = carried (path->asString(), [] (const fs::path& file) { return hasExtensionOf (file, traces); });
+        };
+        if (description.value ("driver", std::string()) == "trace") carryPath (description);
+        if (const auto hand = description.find ("hand"); hand != description.end()) carryPath (*hand);
+    }
+
+    /// The settings of a plugin that is not here, whose kinds nobody knows: a text may be the path of a file.
+    void leave (Json& value)
+    {
+        std::error_code ignored;
         if (value.is_string())
-            value = carried (value.asString());
+        {
+            if (fs::is_regular_file (from / below / value.asString(), ignored)) value = placeOf (value.asString());
+        }
         else if (value.is_structured())
             for (auto& part : value)
-                carryNamedIn (part);
+                leave (part);
     }
 
-    /// The bytes of the copy; for a graph, those after its own files have been carried.
-    static std::optional<std::string> bytesOf (const fs::path& file, const graph::Graph* loaded, const fs::path& copy)
+    /// The path with which the copy of the graph finds a file where it is.
+    std::string placeOf (const fs::path& name) const
     {
-        if (loaded != nullptr)
-        {
-            auto inner = *loaded;
-            Carrier (file.parent_path(), copy.parent_path()).carry (inner);
-            if (auto text = writeGraph (inner); text != writeGraph (*loaded)) return text;
-        }
-        auto bytes = readFile (file);
-        return bytes ? std::optional (*std::move (bytes)) : std::nullopt;
+        if (name.empty() || name.has_root_path() || name.native().find ('\0') != name.native().npos) return name.string();
+        std::error_code failed;
+        const auto file = from / below / name;
+        const auto folder = fs::weakly_canonical (file.parent_path(), failed);   // behind a link, ".." leads to the folder that it leads into
+        return failed ? name.string() : pathFrom (folder / file.filename(), (to / below).string());
+    }
+
+    bool mayGoAlong (const fs::path& name) const
+    {
+        const auto whole = below / name, folder = whole.parent_path();
+        return std::ranges::none_of (whole, isHidden) && hasOnlyFolders (from, folder) && isFile (from / whole) && hasOnlyFolders (to, folder)
+               && ! isReadByTactus (to / whole);
     }
 
     /// The path of a file as the copy of the graph has to say it.
-    std::string carried (const std::string& named, const graph::Graph* loaded = nullptr) const
+    template <typename Fits>
+    std::string carried (const std::string& named, const Fits& fits)
     {
-        const fs::path name = named;
-        std::error_code error;
-        if (named.empty() || named.size() > longest_path || name.is_absolute() || ! fs::is_regular_file (from / name, error)) return named;
-        const auto stays = pathFrom (from / name, to.string());
-        if (*name.lexically_normal().begin() == "..") return stays;
-        const auto bytes = bytesOf (from / name, loaded, to / name);
-        if (! bytes) return stays;
+        const auto stays = placeOf (named);
+        const auto name = fs::path (named).lexically_normal();
+        if (! isPlain (named) || ! mayGoAlong (name) || ! fits (from / below / name)) return stays;
+        return copied (name, {}).value_or (stays);
+    }
+
+    std::string carriedGraph (const std::string& named, const graph::Graph* loaded)
+    {
+        const auto stays = placeOf (named);
+        const auto name = fs::path (named).lexically_normal();
+        if (loaded == nullptr || ! isPlain (named) || ! hasExtensionOf (name, "*.json") || ! mayGoAlong (name)) return stays;
+        const auto before = files;
+        auto inner = *loaded;
+        const auto outside = std::exchange (below, below / name.parent_path());
+        carry (inner);
+        below = outside;
+        auto text = writeGraph (inner);
+        const auto now = readFile (from / below / name);
+        const bool is_same = now && text == writeGraph (readGraph (*now).graph);   // also says that the file still is this graph
+        if (auto copy = copied (name, is_same ? std::nullopt : std::optional (std::move (text)))) return *copy;
+        files = before;
+        return stays;
+    }
+
+    /// True if no part of the path leads up, so that it stays below the folder.
+    static bool isPlain (const fs::path& name)
+    {
+        return ! name.empty() && ! name.has_root_path() && name.native().find ('\0') == name.native().npos && name.has_filename()
+               && std::ranges::none_of (name, [] (const fs::path& part) { return part == ".."; });
+    }
+
+    /// The name of the copy, beside what is there; empty if there is none, or if it is not wanted.
+    std::optional<std::string> copied (const fs::path& name, const std::optional<std::string>& text)
+    {
+        const auto source = from / below / name;
+        const auto bytes = text ? Result<std::string> (*text) : readFile (source);
+        if (! bytes) return std::nullopt;
         auto copy = name;
         for (int i = 2; i <= most_names; ++i)
         {
-            if (! fs::exists (to / copy, error)) return write (*bytes, to / copy) ? copy.string() : stays;
-            if (const auto there = readFile (to / copy); there && *there == *bytes) return copy.string();
+            const auto whole = below / copy, target = to / whole;
+            const auto planned = std::ranges::find (files, whole, &CarriedFile::name);
+            if (planned != files.end())
+            {
+                if (planned->from == source && planned->text == text) return copy.string();
+            }
+            else if (! isThere (target))
+            {
+                if (only && std::ranges::count (*only, whole) == 0) return std::nullopt;
+                files.push_back ({ whole, source, text });
+                return copy.string();
+            }
+            else if (const auto there = readFile (target); isFile (target) && there && *there == *bytes)
+                return copy.string();
             copy = name.parent_path() / (name.stem().string() + "_" + std::to_string (i) + name.extension().string());
         }
-        return stays;
+        return std::nullopt;
     }
 };
 }   // namespace
 
-graph::Graph carriedTo (const fs::path& folder, const graph::Graph& g)
+CarriedGraph carriedTo (const fs::path& folder, const graph::Graph& g, const std::optional<std::vector<fs::path>>& only)
 {
-    auto copy = g;
+    CarriedGraph made { g, {} };
     std::error_code error;
     beginReading();
-    if (! g.folder.empty() && ! fs::equivalent (g.folder, folder, error)) Carrier (g.folder, folder).carry (copy);
-    return copy;
+    if (g.folder.empty() || fs::equivalent (g.folder, folder, error)) return made;
+    Carrier carrier (g.folder, folder, only);
+    carrier.carry (made.graph);
+    made.files = std::move (carrier.files);
+    return made;
+}
+
+Result<> copyInto (const fs::path& folder, const std::vector<CarriedFile>& files)
+{
+    beginReading();
+    for (const auto& [name, from, text] : files)
+    {
+        const auto bytes = text ? Result<std::string> (*text) : readFile (from);
+        if (! bytes) return Message::error ("save/unreadable", from.string(), "it cannot be copied: " + bytes.error().text, "leave the file where it is");
+        if (! hasOnlyFolders (folder, name.parent_path()) || isThere (folder / name))
+            return Message::error ("save/in_the_way", (folder / name).string(), "something else has appeared here", "save again");
+        if (auto written = writeTextFile (folder / name, *bytes); ! written) return written;
+    }
+    return {};
 }
 
 }   // namespace tactus::host

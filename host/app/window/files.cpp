@@ -54,6 +54,17 @@ std::string nameFor (const std::string& stem)
     return (words.substring (0, 1).toUpperCase() + words.substring (1)).toStdString();
 }
 
+/// The names of files, a line each.
+juce::String listOf (const std::vector<fs::path>& names)
+{
+    constexpr std::size_t most = 20;
+    juce::String list;
+    for (std::size_t i = 0; i < std::min (most, names.size()); ++i)
+        list << fromUtf8 (printableName (names[i].string())) << "\n";
+    if (names.size() > most) list << filled (TRANS ("and %1 more"), names.size() - most) << "\n";
+    return list + "\n";
+}
+
 juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), fromUtf8 (why.text)); }
 }   // namespace
 
@@ -244,15 +255,31 @@ void Files::saveElsewhere (const juce::String& why, const std::function<void()>&
     question.ask (TRANS ("The graph was not saved"), why, { { TRANS ("Save as ..."), [this, then] { saveAs (then); } }, { TRANS ("Cancel"), {} } });
 }
 
-void Files::saveTo (const fs::path& file, const std::function<void()>& then)
+void Files::saveTo (const fs::path& file, const std::function<void()>& then, const std::optional<std::vector<fs::path>>& agreed)
 {
     std::error_code failed;
-    const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
+    const auto folder = file.parent_path();
+    const bool is_shipped = ! presetFolder().empty() && fs::equivalent (folder, presetFolder(), failed);
     if (is_shipped && file != document.file() && fs::exists (file, failed))
         return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
+    if (auto files = carriedTo (folder, document.graph()).files; ! agreed && ! files.empty())
+    {
+        std::vector<fs::path> names;
+        for (const auto& f : files)
+            names.push_back (f.name);
+        return question.ask (filled (TRANS ("Copy these files to %1, too?"), printableName (folder.string())), listOf (names) + TRANS ("The graph uses them."),
+                             { { TRANS ("Copy"), [this, file, then, names] { saveTo (file, then, names); } },
+                               { TRANS ("Leave them where they are"), [this, file, then] { saveTo (file, then, std::vector<fs::path> {}); } },
+                               { TRANS ("Cancel"), {} } });
+    }
     const auto before = document.graph().name, name = nameIn (file);
     if (name != before) document.call (name);
-    auto written = carriedTo (file.parent_path(), document.graph());
+    auto [written, copies] = carriedTo (folder, document.graph(), agreed);
+    if (const auto copied = copyInto (folder, copies); ! copied)
+    {
+        if (name != before) document.call (before);
+        return saveElsewhere (filled ("%1: %2.", printableName (copied.error().where), messageText (copied.error())), then);
+    }
     if (callbacks.onWrite) callbacks.onWrite (written);
     const auto messages = document.save (file, written);
     if (! messages.empty() && name != before) document.call (before);

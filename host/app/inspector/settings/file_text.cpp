@@ -45,21 +45,6 @@ FileText read (const Assets::Loaded<T>& loaded, F&& f)
 }
 }   // namespace
 
-const char* patternsOf (SettingSheet::Kind kind)
-{
-    switch (kind)
-    {
-    case SettingSheet::Kind::signal:
-        return "*.wav";
-    case SettingSheet::Kind::image:
-        return "*.png;*.jpg;*.jpeg";
-    case SettingSheet::Kind::table:
-        return "*.csv;*.haptic;*.ahap;*.hjif;*.json;*.wav";   // a clip is a table for a node
-    default:
-        return "*.obj;*.off;*.ply;*.stl";
-    }
-}
-
 FileText describeFile (const std::string& written, SettingSheet::Kind kind, const std::string& folder, Assets& assets)
 {
     if (written.empty()) return { TRANS ("No file. Drop one here, or browse.").toStdString() };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/text/file_path.hpp>
+#include <host/assets/file_assets.hpp>
 
 #include <tactus/kit/assets.hpp>
 #include <tactus/node/setting.hpp>
@@ -19,9 +20,6 @@ struct FileText
     bool is_problem = false;
     std::shared_ptr<const Grid> picture {};   ///< the image; null for other kinds of files
 };
-
-/// The names of files of kind signal, image, table, or surface (a mesh), as in "*.wav", for a dialog.
-const char* patternsOf (SettingSheet::Kind);
 
 /// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in a graph that is stored in `folder`.
 FileText describeFile (const std::string& path, SettingSheet::Kind kind, const std::string& folder, Assets&);

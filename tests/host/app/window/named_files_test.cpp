@@ -86,6 +86,7 @@ TEST_CASE ("a graph that is saved elsewhere finds its clip again, also one that 
         CHECK (clipOf (w.graph()) == "assets/pulse.haptic");
         CHECK (w.graph().name == "One");   // undo keeps the name of the file
         w.key ("ctrl + s");
+        w.key ("return");
         CHECK (clipIn (mine / "one.json") == "assets/pulse.haptic");   // a copy
         CHECK (fs::exists (mine / "assets/pulse.haptic"));
 
@@ -99,6 +100,7 @@ TEST_CASE ("a graph that is saved elsewhere finds its clip again, also one that 
         setenv ("TACTUS_GRAPHS", (mine / "deeper").c_str(), 1);
         w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& chosen) { chosen (mine / "deeper/two.json"); };
         w.key ("ctrl + shift + s");
+        w.click ("Copy");
         CHECK (clipIn (mine / "deeper/two.json") == "heart.haptic");
         CHECK (fs::exists (mine / "deeper/heart.haptic"));
     }
