@@ -51,7 +51,7 @@ struct Rig
         return *answer;
     }
 
-    std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdString(); }
+    std::string text (const OSCMessage& m, int i) { return m.size() > i && m[i].isString() ? m[i].getString().toStdString() : std::string(); }
     int me() const { return other->number(); }
 };
 
@@ -83,6 +83,17 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
 
     r.other->send (r.server.port(), OSCMessage ("/tactus/stop"));
     CHECK (r.until ([&] { return ! r.live_run.isRunning(); }));
+}
+
+TEST_CASE ("a message starts nothing that a person has stopped, or that nobody has started", "[app][osc][safety]")
+{
+    Rig r { "dry_wood" };
+    const auto isRefused = [&] { return isError (r.ask ("/tactus/start", r.me())) && ! r.live_run.isWanted(); };
+    CHECK (isRefused());   // as in safe mode, and after Recover without running
+    r.playback.start ({});
+    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
+    r.playback.stop();
+    CHECK (isRefused());
 }
 
 TEST_CASE ("a message that arrives is reported on the main thread, so that a window at rest answers it", "[app][osc]")
