@@ -316,7 +316,7 @@ void tactus_session_close (tactus_session* s)
 tactus_result tactus_session_emergency_stop (tactus_session* s)
 {
     if (s == nullptr || ! s->isOurs()) return notOurs();
-    s->stops.emergencyStop();
+    s->stops.emergencyStop (By::program);
     return TACTUS_OK;
 }
 

@@ -155,7 +155,7 @@ void LiveSession::before (Plan&, std::uint64_t) noexcept
 {
     if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now)
     {
-        stops.note();   // from now on, nothing rearms for a while, however long the main thread is busy
+        stops.note (By::program);   // from now on, nothing rearms for a while, however long the main thread is busy
         engine().emergencyStop();
     }
     const auto now = stops.presses();
@@ -171,16 +171,17 @@ void LiveSession::stop() noexcept
 
 void LiveSession::emergencyStop() noexcept
 {
-    stops.note();
+    stops.note (By::program);
     if (isLoaded()) engine().emergencyStop();
 }
 
 /// A stop on another thread must not be undone: it may come between the question and the rearm.
-Result<> LiveSession::rearm (std::chrono::steady_clock::time_point asked)
+Result<> LiveSession::rearm (std::chrono::steady_clock::time_point asked, By who)
 {
     const auto seen = stops.latest();
     const auto alarms = Failsafe::alarms();
     if (auto may = stops.mayRearm (asked); ! may) return may;
+    if (auto may = stops.mayStart(); ! may && who == By::program) return may;
     stops.rearmed();
     if (! isLoaded()) return {};
     engine().rearm();

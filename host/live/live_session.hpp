@@ -104,8 +104,9 @@ public:
     void stop() noexcept;            ///< ramps the forces to zero, then ends the ticks; does not wait   [any thread]
     void emergencyStop() noexcept;   ///< ramps the forces to zero and keeps them there; the graph keeps running   [any thread]
 
-    /// Lets the forces rise again, if StopSwitch::mayRearm allows it. Only a person should decide this. [any thread]
-    Result<> rearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now());
+    /// Lets the forces rise again, if StopSwitch::mayRearm allows it, and for a program also StopSwitch::mayStart. Only a person should decide
+    /// this: its caller also calls StopSwitch::startedAfter. [any thread]
+    Result<> rearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now(), By who = By::person);
 
     /// Lets the workspaces of all real devices whose position is read move with the hand, without force, or ends this (WorkspaceDevice::hold).
     /// False if there is none. [main thread]

@@ -21,4 +21,13 @@ Result<> StopSwitch::mayRearm (std::chrono::steady_clock::time_point asked) cons
     return {};
 }
 
+Result<> StopSwitch::mayStart() const
+{
+    const auto seen = answered.load();
+    if (seen == personStops()) return {};
+    return Message::error ("run/stopped_by_person", {},
+                           seen == 0 ? "no person has started the run yet" : "a person has stopped the run, and only a person starts it again",
+                           "at the device, press START or REARM in the window, or R in the terminal of play");
+}
+
 }   // namespace tactus::host

@@ -12,9 +12,19 @@
 namespace tactus::host
 {
 
+/// Who stops or starts a run. A person presses a key, a button or a pad, or clicks; all else is a program.
+enum class By
+{
+    person,
+    program
+};
+
 /// The stop button of live runs, however busy the main thread is. Any thread can press it. The tick thread of each run checks it before every
 /// tick; the main thread notices a press when it has time. It outlives the runs, so a press between two runs is not lost, and a rearm cannot come
 /// too early because another run has begun meanwhile.
+///
+/// It also knows who may start: what a person has stopped, or has not started yet, only a person starts. A program may start what a program has
+/// stopped, and what has ended by itself.
 class StopSwitch
 {
 public:
@@ -31,16 +41,46 @@ public:
     static constexpr std::chrono::seconds pause { 1 };
 
     // [any thread, even in a signal handler]
-    void stop() noexcept { stops.fetch_add (1); }
-    void emergencyStop() noexcept
+    void stop (By who) noexcept
     {
-        note();   // before the press itself: mayRearm() compares this time
+        stopped (who);   // before the press itself, as below
+        stops.fetch_add (1);
+    }
+    void emergencyStop (By who) noexcept
+    {
+        note (who);   // before the press itself: mayRearm() compares this time
         emergencies.fetch_add (1);
     }
     PressCounts presses() const noexcept { return { stops.load(), emergencies.load() }; }
 
     /// Notes an emergency stop that needs no press, because its caller stops the run.
-    void note() noexcept { pressed_at.exchange (now()); }   ///< [any thread, even in a signal handler]
+    void note (By who) noexcept   ///< [any thread, even in a signal handler]
+    {
+        stopped (who);
+        pressed_at.exchange (now());
+    }
+
+    /// Notes who stops, if the caller stops the run itself. A program's stop leaves that of a person in place. [any thread, even in a signal handler]
+    void stopped (By who) noexcept
+    {
+        if (who == By::person) stopped_by_person.fetch_add (1);
+    }
+
+    /// How often a person has stopped. [any thread]
+    std::uint32_t personStops() const noexcept { return stopped_by_person.load(); }
+
+    /// A person starts or rearms, and has seen this many stops of a person: a later one still counts. [any thread]
+    void startedAfter (std::uint32_t person_stops) noexcept { answered.store (person_stops); }
+
+    /// A person starts. A press that is not noticed yet comes later. [main thread]
+    void started() noexcept
+    {
+        const auto seen = personStops();
+        if (! isAhead()) startedAfter (seen);
+    }
+
+    /// Whether a program may start or rearm. Id: run/stopped_by_person. [any thread]
+    Result<> mayStart() const;
 
     /// When the latest emergency stop was. Only for comparison with an earlier answer. It writes, so that it comes neither before nor after what its
     /// thread does before and after it. [any thread]
@@ -68,6 +108,7 @@ private:
     static bool isWithinPause (Time since, Time at) noexcept;
 
     std::atomic<std::uint32_t> stops { 0 }, emergencies { 0 };
+    std::atomic<std::uint32_t> stopped_by_person { 1 }, answered { 0 };   // differ until a person starts, also for the first time
     std::atomic<Time> pressed_at { never }, rearmed_at { never };
     PressCounts known;
 };

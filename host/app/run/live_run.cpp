@@ -65,6 +65,7 @@ void LiveRun::start (Hand who)
     held = false;
     resting.reset();
     kept_limits.clear();
+    stops->started();
     beginSoon (true);
 }
 
@@ -74,12 +75,14 @@ void LiveRun::startOther (Hand who)
     held = held || isLatched();
     resting.reset();
     kept_limits.clear();
+    stops->started();
     beginSoon (false);
 }
 
 void LiveRun::moveBy (Hand who)
 {
     moved_by = std::move (who);
+    stops->started();
     restart();
 }
 
@@ -96,7 +99,11 @@ void LiveRun::moveTool (std::string role)
     if (wanted) restart();
 }
 
-void LiveRun::startAgain() { restart(); }
+void LiveRun::startAgain (By who)
+{
+    if (who == By::person) stops->started();
+    restart();
+}
 
 /// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched, and the graph's guards do not become
 /// looser.
@@ -123,7 +130,13 @@ void LiveRun::beginSoon (bool by_start)
     if (! isRunning()) begin();
 }
 
-void LiveRun::stop() noexcept
+void LiveRun::stop (By who) noexcept
+{
+    stops->stopped (who);
+    haltSoon();
+}
+
+void LiveRun::haltSoon() noexcept
 {
     begins = wanted = false;
     log_next.clear();
@@ -132,7 +145,7 @@ void LiveRun::stop() noexcept
 
 void LiveRun::letGo()
 {
-    stop();
+    haltSoon();
     held = held || isLatched();
     if (session) kept_limits = session->run().askedLimits();
     end();
@@ -223,7 +236,7 @@ LiveSession::Options LiveRun::sessionOptions()
 
 void LiveRun::begin()
 {
-    if (stops->isAhead()) return stop();
+    if (stops->isAhead()) return haltSoon();
     if (! std::exchange (ends_stops, false)) held = held || isLatched();   // also a stop that latched while the forces fell
     const auto held_before = std::exchange (resting, {});
     const auto hand_before = run_of == document.identity() && held_before ? pointer : nullptr;
@@ -259,7 +272,7 @@ void LiveRun::begin()
     if (lacksPluginDevice())
     {
         log_next.clear();
-        stop();
+        haltSoon();
         return end();
     }
     beginLog();
@@ -344,11 +357,11 @@ void LiveRun::note (const Plan& plan)
         delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);
 }
 
-void LiveRun::emergencyStop() noexcept
+void LiveRun::emergencyStop (By who) noexcept
 {
     held = true;
-    stops->note();
-    if (begins || ! isRunning()) return stop();   // otherwise a run that is about to begin would miss the emergency stop
+    stops->note (who);
+    if (begins || ! isRunning()) return haltSoon();   // otherwise a run that is about to begin would miss the emergency stop
     session->emergencyStop();
 }
 
@@ -358,6 +371,7 @@ void LiveRun::rearm() noexcept
 {
     if (! canRearm()) return;
     held = false;
+    if (wanted) stops->started();
     if (session) static_cast<void> (session->rearm());
 }
 
@@ -471,7 +485,7 @@ void LiveRun::tell (LiveSession::Events news)
     if (news.alarm && ! isRunning() && ! begins) news.alarm.reset();   // it has nothing to do with the next run
     if (news.alarm)
     {
-        emergencyStop();
+        emergencyStop (By::program);
         std::erase_if (said, [&] (const Message& m) { return m.id == news.alarm->id; });
     }
     for (auto* each : { &news.alarm, &news.log, &news.fusion })

@@ -79,13 +79,13 @@ public:
     void moveTool (std::string role);
 
     /// After something else ran, or in order to record it. No limit becomes looser, and a tool that the mouse holds stays where it is.
-    void startAgain();
+    void startAgain (By = By::person);
 
-    void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
+    void stop (By = By::person) noexcept;   ///< ramps the forces to zero, then stops; does not wait
 
     /// Brings all forces to zero smoothly while the graph keeps running. An alarm of the failsafe does this too. Like every latched
     /// stop, this ends with rearm() or when the user starts again; an edit does not end it.
-    void emergencyStop() noexcept;
+    void emergencyStop (By = By::person) noexcept;
 
     /// Lets the forces rise again, if StopSwitch::mayRearm allows it.
     void rearm() noexcept;
@@ -236,6 +236,7 @@ private:
     void restart();
     void tellOfRestart();
     void beginSoon (bool by_start);
+    void haltSoon() noexcept;
     void begin();
     void end();
     LiveSession::Options sessionOptions();

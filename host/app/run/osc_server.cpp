@@ -172,13 +172,14 @@ Result<> OscServer::transport (const Transport& to)
     return {};
 }
 
-/// Only a person in the window ends a latched stop by a start, or lets a start loosen limits.
+/// Only a person in the window ends a latched stop or a stop of a person by a start, or lets a start loosen limits.
 Result<> OscServer::start()
 {
     if (live_run.isHeld() || live_run.isStoppedForGood() || ! live_run.canRearm())
         return Message::error ("osc/stopped", {}, "the forces are stopped until someone rearms", "press REARM or START in the window");
+    if (auto may = playback.stopSwitch().mayStart(); ! may) return may;
     if (is_asking && is_asking()) return Message::error ("osc/question", {}, "the window shows a question", "answer the question in the window first");
-    playback.startAgain();
+    playback.startAgain (By::program);
     const auto& messages = live_run.messages();
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
     return error == messages.end() ? Result<> {} : *error;

@@ -40,9 +40,9 @@ private:
     std::vector<Role> roles() override;
     Result<> transport (const Transport&) override;
     Result<> start() override;
-    void stop() override { playback.stop(); }
-    void emergencyStop() override { playback.emergencyStop(); }
-    void emergencyNow() noexcept override { playback.stopSwitch().emergencyStop(); }
+    void stop() override { playback.stop (By::program); }
+    void emergencyStop() override { playback.emergencyStop (By::program); }
+    void emergencyNow() noexcept override { playback.stopSwitch().emergencyStop (By::program); }
     void messageArrived() override { arrival.triggerAsyncUpdate(); }
     Result<> rearm (std::chrono::steady_clock::time_point asked) override;
 

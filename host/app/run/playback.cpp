@@ -46,17 +46,17 @@ void Playback::moveTool (std::string role)
     live_run.moveTool (std::move (role));
 }
 
-void Playback::stop() noexcept
+void Playback::stop (By who) noexcept
 {
     resumes = false;
-    current().stop();
+    current().stop (who);
 }
 
-void Playback::emergencyStop() noexcept
+void Playback::emergencyStop (By who) noexcept
 {
     resumes = false;
-    live_run.emergencyStop();   // also if it does not run: a preview ends, and then only START or REARM lets it have forces
-    if (preview_run) preview_run->emergencyStop();
+    live_run.emergencyStop (who);   // also if it does not run: a preview ends, and then only START or REARM lets it have forces
+    if (preview_run) preview_run->emergencyStop (who);
 }
 
 void Playback::preview (graph::Graph g) { runInstead (std::move (g), false); }
@@ -71,9 +71,8 @@ void Playback::runInstead (graph::Graph g, bool on_devices)
     preview_run->obey (stop_switch);
     if (on_devices) preview_run->use (devices);
     before_run();
-    if (! on_devices) return preview_run->start (LiveRun::Hand {});
-    preview_run->keepLimits (live_run.keptLimits());
-    preview_run->startAgain();
+    if (on_devices) preview_run->keepLimits (live_run.keptLimits());
+    preview_run->startAgain (By::program);   // whoever starts a preview has not started the document
 }
 
 void Playback::endPreview()
@@ -85,13 +84,13 @@ void Playback::endPreview()
     if (was_on_devices && preview_run->isHeld()) live_run.hold();
     preview_run.reset();
     preview_document.reset();
-    if (resumes) startAgain();
+    if (resumes) startAgain (By::program);
 }
 
-void Playback::startAgain()
+void Playback::startAgain (By who)
 {
     before_run();
-    live_run.startAgain();
+    live_run.startAgain (who);
 }
 
 Result<> Playback::tryDevice (const std::string& role)
@@ -127,7 +126,7 @@ void Playback::attendTrial()
 
 void Playback::poll()
 {
-    if (stop_switch.isAhead())
+    if (stop_switch.isAhead())   // counted as a stop of a person: a program's press is an emergency stop, after which no program may start anyway
     {
         const auto before = stop_switch.notice();
         stop_switch.noticed().emergencies != before.emergencies ? emergencyStop() : stop();

@@ -23,10 +23,10 @@ public:
     void moveBy (LiveRun::Hand);
     void changeHand (LiveRun::Hand);
     void moveTool (std::string role);
-    void startAgain();
+    void startAgain (By = By::person);
     void restart() { start (live_run.hand()); }
-    void stop() noexcept;   ///< stops the document's run or the preview, whichever is current
-    void emergencyStop() noexcept;
+    void stop (By = By::person) noexcept;   ///< stops the document's run or the preview, whichever is current
+    void emergencyStop (By = By::person) noexcept;
 
     /// Stops the document, and runs another graph with its own gesture until endPreview().
     void preview (graph::Graph);

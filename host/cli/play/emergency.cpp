@@ -23,11 +23,11 @@ Emergency::Emergency (LiveSession& l, StopSwitch& s) : session (l), stops (s)
 {
     under_signals = &stops;
     asked_by_signal = false;
-    watchForEmergency ([]() noexcept { under_signals.load()->emergencyStop(); },
+    watchForEmergency ([]() noexcept { under_signals.load()->emergencyStop (By::program); },
                        []() noexcept { asked_by_signal = true; });
     listening = std::jthread ([this] (const std::stop_token& stop) {
         while (! stop.stop_requested())
-            if (! caught ("the stop keys", [&] { listen (stop); })) stops.emergencyStop();   // a key may have been lost
+            if (! caught ("the stop keys", [&] { listen (stop); })) stops.emergencyStop (By::person);   // a key may have been lost
     });
 }
 
@@ -48,7 +48,7 @@ void Emergency::listen (const std::stop_token& stop)
             continue;
         }
         const char key = keys.next (patience);
-        if (key == ' ') stops.emergencyStop();
+        if (key == ' ') stops.emergencyStop (By::person);
         if (key == '\x03') requestStop();   // Ctrl-C in a terminal that sends no signal for it
         if (key != '\0')
         {
@@ -56,9 +56,18 @@ void Emergency::listen (const std::stop_token& stop)
             clutch_key.typed (key, now());
             continue;
         }
-        if (rearm_key.isDue (now()) && ! session.rearm()) came_too_early = true;
+        if (rearm_key.isDue (now())) rearm();
         if (clutch_key.isDue (now())) clutch_turned = ! clutch_turned;
     }
+}
+
+void Emergency::rearm()
+{
+    const auto person_stops = stops.personStops();
+    if (session.rearm())
+        stops.startedAfter (person_stops);
+    else
+        came_too_early = true;
 }
 
 std::string Emergency::takeNotes()

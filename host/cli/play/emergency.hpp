@@ -36,6 +36,7 @@ public:
 
 private:
     void listen (const std::stop_token&);
+    void rearm();
 
     LiveSession& session;
     StopSwitch& stops;

@@ -112,6 +112,7 @@ public:
     Playing (const PlayOptions& o, LivePlugins& l) : options (o), live (l)
     {
         watchForStop();                                    // before this there is nothing to shut down
+        stops.started();                                   // by the person who entered the command
         giveUpBlockedOutputs (std::chrono::seconds (5));   // longer than usual: a recording cannot be repeated
         if (! options.outputs.empty()) command.run().add (recording.emplace (command.run(), options.outputs));
         if (port) control.emplace (*port, remote, token);

@@ -34,9 +34,9 @@ public:
     }
     Result<> start() override { return Message::error ("osc/start", {}, "the run has already started", "/tactus/stop ends it"); }
     void stop() override { command.session().stop(); }
-    void emergencyStop() override { stops.emergencyStop(); }
-    void emergencyNow() noexcept override { stops.emergencyStop(); }
-    Result<> rearm (std::chrono::steady_clock::time_point asked) override { return command.session().rearm (asked); }
+    void emergencyStop() override { stops.emergencyStop (By::program); }
+    void emergencyNow() noexcept override { stops.emergencyStop (By::program); }
+    Result<> rearm (std::chrono::steady_clock::time_point asked) override { return command.session().rearm (asked, By::program); }
     std::vector<Role> roles() override { return rolesOf (command.run().live().status()); }
 
     Status status() override

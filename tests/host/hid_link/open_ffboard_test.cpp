@@ -326,7 +326,7 @@ TEST_CASE ("a session records the torque of an OpenFFBoard, STOP reaches the boa
         });
     };
     CHECK (ticksUntil ([&] { return *session.engine().plan().taps().front().value == 8192 * (1.0 / 0x7fff); }));
-    stops.emergencyStop();
+    stops.emergencyStop (By::person);
     REQUIRE (ticksUntil ([&] { return board.isStopped(); }));
     CHECK (board.seen().commands.back() == stopCommand (1));
     CHECK (session.rearm (test::fromNow (StopSwitch::pause)));

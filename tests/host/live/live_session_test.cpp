@@ -100,7 +100,7 @@ TEST_CASE ("a press before the first tick, or a session that begins stopped, has
     REQUIRE_FALSE (hasErrors (o.session.load (spring())));
     CHECK_FALSE (hasErrors (o.session.openDevices()));
     const auto before = test::fromNow ({});
-    if (! begins_stopped) stops.emergencyStop();
+    if (! begins_stopped) stops.emergencyStop (By::person);
     const auto& applied = o.session.engine().guardOf ("stylus");
     for (int k = 0; k < 1000; ++k)
         o.session.run().tick();

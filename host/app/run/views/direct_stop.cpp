@@ -17,9 +17,9 @@ std::optional<Message> DirectStop::follow (juce::Component& component, juce::Rec
         watch.reset();
         if (window != 0)
         {
-            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop(); },
-                                                      [this] { if (esc_stops) pressed.stop(); },
-                                                      [&s = pressed] { s.emergencyStop(); } });
+            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop (By::person); },
+                                                      [this] { if (esc_stops) pressed.stop (By::person); },
+                                                      [&s = pressed] { s.emergencyStop (By::person); } });
             if (opened)
                 watch = std::move (*opened);
             else

@@ -62,7 +62,7 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
 {
     Rig r { "dry_wood" };
     CHECK (r.text (r.ask ("/tactus/param", juce::String ("drag.mu"), 0.3f, r.me()), 2) == "run/stopped");
-    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    r.playback.start ({});
     REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
 
     const auto before = r.rig.document.history().position();
@@ -83,17 +83,37 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
 
     r.other->send (r.server.port(), OSCMessage ("/tactus/stop"));
     CHECK (r.until ([&] { return ! r.live_run.isRunning(); }));
+    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    CHECK (r.until ([&] { return r.live_run.isRunning(); }));
 }
 
 TEST_CASE ("a message starts nothing that a person has stopped, or that nobody has started", "[app][osc][safety]")
 {
     Rig r { "dry_wood" };
-    const auto isRefused = [&] { return isError (r.ask ("/tactus/start", r.me())) && ! r.live_run.isWanted(); };
+    const auto isRefused = [&] { return r.text (r.ask ("/tactus/start", r.me()), 2) == "run/stopped_by_person" && ! r.live_run.isWanted(); };
     CHECK (isRefused());   // as in safe mode, and after Recover without running
-    r.playback.start ({});
-    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
-    r.playback.stop();
+    r.playback.preview (r.rig.document.graph());
+    REQUIRE (r.until ([&] { return r.playback.current().isRunning(); }));
+    r.playback.endPreview();
     CHECK (isRefused());
+
+    const auto byKey = [&] { r.playback.stop(); };
+    const auto byPress = [&] {
+        r.playback.stopSwitch().stop (By::person);
+        r.playback.poll();
+    };
+    const auto byClosing = [&] { r.live_run.stop(); };   // another graph is opened, and does not run
+    for (const auto& stop : { std::function<void()> (byKey), std::function<void()> (byPress), std::function<void()> (byClosing) })
+    {
+        r.playback.start ({});
+        REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
+        stop();
+        CHECK (isRefused());
+        r.ask ("/tactus/stop", r.me());   // a program that stops it again gains nothing
+        CHECK (isRefused());
+        REQUIRE (r.until ([&] { return ! r.live_run.isRunning(); }));
+        CHECK (isRefused());
+    }
 }
 
 TEST_CASE ("a message that arrives is reported on the main thread, so that a window at rest answers it", "[app][osc]")
@@ -193,6 +213,8 @@ TEST_CASE ("an emergency stop over OSC removes the force while the message threa
 TEST_CASE ("nothing starts over OSC while the window asks a question", "[app][osc][safety]")
 {
     Rig r { "dry_wood" };
+    r.playback.start ({});
+    r.playback.stop (By::program);
     r.asks = true;
     CHECK (isError (r.ask ("/tactus/start", r.me())));
     CHECK_FALSE (r.live_run.isWanted());
@@ -204,9 +226,9 @@ TEST_CASE ("nothing starts over OSC while the window asks a question", "[app][os
 TEST_CASE ("a start over OSC ends no latched stop", "[app][osc][safety]")
 {
     Rig r { "dry_wood" };
-    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    r.playback.start ({});
     REQUIRE (r.until ([&] { return r.live_run.status() && r.live_run.status()->force > 0.0; }));
-    r.live_run.emergencyStop();
+    r.live_run.emergencyStop (By::program);
     REQUIRE (r.until ([&] { return r.live_run.isStoppedForGood(); }));
     CHECK (isError (r.ask ("/tactus/start", r.me())));
     CHECK (r.live_run.isStoppedForGood());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The emergency stop of `tactus play`.
 
+#include "host/cli/on_terminal.hpp"
 #include "host/cli/running.hpp"
 #include "support/waiting.hpp"
 
@@ -14,6 +15,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -159,4 +161,52 @@ TEST_CASE ("one thread of a play handles the emergency signals, and where real-t
     play.signal (SIGUSR2);
     CHECK (play.says ("SIGUSR2 does not rearm"));
     CHECK (play.stop().status == 0);
+}
+
+TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, even with the token", "[cli][osc][safety]")
+{
+    const Scratch scratch;
+    const auto graph = R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "nodes": { "motor": { "type": "device.force", "role": "tip" } }, "wires": [] })";
+    test::OnTerminal play { { "play", scratch.write ("g.json", graph), "--device", "tip=sim", "--osc", "0", "--duration", "600" }, true };
+    REQUIRE (test::eventually ([&] { return play.err().find ("Ctrl-C ends the run") != std::string::npos; }));
+    const auto said = play.err();
+    const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
+    const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
+    const juce::String token (behind ("token to rearm: ").substr (0, 6));
+    const auto us = std::move (*host::OscPort::open (0));
+    const auto ask = [&] (const juce::OSCMessage& message) {
+        us->send (port, message);
+        std::optional<juce::OSCMessage> answer;
+        REQUIRE (test::eventually ([&] {
+            play.err();   // otherwise it would wait for the terminal
+            return answer || (answer = us->next());
+        }));
+        return *answer;
+    };
+    const auto withholds = [&] {
+        const auto state = ask (juce::OSCMessage ("/tactus/guard", us->number()));
+        REQUIRE (us->next (std::chrono::seconds (30)));   // /tactus/done
+        return state[1].getInt32() != 0;
+    };
+    const auto rearms = [&] { return ask (juce::OSCMessage ("/tactus/rearm", token, us->number())); };
+
+    play.type (" ");
+    REQUIRE (test::eventually (withholds));
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a stop
+    us->send (port, juce::OSCMessage ("/tactus/emergency"));          // a program that stops it again gains nothing
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));
+    const auto refused = rearms();
+    REQUIRE (refused.size() > 2);
+    CHECK (refused[2].getString() == "run/stopped_by_person");
+    CHECK (withholds());
+
+    play.type ("r");
+    CHECK (test::eventually ([&] { return ! withholds(); }));
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a rearm
+    ask (juce::OSCMessage ("/tactus/emergency", us->number()));
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));
+    CHECK (rearms().getAddressPattern().toString() == "/tactus/done");
+    CHECK (test::eventually ([&] { return ! withholds(); }));
+    play.signal (SIGINT);
+    CHECK (play.finish() == 0);
 }

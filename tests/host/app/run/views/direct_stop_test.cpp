@@ -284,7 +284,7 @@ TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][
     DeviceSetup setup;
     Playback playback { rig.document, catalogue(), sound, setup, [] {} };
     const bool is_emergency = GENERATE (false, true);
-    is_emergency ? playback.stopSwitch().emergencyStop() : playback.stopSwitch().stop();
+    is_emergency ? playback.stopSwitch().emergencyStop (By::person) : playback.stopSwitch().stop (By::person);
     playback.restart();   // a click on START, made before the press but handled after it
     CHECK_FALSE (playback.run().isWanted());
     playback.poll();
