@@ -7,6 +7,7 @@
 #include "support/waiting.hpp"
 
 #include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -155,6 +156,48 @@ TEST_CASE ("safe mode opens a file without running it, even after an edit")
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     CHECK_FALSE (o.view->run().isWanted());
     CHECK_FALSE (o.view->statusText().contains ("START"));
+}
+
+TEST_CASE ("in safe mode, and after a recovery without running, no message starts the graph before a person has pressed START", "[app][osc][safety][recovery]")
+{
+    Opened o;
+    const bool recovers = GENERATE (false, true);
+    const auto kept = writeAutosave ({ o.wood, {}, true, 988.0, writeGraph (loadGraph (o.wood).graph) });
+    if (recovers) REQUIRE (writeTextFile (o.home / "sessions/gone/kept.json", kept));
+    const int port = std::move (*OscPort::open (0))->number();
+    MainView::StartOptions how { .home = o.home.path(), .safe = ! recovers, .osc = OscListen { .port = port } };
+    if (! recovers) how.files = { o.wood };
+    o.view->begin (how);
+    if (recovers)
+    {
+        REQUIRE (o.view->asked().isOpen());
+        o.view->asked().answer (1);   // Recover without running
+    }
+    REQUIRE (o.view->document().graph().name == "Dry wood");
+
+    const auto us = std::move (*OscPort::open (0));
+    const auto ask = [&] (const char* address) {
+        us->send (port, juce::OSCMessage (address, us->number()));
+        std::optional<juce::OSCMessage> answer;
+        for (int i = 0; i < 4000 && ! answer; ++i)
+        {
+            juce::MessageManager::getInstance()->runDispatchLoopUntil (5);
+            answer = us->next();
+        }
+        REQUIRE (answer);
+        return *answer;
+    };
+    const auto refused = ask ("/tactus/start");
+    REQUIRE (refused.size() > 2);
+    CHECK (refused[2].getString() == "run/stopped_by_person");
+    CHECK_FALSE (o.view->run().isWanted());
+
+    o.press ("F5");
+    REQUIRE (o.until ([&] { return o.view->run().isRunning(); }));
+    ask ("/tactus/stop");
+    CHECK_FALSE (o.view->run().isWanted());
+    CHECK (ask ("/tactus/start").getAddressPattern().toString() == "/tactus/done");
+    CHECK (o.view->run().isWanted());
 }
 
 TEST_CASE ("while the scene is enlarged, keys do not edit the hidden canvas")
