@@ -112,12 +112,13 @@ void OscPort::listen (const std::stop_token& stop)
         juce::String from;
         int from_port = 0;
         const int size = socket.read (buffer.data(), static_cast<int> (buffer.size()), false, from, from_port);
-        if (size > 0 && ! stop.stop_requested()) take ({ buffer.data(), static_cast<std::size_t> (size) }, answersTo (from.toStdString()));
+        if (size > 0 && ! stop.stop_requested()) take ({ buffer.data(), static_cast<std::size_t> (size) }, from.toStdString(), from_port);
     }
 }
 
-void OscPort::take (std::string_view bytes, const std::string& answers_to)
+void OscPort::take (std::string_view bytes, const std::string& sender_address, int sender_port)
 {
+    const auto answers_to = answersTo (sender_address), from = sender_address + ":" + std::to_string (sender_port);
     const auto now = std::chrono::steady_clock::now();
     auto packet = readPacket (bytes);
     {
@@ -130,7 +131,7 @@ void OscPort::take (std::string_view bytes, const std::string& answers_to)
     lost += ! packet.right;
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
-            waiting.push_back ({ std::move (message), answers_to, now });
+            waiting.push_back ({ std::move (message), answers_to, now, from });
         else
             ++lost;
     arrived.notify_one();

@@ -48,6 +48,7 @@ public:
         juce::OSCMessage message;
         std::string host;                           ///< where to send answers; "": the sender gets none
         std::chrono::steady_clock::time_point at;   ///< time of arrival
+        std::string from {};                        ///< the socket that has sent it, as 127.0.0.1:40123
     };
 
     /// Port 0: any free port. Ids: osc/port_taken, osc/no_address.
@@ -80,7 +81,7 @@ private:
     static bool bind (juce::DatagramSocket&, const OscListen&);
     void lose();
     void listen (const std::stop_token&);
-    void take (std::string_view packet, const std::string& answers_to);
+    void take (std::string_view packet, const std::string& sender, int sender_port);
     std::string answersTo (const std::string& sender) const;
 
     static constexpr std::size_t most_waiting = 4096;

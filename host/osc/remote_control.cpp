@@ -26,6 +26,8 @@ constexpr int usual_before = 100, usual_after = 400;         // ticks before and
 constexpr int most_at_a_time = 512;                          // messages handled per poll()
 constexpr double most_costs = 100, usual_costs = 10;         // number of nodes
 constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture per poll(); few enough that none is lost in transit
+constexpr std::size_t most_known = 64;                       // senders that have given the token
+constexpr auto longest_silence = std::chrono::minutes (1);   // of such a sender
 constexpr std::size_t most_numbers = 60;                     // values per message, since readPacket accepts 64 arguments
 
 std::string textOf (const juce::String& s) { return s.toStdString(); }
@@ -120,7 +122,7 @@ void RemoteControl::poll (Clock::time_point now)
         if (const auto received = port.receive())
         {
             arrived_at = received->at;
-            carryOut (received->message, received->host, now);
+            carryOut (*received, now);
         }
         else
             break;
@@ -136,26 +138,35 @@ void RemoteControl::poll (Clock::time_point now)
     }
 }
 
-void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Clock::time_point now)
+void RemoteControl::carryOut (const OscPort::ReceivedMessage& received, Clock::time_point now)
 {
+    const auto& m = received.message;
+    const auto& host = received.host;
     const auto address = textOf (m.getAddressPattern().toString());
     const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
     const auto last = [&] (int place) { return OscReturn { host, answerPort (m, place) }; };
+    const auto raise = [&] (int place, auto act) {
+        const auto may = mayRaise (received.from, now);
+        answer (last (place), address, subject, may ? act() : may);
+    };
 
-    if (address == "/tactus/param" || address == "/tactus/control")
-        answer (last (2), address, subject, turn (address, subject, m));
+    if (address == "/tactus/hello")
+        answer (last (subject.empty() ? 0 : 1), address, "", hello (subject, received.from, now));
+    else if (address == "/tactus/param" || address == "/tactus/control")
+        raise (2, [&] { return turn (address, subject, m); });
     else if (address == "/tactus/hit")
     {
         const auto speed = m.size() >= 2 ? numberOf (m[1]) : std::nullopt;
         const bool right = ! subject.empty() && speed && m.size() <= 3;
-        answer (last (2), address, subject,
-                right ? controlled.strike (subject, *speed)
-                      : badArguments ("send the name of a hit input, a speed in m/s (float or int), and optionally the UDP port for the answer"));
+        raise (2, [&] {
+            return right ? controlled.strike (subject, *speed)
+                         : badArguments ("send the name of a hit input, a speed in m/s (float or int), and optionally the UDP port for the answer");
+        });
     }
     else if (address.starts_with (transport_addresses))
-        answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
+        raise (1, [&] { return transport (address.substr (transport_addresses.size()), m); });
     else if (address == "/tactus/start")
-        answer (last (0), address, "", start());
+        raise (0, [&] { return start(); });
     else if (address == "/tactus/rearm")
         answer (last (subject.empty() ? 0 : 1), address, "", rearm (subject));
     else if (address == "/tactus/stop" || address == "/tactus/emergency")
@@ -242,14 +253,43 @@ Result<> RemoteControl::rearm (const std::string& given)
     if (! port.listensTo().isLoopback())
         return Message::error ("osc/rearm", {}, from_elsewhere,
                                "rearm on the machine that has the device: with R in the terminal of play, or with REARM in the window");
-    const auto now = std::chrono::steady_clock::now();
-    if (now < wrong_token_until)
-        return Message::error ("osc/rearm", {}, "the last token was wrong", "wait a tenth of a second, then give the token that play printed");
-    if (! given.empty() && given != token) wrong_token_until = now + std::chrono::milliseconds (100);   // so trying all 1.5e9 tokens takes five years
-    if (token.empty() || given != token)
-        return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "the token is wrong",
-                               token.empty() ? "press REARM in the window" : "give the token that play printed, or press R in its terminal");
+    if (auto right = checkToken ("osc/rearm", given); ! right) return right;
     return controlled.rearm (arrived_at);
+}
+
+Result<> RemoteControl::checkToken (const char* id, const std::string& given)
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (now < wrong_token_until) return Message::error (id, {}, "the last token was wrong", "wait a tenth of a second, then give the token of this run");
+    if (! token.empty() && given == token) return {};
+    if (! given.empty()) wrong_token_until = now + std::chrono::milliseconds (100);   // so trying all 1.5e9 tokens takes five years
+    return Message::error (id, {}, given.empty() ? "this needs the token of the run" : "the token is wrong",
+                           token.empty() ? "press REARM in the window" : "give the token that play printed (docs/osc.md), or press R in its terminal");
+}
+
+/// A sender is a socket and not a machine, because all programs and users of this machine share its address. Without a token, the sender
+/// is forgotten, so that nobody who gets its port number later takes its place.
+Result<> RemoteControl::hello (const std::string& given, const std::string& from, Clock::time_point now)
+{
+    known.erase (from);
+    if (given.empty()) return {};
+    if (auto right = checkToken ("osc/token", given); ! right) return right;
+    if (known.size() >= most_known) known.erase (std::ranges::min_element (known, {}, [] (const auto& k) { return k.second; }));
+    known[from] = now;
+    return {};
+}
+
+Result<> RemoteControl::mayRaise (const std::string& from, Clock::time_point now)
+{
+    if (! controlled.drivesDevice()) return {};
+    std::erase_if (known, [&] (const auto& k) { return now - k.second > longest_silence; });
+    if (const auto sender = known.find (from); sender != known.end())
+    {
+        sender->second = now;
+        return {};
+    }
+    return Message::error ("osc/token", {}, "the run drives a real device, and this program has not shown that its user may do that",
+                           "send /tactus/hello with the token of the run from the same socket (docs/osc.md); `tactus set` of the same user does so");
 }
 
 Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,6 +73,9 @@ public:
 
     virtual std::vector<Role> roles() = 0;
     virtual Result<> transport (const Transport&) = 0;
+
+    /// True if a real device is bound, so that messages that can raise a force need the token.
+    virtual bool drivesDevice() = 0;
     virtual Result<> start() = 0;
     virtual void stop() = 0;
     virtual void emergencyStop() = 0;
@@ -100,7 +104,7 @@ class RemoteControl
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A rearm needs the token, which only a person at the device can read. If the token is empty, OSC cannot rearm.
+    /// A rearm needs the token, and so does everything else that can raise the force of a real device. If the token is empty, OSC can do neither.
     RemoteControl (OscPort&, RemoteTarget&, std::string token = {});
     ~RemoteControl();
     RemoteControl (const RemoteControl&) = delete;
@@ -139,7 +143,10 @@ private:
         std::size_t sent = 0;   // ticks sent so far
     };
 
-    void carryOut (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    void carryOut (const OscPort::ReceivedMessage&, Clock::time_point);
+    Result<> hello (const std::string& token_given, const std::string& from, Clock::time_point);
+    Result<> mayRaise (const std::string& from, Clock::time_point);
+    Result<> checkToken (const char* id, const std::string& token_given);
     Result<> turn (const std::string& address, const std::string& name, const juce::OSCMessage&);
     void report (const std::string& address, const std::string& subject, const juce::OSCMessage&, const std::string& host, Clock::time_point);
     void sendCosts (const OscReturn& to, std::size_t most);
@@ -160,6 +167,7 @@ private:
     const std::string token;
     std::chrono::steady_clock::time_point arrived_at {};          // of the message that is handled
     std::chrono::steady_clock::time_point wrong_token_until {};   // until then, no token is accepted
+    std::map<std::string, Clock::time_point> known;               // senders that have given the token, and when they last sent something that needs it
     std::vector<Probe> probes;
     std::optional<Capture> capture;
     std::vector<std::string> components;

@@ -377,6 +377,17 @@ void LiveRun::rearm() noexcept
 
 bool LiveRun::isStoppedForGood() const { return isRunning() && isLatched(); }
 
+bool LiveRun::meansDevice() const
+{
+    if (isRunning() && drivesDevice()) return true;
+    if (setup == nullptr) return false;
+    const auto& bound = setup->session().session;
+    return bound.audio() != nullptr || std::ranges::any_of (needed, [&] (const RoleNeeds& r) {
+               const auto* device = isMovedOtherwise (r.role) ? nullptr : bound.binding (r.role);
+               return device != nullptr && ! isSimulated (*device);
+           });
+}
+
 std::optional<RunStatus> LiveRun::status() const
 {
     const bool is_of_this_graph = isRunning() || run_of == document.identity();

@@ -132,6 +132,9 @@ public:
     /// What the system refused to the tick thread when the run started, a sentence each, with what to do: docs/realtime.md.
     const std::vector<std::string>& refusals() const noexcept { return refused; }
 
+    /// True if the run drives something that can push or shake, or would if it began now.
+    bool meansDevice() const;
+
     /// The role whose device ticks the run; empty if a timer does.
     const std::string& clockRole() const noexcept;
 

@@ -37,8 +37,7 @@ Result<> OscServer::setParam (const std::string& name, const Json& value)
 
 Result<> OscServer::rearm (std::chrono::steady_clock::time_point)
 {
-    live_run.rearm();
-    return {};
+    return Message::error ("osc/rearm", {}, "the window accepts no rearm over OSC", "press REARM in the window");
 }
 
 Result<> OscServer::turnControl (const std::string& id, double value)

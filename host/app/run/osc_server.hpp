@@ -4,6 +4,7 @@
 #include "playback.hpp"
 
 #include <host/osc/remote_control.hpp>
+#include <host/osc/token_file.hpp>
 
 #include <functional>
 #include <map>
@@ -43,6 +44,7 @@ private:
     void stop() override { playback.stop (By::program); }
     void emergencyStop() override { playback.emergencyStop (By::program); }
     void emergencyNow() noexcept override { playback.stopSwitch().emergencyStop (By::program); }
+    bool drivesDevice() override { return live_run.meansDevice(); }
     void messageArrived() override { arrival.triggerAsyncUpdate(); }
     Result<> rearm (std::chrono::steady_clock::time_point asked) override;
 
@@ -76,7 +78,9 @@ private:
     RemoteControl::Clock::time_point edited_at {};
     std::size_t edited_position = 0;   // position in the history after this server's last edit
     Arrival arrival { *this };
-    RemoteControl control { *osc, *this };   // declared last: it calls the functions of this object
+    const std::string token = randomToken();
+    const TokenFile token_file { osc->number(), token };
+    RemoteControl control { *osc, *this, token };   // declared last: it calls the functions of this object
 };
 
 }   // namespace tactus::host

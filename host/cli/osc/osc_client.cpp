@@ -2,6 +2,7 @@
 #include "osc_client.hpp"
 
 #include <host/cli/report.hpp>
+#include <host/osc/token_file.hpp>
 
 namespace tactus::host
 {
@@ -18,7 +19,10 @@ OscClient::OscClient (int number) : to (number)
         fail (Message::error ("osc/nothing_runs", "127.0.0.1:" + std::to_string (number), "no program is listening on this port",
                               "start one with `tactus play GRAPH`; its first line shows the port"));
     answers = orFail (OscPort::open (0));
+    if (const auto token = TokenFile::read (number); ! token.empty()) send (juce::OSCMessage ("/tactus/hello", juce::String (token)));
 }
+
+OscClient::~OscClient() { send (juce::OSCMessage ("/tactus/hello")); }
 
 juce::OSCMessage OscClient::answer()
 {

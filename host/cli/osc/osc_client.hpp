@@ -18,12 +18,15 @@ struct OscOption
     void addTo (const Command&);
 };
 
-/// The client's end of a conversation with a program that is running on this machine.
+/// The client's end of a conversation with a program that is running on this machine. It gives the token of that run, if this user started it.
 class OscClient
 {
 public:
     /// Fails the command if no program is listening on the port. Ids: osc/nothing_runs.
     explicit OscClient (int number);
+    ~OscClient();
+    OscClient (const OscClient&) = delete;
+    OscClient& operator= (const OscClient&) = delete;
 
     /// The port for answers.
     int own() const noexcept { return answers->number(); }

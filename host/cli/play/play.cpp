@@ -11,6 +11,7 @@
 #include <host/fuse/fuser.hpp>
 #include <host/io/file_watch.hpp>
 #include <host/osc/osc_options.hpp>
+#include <host/osc/token_file.hpp>
 #include <host/platform/patient_output.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
@@ -148,7 +149,7 @@ private:
         else if (! session.clockRole().empty())
             more += ", ticked by " + printableName (session.clockRole());
         if (port) more += ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
-        if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
+        if (port) more += " (token: " + token + ")";
         if (options.watch) more += ", reloading the graph file when it is edited";
         if (live.count() > 0) more += ", compiling nodes when their code is edited";
         const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms, S moves the workspace" : "Ctrl-C stops";
@@ -304,6 +305,7 @@ private:
     Emergency emergency { session, stops };
     Remote remote { command, stops };
     const std::string token = randomToken();
+    const std::optional<TokenFile> token_file = port ? std::optional<TokenFile> (std::in_place, port->number(), token) : std::nullopt;
     std::optional<RemoteControl> control;
     bool was_fused = false, holds_clutch = false;
     const bool terminal = stderrIsTerminal();

@@ -37,6 +37,7 @@ public:
     void emergencyStop() override { stops.emergencyStop (By::program); }
     void emergencyNow() noexcept override { stops.emergencyStop (By::program); }
     Result<> rearm (std::chrono::steady_clock::time_point asked) override { return command.session().rearm (asked, By::program); }
+    bool drivesDevice() override { return command.session().drivesDevice(); }
     std::vector<Role> roles() override { return rolesOf (command.run().live().status()); }
 
     Status status() override

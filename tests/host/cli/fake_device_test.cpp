@@ -6,22 +6,26 @@
 
 #include <host/hid/hex.hpp>
 #include <host/hid_link/capture.hpp>
+#include <host/osc/osc_port.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace tactus;
 using test::Running;
+using test::runProgram;
 using test::runTactus;
 using test::soon;
 
@@ -112,6 +116,44 @@ TEST_CASE ("a second program cannot drive a device over UDP that a first one dri
     const auto next = runTactus ({ "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "0.1" });
     INFO (next.err);
     CHECK (next.status == 0);
+}
+
+TEST_CASE ("with a board on UDP, a message changes its force only with the token, which programs of the same user find", "[cli][wires][osc][safety]")
+{
+    Fake fake { "udp" };
+    REQUIRE (fake.is_there);
+    Running play { { "play", fake.scratch.write ("push.json", pushing), "--device", "stylus=" + fake.device, "--session", "off", "--osc", "0" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    const auto said = play.err();
+    const std::string before = "OSC on 127.0.0.1:";
+    const auto port = std::stoi (said.substr (said.find (before) + before.size()));
+    const auto pushes = [&] (const std::string& force) {
+        return eventually ([&] { const auto lines = linesOf (fake.log, drives); return ! lines.empty() && lines.back().find (force) != std::string::npos; });
+    };
+    REQUIRE (pushes (" 20 a1 07 00 "));
+
+    const auto stranger = std::move (*host::OscPort::open (0));
+    for (const auto& message : { juce::OSCMessage ("/tactus/param", juce::String ("half.value"), 1.0f, stranger->number()),
+                                 juce::OSCMessage ("/tactus/hello", juce::String ("guess1"), stranger->number()),
+                                 juce::OSCMessage ("/tactus/param", juce::String ("half.value"), 1.0f, stranger->number()) })
+    {
+        stranger->send (port, message);
+        const auto answer = stranger->next (std::chrono::seconds (30));
+        REQUIRE (answer);
+        REQUIRE (answer->getAddressPattern().toString() == "/tactus/error");
+        CHECK ((*answer)[2].getString() == "osc/token");
+    }
+    const auto other = runProgram ("/usr/bin/env", { "XDG_RUNTIME_DIR=" + fake.scratch.path (""), TACTUS_PROGRAM, "set", "half.value=1", "--osc", std::to_string (port) });
+    CHECK (other.status != 0);   // another user's folder
+    CHECK (other.err.find ("[osc/token]") != std::string::npos);
+    CHECK (runTactus ({ "probe", "half.out", "--duration", "0.01", "--osc", std::to_string (port) }).out.find (",0.5\n") != std::string::npos);
+
+    test::letPass (std::chrono::milliseconds (150));   // after a wrong token, none is accepted for 100 ms
+    const auto own = runTactus ({ "set", "half.value=0.25", "--osc", std::to_string (port) });
+    INFO (own.err);
+    CHECK (own.status == 0);
+    CHECK (pushes (" 90 d0 03 00 "));   // 250000 uN
+    CHECK (play.stop().status == 0);
 }
 
 TEST_CASE ("a program that is killed while it pushes an arm without a watchdog leaves it at rest", "[cli][wires][safety]")

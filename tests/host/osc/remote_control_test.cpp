@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <host/osc/remote_control.hpp>
+#include <host/osc/token_file.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <limits>
 
 using namespace tactus;
@@ -79,6 +82,7 @@ struct Puppet : RemoteTarget
                + std::to_string (t.speed.value_or (-1.0));
         return {};
     }
+    bool drivesDevice() override { return drives_device; }
     Result<> start() override { return Message::error ("osc/start", {}, "it is already running"); }
     void stop() override { stopped = true; }
     void emergencyStop() override { emergency = true; }
@@ -91,7 +95,7 @@ struct Puppet : RemoteTarget
 
     std::string said;
     std::vector<std::string> probed;
-    bool stopped = false, emergency = false, force_is_gone = false;
+    bool stopped = false, emergency = false, force_is_gone = false, drives_device = false;
     std::atomic<int> emergencies_now = 0;
     Trigger wanted;
     std::unique_ptr<TriggeredCapture> capturing;
@@ -150,7 +154,7 @@ struct Stage
 
 std::string address (const OSCMessage& m) { return m.getAddressPattern().toString().toStdString(); }
 
-std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdString(); }
+std::string text (const OSCMessage& m, int i) { return m.size() > i && m[i].isString() ? m[i].getString().toStdString() : std::string(); }
 }   // namespace
 
 TEST_CASE ("parameters are set by numbers, and by strings that give exact doubles", "[osc]")
@@ -470,4 +474,72 @@ TEST_CASE ("a hit is passed on with its speed, and a bad one is refused", "[osc]
     CHECK (s.ask ("/tactus/hit", String ("ring.hit"), String ("fast"), s.other->number())[2].getString() == "osc/arguments");
     CHECK (s.ask ("/tactus/hit", 1, 1, s.other->number())[2].getString() == "osc/arguments");
     CHECK (s.puppet.said.empty());
+}
+
+TEST_CASE ("with a real device, nothing over OSC raises a force without the token, and every stop works without it", "[osc][safety]")
+{
+    Stage stage;
+    stage.puppet.drives_device = true;
+    const auto mu = String ("drag.mu"), ring = String ("ring.hit");
+    const auto asks = [&] (const char* address, auto... arguments) { return text (stage.ask (address, arguments..., stage.me()), 2); };
+    const auto refuses = [&] {
+        CHECK (asks ("/tactus/param", mu, 0.3f) == "osc/token");
+        CHECK (asks ("/tactus/control", String ("roughness"), 0.3f) == "osc/token");
+        CHECK (asks ("/tactus/hit", ring, 0.3f) == "osc/token");
+        CHECK (asks ("/tactus/transport/play", 1) == "osc/token");
+        CHECK (asks ("/tactus/start") == "osc/token");
+        CHECK (asks ("/tactus/rearm") == "osc/rearm");
+        CHECK (stage.puppet.said.empty());
+    };
+    refuses();
+    CHECK (asks ("/tactus/hello", String ("a1b2c4")) == "osc/token");
+    refuses();
+    for (const auto* stop : { "/tactus/stop", "/tactus/emergency" })
+        CHECK (text (stage.ask (stop, stage.me()), 0) == stop);
+    CHECK ((stage.puppet.stopped && stage.puppet.emergency));
+    CHECK (text (stage.ask ("/tactus/status", stage.me()), 0) == "Puppet");
+
+    tactus::test::letPass (std::chrono::milliseconds (150));   // after a wrong token, none is accepted for 100 ms
+    CHECK (text (stage.ask ("/tactus/hello", String ("a1b2c3"), stage.me()), 0) == "/tactus/hello");
+    CHECK (text (stage.ask ("/tactus/param", mu, 0.3f, stage.me()), 0) == "/tactus/param");
+    CHECK (text (stage.ask ("/tactus/hit", ring, 0.3f, stage.me()), 0) == "/tactus/hit");
+    stage.puppet.said.clear();
+
+    const auto stranger = std::move (*OscPort::open (0));   // another socket of the same machine
+    stranger->send (stage.port->number(), OSCMessage ("/tactus/param", mu, 0.9f, stranger->number()));
+    std::optional<OSCMessage> answer;
+    while (! answer)
+    {
+        stage.control.poll (stage.now);
+        answer = stranger->next (5ms);
+    }
+    CHECK (text (*answer, 2) == "osc/token");
+    CHECK (stage.puppet.said.empty());
+
+    stage.now += 59s;
+    CHECK (text (stage.ask ("/tactus/param", mu, 0.3f, stage.me()), 0) == "/tactus/param");
+    stage.now += 61s;
+    CHECK (asks ("/tactus/param", mu, 0.3f) == "osc/token");
+    stage.ask ("/tactus/hello", String ("a1b2c3"), stage.me());
+    stage.ask ("/tactus/hello", stage.me());   // goes
+    stage.puppet.said.clear();
+    refuses();
+}
+
+TEST_CASE ("the token of a run is in a file that only this user can read, and goes with the run", "[osc][safety]")
+{
+    const TemporaryFolder folder;
+    const char* before = std::getenv ("XDG_RUNTIME_DIR");
+    const std::string kept = before != nullptr ? before : "";
+    setenv ("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    {
+        const TokenFile file { 7770, "a1b2c3" };
+        CHECK (TokenFile::read (7770) == "a1b2c3");
+        CHECK (TokenFile::read (7771).empty());
+        using std::filesystem::perms;
+        CHECK (std::filesystem::status (folder / "tactus/osc-7770").permissions() == (perms::owner_read | perms::owner_write));
+        CHECK (std::filesystem::status (folder / "tactus").permissions() == perms::owner_all);
+    }
+    CHECK (TokenFile::read (7770).empty());
+    before != nullptr ? setenv ("XDG_RUNTIME_DIR", kept.c_str(), 1) : unsetenv ("XDG_RUNTIME_DIR");
 }

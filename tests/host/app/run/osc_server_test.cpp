@@ -116,6 +116,36 @@ TEST_CASE ("a message starts nothing that a person has stopped, or that nobody h
     }
 }
 
+TEST_CASE ("once the session binds a device, messages need the token of the run, and still start nothing that a person has stopped", "[app][osc][safety]")
+{
+    Rig r { "dry_wood" };
+    const auto set = [&] { return r.ask ("/tactus/param", juce::String ("drag.mu"), 0.3f, r.me()); };
+    r.playback.start ({});
+    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
+    CHECK_FALSE (isError (set()));   // a simulated tool
+
+    REQUIRE (r.setup.edit ([] (DeviceSession& s) { s.bind ("stylus", { { "driver", "hid" }, { "profile", "tactus_board" } }); }));
+    REQUIRE (r.until ([&] { return r.live_run.isRunning() && r.live_run.drivesDevice(); }));
+    CHECK (r.text (set(), 2) == "osc/token");
+    r.playback.stop (By::program);
+    REQUIRE (r.until ([&] { return ! r.live_run.isRunning(); }));
+    CHECK (r.text (r.ask ("/tactus/start", r.me()), 2) == "osc/token");
+
+    const juce::String token (TokenFile::read (r.server.port()));
+    CHECK_FALSE (isError (r.ask ("/tactus/hello", token, r.me())));
+    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
+    CHECK_FALSE (isError (set()));
+    CHECK (r.text (r.ask ("/tactus/rearm", token, r.me()), 2) == "osc/rearm");   // the window has a button for that
+    r.playback.stop();
+    CHECK (r.text (r.ask ("/tactus/start", r.me()), 2) == "run/stopped_by_person");
+
+    r.ask ("/tactus/hello", r.me());
+    r.playback.start (LiveRun::Hand::pointer());   // the device moves nothing
+    REQUIRE (r.until ([&] { return r.live_run.isRunning() && ! r.live_run.drivesDevice(); }));
+    CHECK_FALSE (isError (set()));
+}
+
 TEST_CASE ("a message that arrives is reported on the main thread, so that a window at rest answers it", "[app][osc]")
 {
     Rig r { "dry_wood" };

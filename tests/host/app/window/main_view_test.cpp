@@ -179,12 +179,7 @@ TEST_CASE ("in safe mode, and after a recovery without running, no message start
     const auto ask = [&] (const char* address) {
         us->send (port, juce::OSCMessage (address, us->number()));
         std::optional<juce::OSCMessage> answer;
-        for (int i = 0; i < 4000 && ! answer; ++i)
-        {
-            juce::MessageManager::getInstance()->runDispatchLoopUntil (5);
-            answer = us->next();
-        }
-        REQUIRE (answer);
+        REQUIRE (test::waitFor ([&] { return (answer = us->next()).has_value(); }));
         return *answer;
     };
     const auto refused = ask ("/tactus/start");

@@ -38,7 +38,7 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
-    const auto token = behind ("token to rearm: ").substr (0, 6);
+    const auto token = behind ("(token: ").substr (0, 6);
     const auto us = std::move (*host::OscPort::open (0));
     const auto rearm = [&] {
         us->send (port, juce::OSCMessage ("/tactus/rearm", juce::String (token), us->number()));
@@ -172,7 +172,7 @@ TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, eve
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
-    const juce::String token (behind ("token to rearm: ").substr (0, 6));
+    const juce::String token (behind ("(token: ").substr (0, 6));
     const auto us = std::move (*host::OscPort::open (0));
     const auto ask = [&] (const juce::OSCMessage& message) {
         us->send (port, message);
@@ -192,9 +192,9 @@ TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, eve
 
     play.type (" ");
     REQUIRE (test::eventually (withholds));
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a stop
+    test::letPass (std::chrono::milliseconds (1200));   // longer than the pause after a stop
     us->send (port, juce::OSCMessage ("/tactus/emergency"));          // a program that stops it again gains nothing
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));
+    test::letPass (std::chrono::milliseconds (1200));
     const auto refused = rearms();
     REQUIRE (refused.size() > 2);
     CHECK (refused[2].getString() == "run/stopped_by_person");
@@ -202,9 +202,9 @@ TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, eve
 
     play.type ("r");
     CHECK (test::eventually ([&] { return ! withholds(); }));
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a rearm
+    test::letPass (std::chrono::milliseconds (1200));   // longer than the pause after a rearm
     ask (juce::OSCMessage ("/tactus/emergency", us->number()));
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));
+    test::letPass (std::chrono::milliseconds (1200));
     CHECK (rearms().getAddressPattern().toString() == "/tactus/done");
     CHECK (test::eventually ([&] { return ! withholds(); }));
     play.signal (SIGINT);
