@@ -128,7 +128,7 @@ TEST_CASE ("with a board on UDP, a message changes its force only with the token
     const std::string before = "OSC on 127.0.0.1:";
     const auto port = std::stoi (said.substr (said.find (before) + before.size()));
     const auto pushes = [&] (const std::string& force) {
-        return eventually ([&] { const auto lines = linesOf (fake.log, drives); return ! lines.empty() && lines.back().find (force) != std::string::npos; });
+        return soon ([&] { const auto lines = linesOf (fake.log, drives); return ! lines.empty() && lines.back().find (force) != std::string::npos; });
     };
     REQUIRE (pushes (" 20 a1 07 00 "));
 
