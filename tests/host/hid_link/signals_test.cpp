@@ -16,6 +16,7 @@
 
 using namespace tactus;
 using namespace tactus::host::hid;
+using test::eventually;
 using test::FakeBoard;
 
 namespace
@@ -95,7 +96,7 @@ TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checks
     const auto reports = [&] { return sent (pad, 0x32); };
     // If the machine pauses for longer than the watchdog, the port sends neutral reports in between, and more ticks are needed.
     const auto isSent = [&] (const Channels& signals, const char* frame) {
-        return pad.until ([&] {
+        return eventually ([&] {
             tick (*device, {});
             for (int k = 0; k < 63; ++k)
                 tick (*device, signals);
@@ -130,7 +131,7 @@ TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble motor
         const auto device = open (pad, profile, 1e-3);
         tick (*device, {});
         int k = 0;
-        CHECK (pad.until ([&] {
+        CHECK (eventually ([&] {
             for (int i = 0; i < 20; ++i, ++k)
                 tick (*device, { 0.5 * std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k) });
             if (k % 200 == 0) tick (*device, {});   // if the machine stalled, the port sent neutral reports; a tick without signals lets the output start again

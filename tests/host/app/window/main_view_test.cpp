@@ -179,7 +179,7 @@ TEST_CASE ("in safe mode, and after a recovery without running, no message start
     const auto ask = [&] (const char* address) {
         us->send (port, juce::OSCMessage (address, us->number()));
         std::optional<juce::OSCMessage> answer;
-        REQUIRE (test::waitFor ([&] { return (answer = us->next()).has_value(); }));
+        REQUIRE (host::test::waitFor ([&] { return (answer = us->next()).has_value(); }));
         return *answer;
     };
     const auto refused = ask ("/tactus/start");
