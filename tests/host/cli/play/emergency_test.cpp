@@ -192,8 +192,8 @@ TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, eve
 
     play.type (" ");
     REQUIRE (test::eventually (withholds));
-    test::letPass (std::chrono::milliseconds (1200));   // longer than the pause after a stop
-    us->send (port, juce::OSCMessage ("/tactus/emergency"));          // a program that stops it again gains nothing
+    test::letPass (std::chrono::milliseconds (1200));          // longer than the pause after a stop
+    us->send (port, juce::OSCMessage ("/tactus/emergency"));   // a program that stops it again gains nothing
     test::letPass (std::chrono::milliseconds (1200));
     const auto refused = rearms();
     REQUIRE (refused.size() > 2);
