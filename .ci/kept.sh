@@ -13,7 +13,7 @@ in_checkout () { echo "== Without a kept folder: $1"; exec "$checkout/test.sh" "
 [ -n "$keep" ] || in_checkout "\$TACTUS_CI_KEEP is empty" "$@"
 mkdir -p -m 700 "$keep/tactus" 2>/dev/null || in_checkout "$keep cannot be made" "$@"
 [ -O "$keep" ] && [ -O "$keep/tactus" ] || in_checkout "$keep belongs to another user, who could have built anything" "$@"
-command -v rsync >/dev/null && command -v flock >/dev/null || "$checkout/test.sh" --install >/dev/null
+"$checkout/test.sh" --install   # before the versions of all packages are compared below
 
 # All that a run starts inherits the lock, so it is free only when none of it is left, even after kill -9: a compiler may still be writing.
 exec 9>"$keep/lock"
@@ -23,7 +23,7 @@ flock --timeout "${TACTUS_CI_WAIT:-120}" 9 || in_checkout "another run uses $kee
 # packages than before change nothing that was built. A clock that was set back would let old objects look new.
 flags ()
 {
-    sed -n '/packages+\?=(/,/)/p' "$checkout/.ci/setup.sh" "$checkout/test.sh"
+    awk '/packages\+?=\(/ { on = 1 } on { print } /\)/ { on = 0 }' "$checkout/.ci/setup.sh" "$checkout/test.sh"   # the list of packages
     env | grep -E '^(CC|CXX|[A-Z]*FLAGS|CMAKE_[A-Z_]*|CPATH|[A-Z_]*INCLUDE_PATH|LIBRARY_PATH|PKG_CONFIG_PATH|CCACHE_[A-Z]*)=' | LC_ALL=C sort || true
     nproc   # decides how tests are joined
     for tool in cc c++ clang++-14 cmake ninja ld; do command -v "$tool" && "$tool" --version; done 2>/dev/null || true

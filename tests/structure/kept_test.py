@@ -39,6 +39,10 @@ OTHER = "int other (void) { return %d; }\n"
 SCRIPT = """#!/usr/bin/env bash
 set -euo pipefail
 if [ "${1:-}" = --kept ]; then exec .ci/kept.sh "${@:2}"; fi
+if [ "${1:-}" = --install ]; then exit; fi
+packages=(first)
+packages+=(second)
+echo "not a package (of the list)"
 cd "$(dirname "$0")"
 [ -f build/release/build.ninja ] || cmake -G Ninja -S . -B build/release >/dev/null
 ninja -v -C build/release
@@ -144,6 +148,11 @@ class Kept(unittest.TestCase):
         self.run_kept()
         self.assertEqual(self.compiled(self.run_kept(CFLAGS="-O1")), ["main.c", "other.c"])
         self.assertEqual(self.compiled(self.run_kept(CFLAGS="-O1")), [])
+        script = self.checkout / "test.sh"
+        script.write_text(SCRIPT.replace("of the list", "of any list"), encoding="utf-8")
+        self.assertEqual(self.compiled(self.run_kept(CFLAGS="-O1")), [])
+        script.write_text(SCRIPT.replace("(second)", "(another)"), encoding="utf-8")
+        self.assertEqual(self.compiled(self.run_kept(CFLAGS="-O1")), ["main.c", "other.c"])
         later = (self.keep / "flags").stat().st_mtime + 1e6
         os.utime(self.keep / "flags", (later, later))
         text = self.run_kept(CFLAGS="-O1")
