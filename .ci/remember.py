@@ -131,7 +131,7 @@ def tests(build, options):
     log = (build / "Testing" / "Temporary" / "LastTest.log").read_text(encoding="utf-8", errors="replace")
     skipped, failed, passed = [], [], []
     for name, text, result in TEST.findall(log):
-        said = SKIPPED.findall(text)
+        said = list(dict.fromkeys(SKIPPED.findall(text)))
         skipped += [f"{name}: {sentence}" for sentence in said]
         if result != "Test Passed":
             failed.append((name, text))
