@@ -183,9 +183,9 @@ class Callback(TestCase):
 
     def test_a_program_that_ends_with_a_callback_does_not_hang_and_shows_its_exception(self):
         for body, shown in (("pass", ""), ("raise ZeroDivisionError", "ZeroDivisionError")):
-            code = (f"import tactus\ndef f(r):\n    {body}\n"
+            code = (f"import threading, tactus\ndef f(r):\n    {body}\n"
                     f"s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off', record='motor.force', callback=f)\n"
-                    "while s.status().ticks < 100 and s.status().phase != 'over': s.wait(0.01)")
+                    "while s.status().ticks < 100 and s.status().phase != 'over': threading.Event().wait(0.01)")   # session.wait would raise it
             done = subprocess.run([sys.executable, "-B", "-c", code], stderr=subprocess.PIPE, timeout=120, check=False)
             self.assertIn(shown, done.stderr.decode())
             self.assertEqual(done.returncode, 0)
