@@ -109,6 +109,7 @@ struct tactus_session
     Messages events;
     std::map<std::string, tactus::Guard::Stop> told;   // by role: the stop that the caller was told about
     bool is_over = false;
+    std::atomic<bool> has_given_up { false };   // tactus_session_stop has waited long enough   [any thread]
     std::vector<DeviceHealth> health;
     mutable std::mutex mutex;
     std::condition_variable_any wake;
@@ -288,17 +289,18 @@ tactus_result tactus_session_start (tactus_session* s, tactus_messages* messages
 
 tactus_result tactus_session_stop (tactus_session* s, tactus_messages* messages)
 {
-    const auto stopping = with (s, messages, [&] (LiveSession& live) {
-        live.stop();
-        return TACTUS_OK;
-    });
-    if (stopping != TACTUS_OK) return stopping;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
+    s->stops.stop (By::program);   // without the lock, which another call may hold for long; also for ticks that start only now
+    if (s->has_started) s->live->stop();
     return guarded (messages, TACTUS_FAILED, [&]() -> tactus_result {
         // Without the lock, so that the session is attended to meanwhile.
         for (const auto began = std::chrono::steady_clock::now(); s->isTicking(); std::this_thread::sleep_for (std::chrono::milliseconds (2)))
             if (std::chrono::steady_clock::now() - began > longest_stop)
+            {
+                s->has_given_up = true;
                 return failed (messages, Message::error ("run/stuck", "", "a tick does not end, so the session cannot end either",
                                                          "the graph asks for too much in one tick, or a plugin loops; `tactus check-plugin` examines plugins"));
+            }
         return with (s, messages, [&] (LiveSession& live) {
             auto ended = live.end();
             return ended.log ? TACTUS_OK : failed (messages, std::move (ended.log).error());
@@ -309,7 +311,7 @@ tactus_result tactus_session_stop (tactus_session* s, tactus_messages* messages)
 void tactus_session_close (tactus_session* s)
 {
     if (s == nullptr || ! s->isOurs()) return;
-    static_cast<void> (tactus_session_stop (s, nullptr));
+    if (! s->has_given_up) static_cast<void> (tactus_session_stop (s, nullptr));
     if (! s->isTicking()) delete s;
 }
 

@@ -69,8 +69,9 @@ TACTUS_API tactus_session* tactus_session_open (const tactus_graph*, const tactu
 TACTUS_API tactus_result tactus_session_start (tactus_session*, tactus_messages*);
 
 /** Ramps all forces to zero, ends the ticks, and completes the log. Waits for it: usually for less than a second, with a low slew limit for up to
- *  30 s. If a tick does not end, because a plugin loops, it fails after that time (run/stuck); the device got its last reports long before.
- *  [main thread] */
+ *  30 s. The forces begin to fall at once, even if another function runs for the session at the same time; a session that starts only later ends with
+ *  its first tick. If a tick does not end, because a plugin loops, it fails after that time (run/stuck); the device got its last reports long before.
+ *  [any thread; not in a signal handler] */
 TACTUS_API tactus_result tactus_session_stop (tactus_session*, tactus_messages*);
 
 /** Stops, releases the devices, and frees the session. No other function may be called at the same time or later. If a tick does not end, the

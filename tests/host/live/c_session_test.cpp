@@ -7,12 +7,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #if defined(__unix__)
@@ -226,6 +228,55 @@ TEST_CASE ("a session without handles or after its end is a misuse, and crashes 
     const tactus_session_options cleared {};
     CHECK (tactus_session_open (graph.get(), &cleared, m.get()) == nullptr);
     CHECK (idsOf (m.get()).back() == "api/struct");
+}
+
+namespace
+{
+/// Reads no asset until the run is over: an edit that takes long.
+struct Slow
+{
+    static tactus_asset_answer read (void* self, tactus_asset_kind, const char*, tactus_asset*)
+    {
+        auto& slow = *static_cast<Slow*> (self);
+        slow.is_reading = true;
+        slow.was_over = eventually ([&] { return statusOf (*slow.session).phase == TACTUS_OVER; });
+        return TACTUS_ASSET_REFUSED;
+    }
+
+    const Session* session = nullptr;
+    std::atomic<bool> is_reading { false }, was_over { false };
+};
+}   // namespace
+
+TEST_CASE ("a stop of a session does not wait for a call of another thread", "[live][c_api][safety]")
+{
+    auto m = noMessages(), of_edit = noMessages();
+    Slow slow;
+    const auto session = opened (m.get(), "stylus=gesture:circle", [&] (auto& o) {
+        o.assets = Slow::read;
+        o.asset_context = &slow;
+    });
+    REQUIRE (session);
+    slow.session = &session;
+    REQUIRE (tactus_session_start (session.get(), m.get()) == TACTUS_OK);
+    auto edited = dryWood (m.get());
+    REQUIRE (tactus_graph_add_node (edited.get(), "", "map", "texture.height_map", m.get()) == TACTUS_OK);
+    REQUIRE (tactus_graph_set_setting (edited.get(), "", "map", "map", R"({"image": "map.png", "pitch": "1 mm", "height": "1 mm"})", m.get()) == TACTUS_OK);
+    std::jthread editing ([&] { tactus_session_edit (session.get(), edited.get(), of_edit.get()); });
+    REQUIRE (eventually ([&] { return slow.is_reading.load(); }));
+    CHECK (tactus_session_stop (session.get(), m.get()) == TACTUS_OK);
+    CHECK (slow.was_over);
+}
+
+TEST_CASE ("what is stopped before its start does not play", "[live][c_api][safety]")
+{
+    auto m = noMessages();
+    const auto session = opened (m.get());
+    REQUIRE (session);
+    REQUIRE (tactus_session_stop (session.get(), m.get()) == TACTUS_OK);
+    REQUIRE (tactus_session_start (session.get(), m.get()) == TACTUS_OK);
+    CHECK (eventually ([&] { return statusOf (session).phase == TACTUS_OVER; }));
+    CHECK (statusOf (session).peak_force == 0.0);
 }
 
 #if defined(__unix__)
