@@ -6,6 +6,7 @@
 #include <framework/capi/handles.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
+#include <host/platform/main_thread.hpp>
 #include <host/platform/preset_folder.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/numbers_device.hpp>
@@ -109,6 +110,7 @@ struct tactus_session
     Messages events;
     std::map<std::string, tactus::Guard::Stop> told;   // by role: the stop that the caller was told about
     bool is_over = false;
+    bool misses_main = false;                   // the main thread of the program has ended
     std::atomic<bool> has_given_up { false };   // tactus_session_stop has waited long enough   [any thread]
     std::vector<DeviceHealth> health;
     mutable std::mutex mutex;
@@ -135,6 +137,12 @@ void tactus_session::tellStops()
 
 void tactus_session::attendOnce()
 {
+    if (! misses_main && (misses_main = mainThreadHasEnded()))
+    {
+        stops.stop (By::program);
+        events.push_back (Message::error ("run/main_thread", "", "stopped, because the main thread of the program has ended",
+                                          "let the main thread wait for the other threads"));
+    }
     auto news = live->poll();
     for (auto* each : { &news.alarm, &news.log, &news.fusion, &news.sound })
         if (*each) events.push_back (std::move (**each));

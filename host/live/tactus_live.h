@@ -23,7 +23,8 @@
  *  - A session has a thread of its own that looks after it, so nothing needs to be called regularly. A program that does nothing or waits in a
  *    function of its own does not affect the ticks. A debugger that stops the whole process does: the devices are brought to rest.
  *  - Graphs never choose or calibrate real devices. Only `devices` and the user's session file do.
- *  - If the process ends, is killed or freezes, a guardian process brings the devices to rest (docs/hazards.md).
+ *  - If the process ends, is killed or freezes, a guardian process brings the devices to rest (docs/hazards.md). If only its main thread ends, by
+ *    pthread_exit, the session stops (run/main_thread; Linux with /proc).
  *  - After fork(), only the parent has the sessions. In the child, every function returns TACTUS_MISUSE, NULL or 0.
  *  - No signal handlers are installed except those for faults (SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL), while a device is open. They write
  *    the last reports and then run the handler that was there before.

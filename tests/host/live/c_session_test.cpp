@@ -18,6 +18,7 @@
 #include <vector>
 
 #if defined(__unix__)
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #endif
@@ -300,5 +301,28 @@ TEST_CASE ("the child of a fork cannot use the session of its parent", "[live][c
     CHECK (WIFEXITED (status));
     CHECK (WEXITSTATUS (status) == 0);
     CHECK (eventually ([&] { return statusOf (session).force > 0.0; }));   // the parent plays on
+}
+#endif
+
+#if defined(__linux__)
+TEST_CASE ("a session stops when the main thread has ended, although another one goes on", "[live][c_api][platform][safety]")
+{
+    const auto child = ::fork();   // its only thread is its main thread
+    if (child == 0)
+    {
+        auto m = noMessages();
+        auto session = opened (m.get());
+        if (! session || tactus_session_start (session.get(), m.get()) != TACTUS_OK) ::_exit (2);
+        if (! eventually ([&] { return statusOf (session).force > 0.0; })) ::_exit (3);
+        std::thread ([s = session.release()] {
+            tactus_status status = TACTUS_STATUS;
+            ::_exit (eventually ([&] { return tactus_session_status (s, &status) == TACTUS_OK && status.phase == TACTUS_OVER && status.force == 0.0; }) ? 0 : 1);
+        }).detach();
+        ::syscall (SYS_exit, 0);   // as pthread_exit, which would unwind the test
+    }
+    int status = 0;
+    REQUIRE (::waitpid (child, &status, 0) == child);
+    REQUIRE (WIFEXITED (status));
+    CHECK (WEXITSTATUS (status) == 0);
 }
 #endif
