@@ -13,7 +13,7 @@ ROOT = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__
 COLUMNS = ["component", "fault", "detection", "reaction", "time until zero", "test"]
 LEAST_ROWS = 24
 
-tests = {file.stem for pattern in ("**/*_test.cpp", "guest/own_*", "site/*_test.*") for file in ROOT.glob("tests/" + pattern)}
+tests = {file.stem for pattern in ("**/*_test.cpp", "python/*_test.py", "guest/own_*", "site/*_test.*") for file in ROOT.glob("tests/" + pattern)}
 lines = [line for line in (ROOT / "docs/hazards.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
 table = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 problems = []

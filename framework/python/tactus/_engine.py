@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
 import weakref
@@ -15,6 +14,7 @@ from . import _checks, _tactus
 from ._assets import Assets, reader
 from ._checks import Array, Numbers
 from ._devices import Effort, PushedDevice, described, explain_push
+from ._ending import when_main_ends
 from ._graph import Graph, checked_graph
 from ._messages import fail, placed
 from ._own import Node, describe
@@ -274,7 +274,7 @@ class Engine:
 _live: "weakref.WeakSet[Engine]" = weakref.WeakSet()
 
 
-@atexit.register
+@when_main_ends
 def _stop_all() -> None:
     """A tick thread must not outlive the interpreter."""
     for engine in list(_live):

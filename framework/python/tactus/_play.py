@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import atexit
 import ctypes
 import os
 import threading
@@ -19,6 +18,7 @@ import numpy as np
 from . import _checks
 from ._callback import Caller
 from ._checks import Path
+from ._ending import main_has_ended, when_main_ends
 from ._engine import Status
 from ._graph import Graph, checked_graph
 from ._library import HealthStruct, Messages, Opened, OptionsStruct, StatusStruct, live, texts
@@ -45,8 +45,8 @@ class Health(NamedTuple):
 
 class Session:
     """A graph that plays on the devices of this computer. `play` makes it. Use it in a `with` statement: at its end, after an exception too, all
-    forces go to zero, and the devices are released. Without one, call close(); a session that is forgotten plays until the program ends. Several threads may
-    share a session: a call waits until calls from other threads are over, except emergency_stop(), rearm() and status(), which wait for nothing."""
+    forces go to zero, and the devices are released. Without one, call close(); a session that is forgotten plays until the main thread ends, whatever other
+    threads do. Several threads may share a session: a call waits until calls from other threads are over, except emergency_stop(), rearm() and status(), which wait for nothing."""
 
     def __init__(self, graph: ctypes.c_void_p, options: OptionsStruct, keep: List[Any], asked: Sequence[str]):
         self._asked, self._collected = list(asked), 0
@@ -63,6 +63,8 @@ class Session:
                 _sessions.add(self)
             try:
                 messages.check(bool(handle))   # a warning may be an exception, too
+                if main_has_ended():
+                    fail("session/main_thread", "", "the main thread of the program has ended", "let it wait for the other threads: call their join()")
             except BaseException:
                 self.close()
                 raise
@@ -314,7 +316,7 @@ def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, st
     them. If it raises an exception, all forces go to zero, the run ends, and the next call of a function of the session, or the end of the `with`
     statement, raises the exception.
 
-    The ticks never wait for Python. At the end of the `with` statement, after an exception, and at the end of the program, all forces go to zero."""
+    The ticks never wait for Python. At the end of the `with` statement, after an exception, and at the end of the main thread, all forces go to zero."""
     devices = _devices(device)
     asked = _checks.texts("record", record, "record=['motor.force']")
     sets = [f"{name}={value if isinstance(value, str) else to_json(value, f'set[{name!r}]')}"
@@ -362,11 +364,14 @@ def _check_callback(callback: Any, record: Sequence[str], buffer: Any) -> None:
 _sessions: Set[Session] = set()   # those that are open: what plays is not forgotten
 
 
-@atexit.register
+@when_main_ends
 def _close_all() -> None:
-    """No force outlives the program."""
+    """No force outlives the main thread."""
+    for session in list(_sessions):   # all of them, before one takes its time
+        with suppress(Error):
+            session.emergency_stop()
     for session in list(_sessions):
         try:
             session.close()
-        except Exception:   # of a callback; the other sessions are closed, too
+        except BaseException:   # of a callback, or a second Ctrl-C; the other sessions are closed, too
             traceback.print_exc()

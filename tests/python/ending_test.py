@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""No force outlives what gave it: programs that end, in each way and with threads that go on, while a session pushes a board over UDP."""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import tactus
+from support import GRAPHS, PROGRAM, TestCase
+from waiting import eventually
+
+PUSH = {"format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
+        "nodes": {"push": {"type": "signal.constant", "params": {"value": 0.4}}, "motor": {"type": "device.force", "role": "stylus"}},
+        "wires": ["push.out -> motor.force.z"]}
+
+BEGIN = """
+import concurrent.futures, ctypes, os, signal, sys, threading
+import tactus
+signal.signal(signal.SIGINT, signal.default_int_handler)   # a shell starts what runs in the background without it
+for_ever = threading.Event().wait
+session = tactus.play(sys.argv[1], {"stylus": sys.argv[2]}, session="off")
+while session.status().force < 0.39:
+    session.wait(0.01)
+"""
+THREADS = {"no other thread": "",
+           "a daemon thread": "threading.Thread(target=for_ever, daemon=True).start()",
+           "a thread that never ends": "threading.Thread(target=for_ever).start()",
+           "a pool that never ends": "concurrent.futures.ThreadPoolExecutor().submit(for_ever)"}
+GOES_ON = ("a thread that never ends", "a pool that never ends")   # the interpreter waits for these
+BY_ITSELF = {"the end of the script": "", "sys.exit": "sys.exit(3)", "an exception": "1 / 0", "Ctrl-C": "os.kill(os.getpid(), signal.SIGINT); for_ever()"}
+AT_ONCE = {"SIGTERM": "os.kill(os.getpid(), signal.SIGTERM)", "os._exit": "os._exit(0)"}   # no Python runs: the guardian brings the board to rest
+
+
+class Board:
+    """A board on this computer, with a heavy handle, and what it hears."""
+
+    def __init__(self):
+        self._folder = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(self._folder.name)
+        (folder / "hand.json").write_text('{"driver": "sim", "mass": "1000 kg"}')
+        (folder / "push.json").write_text(json.dumps(PUSH))
+        self.graph, self._log = str(folder / "push.json"), folder / "log"
+        self._fake = subprocess.Popen([PROGRAM, "fake-device", "tactus_board", "--wire", "udp", "--log", self._log, "--hand", folder / "hand.json"],
+                                      stdout=subprocess.PIPE, text=True)
+        lines = iter(self._fake.stdout.readline, "")
+        self.device = next(found.group(1) for found in map(re.compile(r"ROLE=(\S+)").search, lines) if found)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._fake.kill()
+        self._fake.communicate()
+        self._folder.cleanup()
+
+    def forces(self):
+        """All that it heard, in uN."""
+        whole = self._log.read_text().rpartition("\n")[0].splitlines()
+        reports = [bytes.fromhex(line.partition("<")[2]) for line in whole if "<" in line]
+        return [max(abs(int.from_bytes(r[at:at + 4], "little", signed=True)) for at in (8, 12, 16)) if r[2] & 1 else 0 for r in reports]
+
+    def is_pushed(self):
+        heard = self.forces()
+        return bool(heard) and heard[-1] > 390000
+
+    def was_released(self):
+        heard = self.forces()
+        return max(heard, default=0) > 390000 and heard[-1] == 0
+
+    def run(self, code):
+        return subprocess.Popen([sys.executable, "-B", "-c", code, self.graph, self.device], stderr=subprocess.DEVNULL, start_new_session=True)
+
+
+class Programs(TestCase):
+    def ends(self, thread, end, goes_on):
+        with self.subTest(end, thread=thread), Board() as board, board.run(BEGIN + THREADS[thread] + "\n" + end) as program:
+            try:
+                self.assertTrue(eventually(board.was_released))
+                if goes_on:
+                    self.assertIsNone(program.poll())
+                else:
+                    self.assertTrue(eventually(lambda: program.poll() is not None))
+            finally:
+                program.kill()
+
+    def test_the_force_goes_when_the_main_thread_ends_whatever_other_threads_do(self):
+        for thread in THREADS:
+            for end in BY_ITSELF.values():
+                self.ends(thread, end, thread in GOES_ON)
+
+    def test_the_force_goes_when_the_program_ends_at_once(self):
+        for thread in THREADS:
+            for end in AT_ONCE.values():
+                self.ends(thread, end, False)
+
+    def test_the_force_goes_when_the_main_thread_ends_without_the_interpreter(self):
+        self.ends("a thread that never ends", "ctypes.CDLL(None).pthread_exit(None)", True)
+
+    def test_a_second_ctrl_c_keeps_no_force(self):
+        self.ends("a thread that never ends", "session.close = lambda: signal.raise_signal(signal.SIGINT)\nsignal.raise_signal(signal.SIGINT)", True)
+
+
+class Others(TestCase):
+    """Programs with a thread that goes on after the main thread, and ends the program with 0 if all is as it should be."""
+
+    BEGIN = "import os, sys, threading\nimport tactus\nfrom waiting import eventually\n"
+    START = "\nthreading.Thread(target=lambda: os._exit(go_on())).start()\n"
+
+    def goes_on(self, code):
+        command = [sys.executable, "-B", "-c", self.BEGIN + code + self.START, GRAPHS / "dry_wood.json"]
+        with subprocess.Popen(command, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}) as program:
+            try:
+                self.assertTrue(eventually(lambda: program.poll() is not None))
+            finally:
+                program.kill()
+        self.assertEqual(program.returncode, 0)
+
+    def test_a_live_engine_ends_with_the_main_thread(self):
+        self.goes_on("""
+engine = tactus.Engine(tactus.Graph(sys.argv[1]), devices={"stylus": "gesture:circle"})
+engine.start()
+def go_on():
+    return 0 if eventually(lambda: engine.status().phase == "over") else 1""")
+
+    def test_no_session_begins_after_the_main_thread(self):
+        self.goes_on("""
+def go_on():
+    threading.main_thread().join()
+    try:
+        tactus.play(sys.argv[1], {"stylus": "gesture:circle"}, session="off")
+    except tactus.Error as why:
+        return 0 if why.id == "session/main_thread" else 1
+    return 1""")
+
+
+try:
+    from tactus._library import live
+    live()
+except tactus.Error as why:
+    print(f"skipped: {why}")
+    sys.exit(77)
+
+if not PROGRAM:
+    print("skipped: there is no program that plays a board")
+    sys.exit(77)
+
+if __name__ == "__main__":
+    unittest.main()
