@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""No force outlives what gave it: programs that end, in each way and with threads that go on, while a session pushes a board over UDP."""
+"""No force outlives what gave it: programs that end, in each way and with threads that go on, while a session pushes a board over UDP; and sessions that are
+closed while a call goes on."""
 
 import json
 import os
@@ -11,9 +12,12 @@ import sys
 import tempfile
 import threading
 import unittest
+from contextlib import suppress
+from unittest import mock
 
 import tactus
 from support import GRAPHS, PROGRAM, TestCase
+from tactus import _play
 from waiting import eventually
 
 PUSH = {"format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
@@ -138,6 +142,85 @@ def go_on():
     except tactus.Error as why:
         return 0 if why.id == "session/main_thread" else 1
     return 1""")
+
+
+class Inside:
+    """While it exists, calls of a session run `first` inside, once."""
+
+    def __init__(self, first):
+        self._first, self._made = first, _play.Messages
+        self._patch = mock.patch.object(_play, "Messages", self._make)
+
+    def _make(self):
+        first, self._first = self._first, None
+        if first is not None:
+            first()
+        return self._made()
+
+    def __enter__(self):
+        self._patch.__enter__()
+
+    def __exit__(self, *why):
+        self._patch.__exit__(*why)
+
+
+class Closing(TestCase):
+    def setUp(self):
+        self.session = tactus.play(tactus.Graph.parse(json.dumps(PUSH)), {"stylus": "gesture:circle"}, session="off")
+        self.addCleanup(self.session.close)
+        self.assertTrue(eventually(lambda: self.session.status().force > 0.39))
+
+    def call(self, inside):
+        """A call of the session, during which this runs."""
+        with Inside(inside), suppress(tactus.Error):
+            self.session.set("push.value", 0.4)
+
+    def close_in_handler(self):
+        before = signal.signal(signal.SIGUSR1, lambda *_: self.session.close())
+        try:
+            signal.raise_signal(signal.SIGUSR1)
+        finally:
+            signal.signal(signal.SIGUSR1, before)
+
+    def test_a_signal_handler_may_close_what_it_interrupts(self):
+        self.call(self.close_in_handler)
+        self.fails("session/closed", self.session.emergency_stop)   # released, too
+
+    def test_it_does_not_wait_for_a_thread_that_waits_for_what_it_interrupts(self):
+        other = threading.Thread(target=lambda: self.call(lambda: None))
+
+        def inside():
+            other.start()
+            self.assertTrue(eventually(lambda: len(self.session._calls) == 2))
+            self.close_in_handler()
+        self.call(inside)
+        other.join()
+        self.fails("session/closed", self.session.emergency_stop)
+
+    def end_during_a_call(self, end):
+        """Ends the session while a call of another thread goes on. Returns whether the end waits for that call."""
+        is_inside, goes_on = threading.Event(), threading.Event()
+        busy = threading.Thread(target=lambda: self.call(lambda: is_inside.set() or goes_on.wait()))
+        ends = threading.Thread(target=end)
+        busy.start()
+        try:
+            is_inside.wait()
+            ends.start()
+            self.assertTrue(eventually(lambda: self.session.status().phase == "over"))
+            self.assertEqual(self.session.status().force, 0.0)
+            self.session.emergency_stop()
+            return ends.is_alive()
+        finally:
+            goes_on.set()
+            busy.join()
+            ends.join()
+
+    def test_a_stop_does_not_wait_for_the_calls_of_other_threads(self):
+        self.end_during_a_call(self.session.stop)
+
+    def test_a_close_stops_before_it_waits_and_an_emergency_stop_is_taken_meanwhile(self):
+        self.assertTrue(self.end_during_a_call(self.session.close))
+        self.fails("session/closed", self.session.emergency_stop)
 
 
 try:

@@ -44,10 +44,10 @@ class Caller:
     def is_this_thread(self) -> bool:
         return threading.current_thread() is self._thread
 
-    def end(self) -> Optional[Message]:
-        """Ends the calls, after the function had the last records. Returns what is wrong."""
+    def end(self, waits: bool) -> Optional[Message]:
+        """Ends the calls. With `waits`, the function has had the last records. Returns what is wrong."""
         self._ends.set()
-        if self.is_this_thread() or not self._thread.is_alive():
+        if not waits or self.is_this_thread() or not self._thread.is_alive():
             return None
         self._thread.join(_PATIENCE)
         if not self._thread.is_alive():

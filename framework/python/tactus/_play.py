@@ -46,7 +46,8 @@ class Health(NamedTuple):
 class Session:
     """A graph that plays on the devices of this computer. `play` makes it. Use it in a `with` statement: at its end, after an exception too, all
     forces go to zero, and the devices are released. Without one, call close(); a session that is forgotten plays until the main thread ends, whatever other
-    threads do. Several threads may share a session: a call waits until calls from other threads are over, except emergency_stop(), rearm() and status(), which wait for nothing."""
+    threads do. Several threads may share a session: a call waits until calls from other threads are over, except emergency_stop(), rearm() and status(),
+    which wait for nothing, and stop() and close(), which bring the forces to zero first."""
 
     def __init__(self, graph: ctypes.c_void_p, options: OptionsStruct, keep: List[Any], asked: Sequence[str]):
         self._asked, self._collected = list(asked), 0
@@ -54,8 +55,9 @@ class Session:
         self._caller: Optional[Caller] = None
         self._session: Optional[ctypes.c_void_p] = None
         self._one_at_a_time = threading.RLock()
-        self._free = threading.Condition()   # guards the next two
-        self._users, self._closes = 0, False
+        self._free = threading.Condition()   # guards the next three
+        self._calls: Dict[object, int] = {}   # those that go on, with their threads
+        self._closes, self._is_released = False, False
         with Messages() as messages:
             handle = live().tactus_session_open(graph, ctypes.byref(options), messages.handle)
             if handle:
@@ -71,35 +73,39 @@ class Session:
         del keep
 
     @contextmanager
-    def _handle(self, waits: bool = True, raises: bool = True) -> Iterator[ctypes.c_void_p]:
-        """The session, which is not freed during the `with` statement. With `waits` and `raises`, an exception of the callback is raised here."""
-        if waits and raises:
+    def _handle(self, waits: bool = True, while_closing: bool = False) -> Iterator[ctypes.c_void_p]:
+        """The session, which is not freed during the `with` statement. With `waits`, an exception of the callback is raised here."""
+        if waits:
             self._raise_failure()
-        with self._free:
-            if self._session is None or self._closes:
-                fail("session/closed", "", "the session is closed", "open another one with tactus.play")
-            self._users += 1
+        call = object()
         try:
+            with self._free:
+                handle = self._session
+                if handle is None or (self._closes and not while_closing):
+                    fail("session/closed", "", "the session is closed", "open another one with tactus.play")
+                self._calls[call] = threading.get_ident()
             if waits:
                 with self._one_at_a_time:
-                    yield self._session
+                    yield handle
             else:
-                yield self._session
+                yield handle
         finally:
             with self._free:
-                self._users -= 1
+                self._calls.pop(call, None)
                 self._free.notify_all()
+            self._release()
 
-    def _call(self, function: str, *arguments: Any, waits: bool = True, raises: bool = True) -> None:
-        with self._handle(waits, raises) as handle, Messages() as messages:
+    def _call(self, function: str, *arguments: Any, waits: bool = True) -> None:
+        with self._handle(waits) as handle, Messages() as messages:
             messages.check(getattr(live(), "tactus_session_" + function)(handle, *arguments, messages.handle) == 0)
 
     def __enter__(self) -> "Session":
         return self
 
     def __exit__(self, kind: Optional[Type[BaseException]], why: Optional[BaseException], trace: Optional[TracebackType]) -> None:
-        if kind is not None and self._session is not None:
-            self.emergency_stop()
+        if kind is not None:
+            with suppress(Error):   # it may be closed
+                self.emergency_stop()
         self.close()
 
     def __repr__(self) -> str:
@@ -119,7 +125,7 @@ class Session:
         """Ends the run after an exception of the callback. [the thread of the callback]"""
         with suppress(Error):   # the caller may have closed the session meanwhile
             self.emergency_stop()
-            self._call("stop", raises=False)
+            self._call("stop", waits=False)
 
     def _raise_failure(self) -> None:
         """Raises what the callback has raised, once the forces are zero. The callback itself goes on."""
@@ -145,7 +151,7 @@ class Session:
     def status(self) -> Status:
         """How the run is doing."""
         s = StatusStruct(size=ctypes.sizeof(StatusStruct))
-        with self._handle(waits=False) as handle:
+        with self._handle(waits=False, while_closing=True) as handle:
             if live().tactus_session_status(handle, ctypes.byref(s)) != 0:
                 fail("session/closed", "", "the session belongs to the process that forked this one", "open another session")
         return Status(_PHASES[s.phase], s.ticks, s.late_ticks, s.force, s.peak_force, bool(s.is_emergency))
@@ -256,7 +262,7 @@ class Session:
 
     def emergency_stop(self) -> None:
         """Fades all forces to zero and keeps them there until rearm(). [any thread; waits for nothing]"""
-        with self._handle(waits=False) as handle:
+        with self._handle(waits=False, while_closing=True) as handle:
             live().tactus_session_emergency_stop(handle)
 
     def rearm(self) -> None:
@@ -264,34 +270,43 @@ class Session:
         self._call("rearm", waits=False)
 
     def stop(self) -> None:
-        """Brings all forces to zero, ends the ticks, and completes the log; waits for it. What was recorded can still be collected."""
-        self._call("stop")
+        """Brings all forces to zero, ends the ticks, and completes the log; waits for it. What was recorded can still be collected. [any thread]"""
+        self._raise_failure()
+        self._call("stop", waits=False)
 
     def close(self) -> None:
-        """Stops, and releases the devices. Waits until calls from other threads are over, and raises what the callback has raised."""
-        note = self._end_callback()
+        """Stops, and releases the devices. Waits until calls from other threads are over, and raises what the callback has raised. In a signal handler
+        that has interrupted a call of this session, it stops, and the devices are released when that call is over. [any thread]"""
         with self._free:
-            if self._session is None or self._closes:
+            has_interrupted = threading.get_ident() in self._calls.values()   # a thread must not wait for itself, nor for those that wait for it
+        with suppress(Error), self._handle(waits=False, while_closing=True) as handle:
+            live().tactus_session_stop(handle, None)   # first the forces go to zero; then there is time for the callback and other calls
+        note = None if self._caller is None or self._session is None else self._caller.end(waits=not has_interrupted)
+        with self._free:
+            if self._session is None:
                 return
             self._closes = True
-            try:
-                self._free.wait_for(lambda: self._users == 0)
-            except BaseException:   # such as KeyboardInterrupt
-                self._closes = False
-                raise
-        live().tactus_session_close(self._session)
-        self._session = None
-        _sessions.discard(self)
+            if not has_interrupted:
+                self._free.wait_for(lambda: not self._calls)
+        self._release()
+        if not has_interrupted:
+            with self._free:
+                self._free.wait_for(lambda: self._is_released)   # by the last call, perhaps
         if note is not None:
             warnings.warn(TactusWarning(note), stacklevel=2)
         self._raise_failure()
 
-    def _end_callback(self) -> Optional[Message]:
-        if self._caller is None or self._session is None:
-            return None
-        with suppress(Error):
-            self._call("stop", raises=False)   # first the forces go to zero; then there is time for the callback
-        return self._caller.end()
+    def _release(self) -> None:
+        """Frees the session once it is closed and no call uses it."""
+        with self._free:
+            if not self._closes or self._calls or self._session is None:
+                return
+            handle, self._session = self._session, None
+        live().tactus_session_close(handle)
+        _sessions.discard(self)
+        with self._free:
+            self._is_released = True
+            self._free.notify_all()
 
 
 @_checks.arguments
