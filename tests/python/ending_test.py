@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""No force outlives what gave it: programs that end, in each way and with threads that go on, while a session pushes a board over UDP; and sessions that are
-closed while a call goes on."""
+"""No force outlives what gave it: programs that end, in each way and with threads that go on, while a session pushes a board over UDP; sessions that are
+closed while a call goes on; and forks."""
 
 import json
 import os
@@ -221,6 +221,41 @@ class Closing(TestCase):
     def test_a_close_stops_before_it_waits_and_an_emergency_stop_is_taken_meanwhile(self):
         self.assertTrue(self.end_during_a_call(self.session.close))
         self.fails("session/closed", self.session.emergency_stop)
+
+
+FORK = """
+import multiprocessing
+from tactus import _play
+is_inside, made = threading.Event(), _play.Messages
+def block():
+    if threading.current_thread() is not threading.main_thread():
+        is_inside.set()
+        for_ever()
+    return made()
+_play.Messages = block
+threading.Thread(target=session.set, args=("push.value", 0.4), daemon=True).start()
+is_inside.wait()
+if (child := os.fork()) == 0:
+    {}
+else:
+    os.waitpid(child, 0)
+    while session.status().phase == "running" and session.status().force < 0.39:   # a fork may make a tick late, so that a reading gets old
+        threading.Event().wait(0.01)
+    os._exit(0 if session.status().phase == "running" else 1)
+"""
+
+
+class Forks(TestCase):
+    def test_a_child_ends_although_a_call_goes_on_and_its_parent_plays_on(self):
+        for child in ("pass", "session.close()", "sys.exit()", "os.kill(os.getpid(), signal.SIGINT)",
+                      "p = multiprocessing.get_context('fork').Process(target=session.close); p.start(); p.join()"):
+            with self.subTest(child), Board() as board, board.run(BEGIN + FORK.format(child)) as program:
+                try:
+                    self.assertTrue(eventually(lambda: program.poll() is not None))
+                    self.assertEqual(program.returncode, 0)
+                finally:
+                    with suppress(ProcessLookupError):
+                        os.killpg(program.pid, signal.SIGKILL)   # a child that hangs
 
 
 try:

@@ -308,6 +308,10 @@ class Session:
             self._is_released = True
             self._free.notify_all()
 
+    def _forget_threads(self) -> None:
+        """In the child of a fork, the threads that call the session, or hold its locks, are not there."""
+        self._one_at_a_time, self._free, self._calls, self._caller = threading.RLock(), threading.Condition(), {}, None
+
 
 @_checks.arguments
 def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, str]] = (), *, session: Optional[Path] = None, clock: Optional[str] = None,
@@ -390,3 +394,14 @@ def _close_all() -> None:
             session.close()
         except BaseException:   # of a callback, or a second Ctrl-C; the other sessions are closed, too
             traceback.print_exc()
+
+
+def _forget_all() -> None:
+    """The sessions are those of the process that has forked this one."""
+    for session in _sessions:
+        session._forget_threads()
+    _sessions.clear()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget_all)
