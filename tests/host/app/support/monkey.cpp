@@ -32,7 +32,7 @@ Monkey::~Monkey()
     view.reset();
     stage.reset();
     juce::PopupMenu::dismissAllActiveMenus();   // later messages delete the menus, which use the look until then
-    test::settle();   // not its own, which needs the window
+    test::settle();                             // not its own, which needs the window
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     juce::Desktop::getInstance().setGlobalScaleFactor (1.0f);
     juce::SystemClipboard::copyTextToClipboard ({});
