@@ -6,7 +6,6 @@
 #include <framework/capi/handles.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
-#include <host/platform/main_thread.hpp>
 #include <host/platform/preset_folder.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/numbers_device.hpp>

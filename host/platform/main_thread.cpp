@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "main_thread.hpp"
+#include "signals.hpp"
 
 #if defined(__linux__)
 #include <array>

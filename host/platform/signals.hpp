@@ -17,6 +17,10 @@ bool stopRequested() noexcept;
 /// Requests a stop, as a signal does. [any thread]
 void requestStop() noexcept;
 
+/// True once the thread that runs main() has ended by pthread_exit, while other threads of the process go on. False on systems that do not tell:
+/// only Linux with /proc does. It reads a file. [any thread but the tick thread]
+bool mainThreadHasEnded() noexcept;
+
 /// From now on, the signals of watchForEmergency wait for a thread that calls takeEmergencySignals(). Applies to the calling thread
 /// and to those that it starts later, so call it before there are other threads. [main thread]
 void holdEmergencySignals() noexcept;
