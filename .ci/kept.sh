@@ -6,11 +6,12 @@
 # works in the checkout, from nothing if that is fresh. Why it is right: docs/decisions/time_of_a_run.md.
 set -euo pipefail
 checkout=$(cd "$(dirname "$0")/.." && pwd)
-keep=${TACTUS_CI_KEEP-${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/tactus/ci}
+cache=${XDG_CACHE_HOME:-${HOME:+$HOME/.cache}}
+keep=${TACTUS_CI_KEEP-${cache:+$cache/tactus/ci}}
 
 in_checkout () { echo "== Without a kept folder: $1"; exec "$checkout/test.sh" "${@:2}"; }
 
-[ -n "$keep" ] || in_checkout "\$TACTUS_CI_KEEP is empty" "$@"
+[ -n "$keep" ] || in_checkout "\$TACTUS_CI_KEEP is empty, or there is no home folder" "$@"
 mkdir -p -m 700 "$keep/tactus" 2>/dev/null || in_checkout "$keep cannot be made" "$@"
 [ -O "$keep" ] && [ -O "$keep/tactus" ] || in_checkout "$keep belongs to another user, who could have built anything" "$@"
 "$checkout/test.sh" --install   # before the versions of all packages are compared below
