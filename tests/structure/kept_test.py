@@ -211,6 +211,26 @@ class Kept(unittest.TestCase):
         self.assertIn("other.c.o", found.stdout)
 
 
+class Crash(unittest.TestCase):
+    def test_a_process_that_dies_hides_no_other_failure_of_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "tests")
+            program.write_text("""#!/usr/bin/env bash
+case "$*" in
+    *--list-test-names-only) printf 'first\\nsecond, which dies\\nthird\\n' ;;
+    *first) echo 'All tests passed' ;;
+    *third) echo 'test cases: 1 | 1 failed'; exit 1 ;;
+    *) kill -SEGV $$ ;;
+esac
+""", encoding="utf-8")
+            program.chmod(0o755)
+            ran = subprocess.run(["python3", "-B", ROOT / "tests/support/run_file.py", program, "some_test"], stdout=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("== died: second, which dies", ran.stdout)
+        self.assertIn("== failed: third", ran.stdout)
+        self.assertNotIn("first", ran.stdout)
+
+
 if __name__ == "__main__":
     if not all(map(shutil.which, ("rsync", "flock", "ninja", "cmake"))):
         print("skipped: rsync, flock, ninja or cmake is not installed")
