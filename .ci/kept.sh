@@ -14,6 +14,7 @@ in_checkout () { echo "== Without a kept folder: $1"; exec "$checkout/test.sh" "
 [ -n "$keep" ] || in_checkout "\$TACTUS_CI_KEEP is empty, or there is no home folder" "$@"
 mkdir -p -m 700 "$keep/tactus" 2>/dev/null || in_checkout "$keep cannot be made" "$@"
 [ -O "$keep" ] && [ -O "$keep/tactus" ] || in_checkout "$keep belongs to another user, who could have built anything" "$@"
+chmod go-w "$keep" "$keep/tactus"
 "$checkout/test.sh" --install   # before the versions of all packages are compared below
 
 # All that a run starts inherits the lock, so it is free only when none of it is left, even after kill -9: a compiler may still be writing.
