@@ -268,7 +268,7 @@ Result<> RemoteControl::checkToken (const char* id, const std::string& given)
 }
 
 /// A sender is a socket and not a machine, because all programs and users of this machine share its address. Without a token, the sender
-/// is forgotten, so that nobody who gets its port number later takes its place.
+/// is forgotten, so that a program that gets its port number later does not take its place.
 Result<> RemoteControl::hello (const std::string& given, const std::string& from, Clock::time_point now)
 {
     known.erase (from);

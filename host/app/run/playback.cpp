@@ -72,7 +72,7 @@ void Playback::runInstead (graph::Graph g, bool on_devices)
     if (on_devices) preview_run->use (devices);
     before_run();
     if (on_devices) preview_run->keepLimits (live_run.keptLimits());
-    preview_run->startAgain (By::program);   // whoever starts a preview has not started the document
+    preview_run->startAgain (By::program);   // a start of a preview is none of the document
 }
 
 void Playback::endPreview()

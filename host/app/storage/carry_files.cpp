@@ -168,7 +168,7 @@ private:
         if (const auto hand = description.find ("hand"); hand != description.end()) carryPath (*hand);
     }
 
-    /// The settings of a plugin that is not here, whose kinds nobody knows: a text may be the path of a file.
+    /// The settings of a plugin that is not here, whose kinds are unknown: a text may be the path of a file.
     void leave (Json& value)
     {
         std::error_code ignored;
