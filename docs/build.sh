@@ -15,7 +15,7 @@ mkdir -p "$work"
 
 doxygen - >"$work/doxygen.log" 2>&1 <<END
 PROJECT_NAME = Tactus
-INPUT = framework/capi/tactus.h framework/plugin/tactus_plugin.h host/live/tactus_live.h host/device_plugins/tactus_device.h
+INPUT = framework/capi/tactus.h framework/plugin/tactus_plugin.h host/devices/live/tactus_live.h host/devices/device_plugins/tactus_device.h
 OUTPUT_DIRECTORY = $work/doxygen
 OPTIMIZE_OUTPUT_FOR_C = YES
 TYPEDEF_HIDES_STRUCT = YES

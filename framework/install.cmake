@@ -9,8 +9,8 @@ install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COM
     PATTERN "kit/single" EXCLUDE   # exported code has these in place of others
     # Only sources of the library include these. Their matrices get their memory as the flags of the compiler say (tests/structure/layouts.py).
     PATTERN "fit/least_squares.hpp" EXCLUDE PATTERN "fit/ring_*.hpp" EXCLUDE PATTERN "fit/spectrum_model.hpp" EXCLUDE PATTERN "check/pair.hpp" EXCLUDE)
-install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h host/device_plugins/tactus_device.h
-    $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
+install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h host/devices/device_plugins/tactus_device.h
+    $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/devices/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 
 foreach (part framework nodes run c)
@@ -47,6 +47,6 @@ install (FILES ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake ${PROJECT_BINA
     framework/own_functions.cmake framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 if (TARGET tactus_live_shared)
-    configure_file (host/live/tactus-live.pc.in ${PROJECT_BINARY_DIR}/tactus-live.pc @ONLY)
+    configure_file (host/devices/live/tactus-live.pc.in ${PROJECT_BINARY_DIR}/tactus-live.pc @ONLY)
     install (FILES ${PROJECT_BINARY_DIR}/tactus-live.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endif ()

@@ -15,9 +15,9 @@ if (NOT entries MATCHES "^## ([0-9.]+) \\(([0-9]+-[0-9]+-[0-9]+)\\)" OR NOT CMAK
 endif ()
 set (TACTUS_RELEASE_DATE ${CMAKE_MATCH_2})
 
-set (packaging ${PROJECT_SOURCE_DIR}/host/packaging)
+set (packaging ${PROJECT_SOURCE_DIR}/host/base/packaging)
 set (made ${PROJECT_BINARY_DIR}/packaging)
-file (GLOB profiles CONFIGURE_DEPENDS host/profiles/*.json)
+file (GLOB profiles CONFIGURE_DEPENDS host/devices/profiles/*.json)
 set (TACTUS_MAINTAINER "The Tactus developers <tactus@example.org>" CACHE STRING "Who to ask about packages, as NAME <ADDRESS>")
 set (python ${Python3_EXECUTABLE} -B)
 
@@ -34,7 +34,7 @@ add_custom_command (OUTPUT ${made}/written
     COMMAND ${python} ${packaging}/man_pages.py $<TARGET_FILE:tactus-host> tactus-host ${PROJECT_VERSION} ${TACTUS_RELEASE_DATE} ${made}/man
     COMMAND ${python} ${packaging}/completions.py $<TARGET_FILE:tactus> $<TARGET_FILE:tactus-host> ${made}/completions
     COMMAND ${CMAKE_COMMAND} -E env --unset=TACTUS_PLUGINS HOME=${made}/nobody XDG_CONFIG_HOME=${made}/nobody $<TARGET_FILE:tactus> schema -o ${made}/graph.schema.json
-    COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/profiles ${made}/70-tactus.rules
+    COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/devices/profiles ${made}/70-tactus.rules
     COMMAND ${python} ${packaging}/changelogs.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${TACTUS_MAINTAINER} ${made}
     COMMAND ${CMAKE_COMMAND} -E touch ${made}/written
     DEPENDS tactus tactus-host ${check_plugin} ${profiles} CHANGELOG.md
@@ -76,4 +76,4 @@ install (FILES ${packaging}/tactus-host.svg DESTINATION ${CMAKE_INSTALL_DATADIR}
 configure_file (${packaging}/org.tactus_haptics.Tactus.metainfo.xml.in ${made}/org.tactus_haptics.Tactus.metainfo.xml @ONLY)
 install (FILES ${made}/org.tactus_haptics.Tactus.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT host)
 
-include (host/packaging/packages.cmake)
+include (host/base/packaging/packages.cmake)

@@ -149,7 +149,7 @@ def main():
         for path in (given.modules / preset).iterdir():
             if path.suffix in (".wasm", ".js"):
                 shutil.copy(path, graphs)
-    profiles = [json.loads((ROOT / "host/profiles" / f"{name}.json").read_text()) for name in PROFILES]
+    profiles = [json.loads((ROOT / "host/devices/profiles" / f"{name}.json").read_text()) for name in PROFILES]
     (given.out / "profiles.json").write_text(json.dumps({"profiles": profiles}))
     (given.out / "presets.json").write_text(json.dumps({"presets": sorted(entries, key=lambda one: one["title"])}, indent=1) + "\n")
     worker = given.out / "offline.js"

@@ -9,5 +9,5 @@ if (TARGET tactus_python AND TARGET tactus_live_shared)
         FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed)
     install (DIRECTORY graphs/ DESTINATION tactus/graphs COMPONENT wheel EXCLUDE_FROM_ALL
         FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
-    install (DIRECTORY host/profiles/ DESTINATION tactus/profiles COMPONENT wheel EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.json")
+    install (DIRECTORY host/devices/profiles/ DESTINATION tactus/profiles COMPONENT wheel EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.json")
 endif ()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "amount.hpp"
 
-#include <host/command_line/command.hpp>
+#include <host/base/command_line/command.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 

@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <host/platform/start_program.hpp>
+#include <host/base/platform/start_program.hpp>
 
 namespace tactus::host
 {

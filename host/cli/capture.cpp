@@ -4,10 +4,10 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/fitting/surface_preset.hpp>
-#include <host/io/stretch_files.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/files/stretch_files.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -5,7 +5,7 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/hid/physics.hpp>
+#include <host/devices/hid/physics.hpp>
 #include <tactus/check/report.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>

@@ -3,12 +3,12 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/hid/physics.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/sessions/numbers_device.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid/physics.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>

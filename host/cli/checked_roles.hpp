@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/assets/file_assets.hpp>
-#include <host/hid_link/profile_library.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/file/graph_file.hpp>

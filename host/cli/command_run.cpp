@@ -3,10 +3,10 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/platform/home_folder.hpp>
-#include <host/sessions/numbers_device.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/home_folder.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
 #include <tactus/graph/reconcile.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/text/closest_match.hpp>

@@ -3,9 +3,9 @@
 
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/audio/open_audio.hpp>
-#include <host/live/live_session.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/devices/audio/open_audio.hpp>
+#include <host/devices/live/live_session.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/feed.hpp>
 #include <tactus/run/probe/port_probes.hpp>

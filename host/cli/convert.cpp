@@ -5,10 +5,10 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/fitting/surface_preset.hpp>
-#include <host/io/clip_io.hpp>
-#include <host/io/clip_samples.hpp>
-#include <host/io/evemu.hpp>
+#include <host/base/files/clip_io.hpp>
+#include <host/base/files/clip_samples.hpp>
+#include <host/base/files/evemu.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -4,8 +4,8 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <host/fitting/surface_preset.hpp>
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/half_space.hpp>
 #include <tactus/text/quote.hpp>

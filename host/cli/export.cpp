@@ -5,9 +5,9 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/generate/export_graph.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/code/generate/export_graph.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -3,13 +3,13 @@
 #include "report.hpp"
 
 #if defined(TACTUS_SERVICES)
-#include <host/bhaptics/fake_player.hpp>
-#include <host/haply/fake_inverse3.hpp>
+#include <host/drivers/bhaptics/fake_player.hpp>
+#include <host/drivers/haply/fake_inverse3.hpp>
 #endif
-#include <host/hid/hex.hpp>
-#include <host/hid_link/fake_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/platform/signals.hpp>
+#include <host/base/platform/signals.hpp>
+#include <host/devices/hid/hex.hpp>
+#include <host/devices/hid_link/fake_device.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/tick_clock.hpp>
 #include <tactus/text/closest_match.hpp>

@@ -3,7 +3,7 @@
 
 #include "report.hpp"
 
-#include <host/platform/preset_folder.hpp>
+#include <host/base/platform/preset_folder.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 

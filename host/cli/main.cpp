@@ -2,8 +2,8 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <host/platform/patient_output.hpp>
-#include <host/plugins/installed_plugins.hpp>
+#include <host/base/platform/patient_output.hpp>
+#include <host/code/plugins/installed_plugins.hpp>
 #include <tactus/tactus.h>
 
 #include <cstdio>

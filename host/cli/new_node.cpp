@@ -2,8 +2,8 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <host/platform/atomic_folder.hpp>
-#include <host/platform/start_program.hpp>
+#include <host/base/platform/atomic_folder.hpp>
+#include <host/base/platform/start_program.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/quote.hpp>
 

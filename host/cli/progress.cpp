@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "progress.hpp"
 
-#include <host/platform/terminal.hpp>
+#include <host/base/platform/terminal.hpp>
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/wav.hpp>
+#include <host/base/files/wav.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/plan/plan.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
-#include <host/audio/card.hpp>
-#include <host/hid/match.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/platform/last_failsafe.hpp>
-#include <host/platform/system_facts.hpp>
+#include <host/base/platform/system_facts.hpp>
+#include <host/devices/audio/card.hpp>
+#include <host/devices/failsafe/last_failsafe.hpp>
+#include <host/devices/hid/match.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/realtime.hpp>
 #include <tactus/tactus.h>

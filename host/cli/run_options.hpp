@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/command_line/command.hpp>
+#include <host/base/command_line/command.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <string>

@@ -3,9 +3,9 @@
 #include "commands.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/fitting/surface_preset.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>

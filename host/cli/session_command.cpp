@@ -4,14 +4,14 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/platform/home_folder.hpp>
-#include <host/sessions/choose_clock.hpp>
-#include <host/sessions/numbers_device.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/home_folder.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
+#include <host/devices/sessions/choose_clock.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>

@@ -19,7 +19,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPTS = [".ci", "test.sh", "CMakeLists.txt", "CMakePresets.json", "host/CMakeLists.txt", "host/install.cmake", "tests/CMakeLists.txt", "tests/parts.cmake",
            "tests/join.cmake", "tests/support/run_file.py", "tests/host/app/CMakeLists.txt", "tests/python/CMakeLists.txt", "tests/live_edits/CMakeLists.txt",
-           "tests/newcomer/run.sh", "tests/docs/blocks.py", "host/packaging/program_help.py"]
+           "tests/newcomer/run.sh", "tests/docs/blocks.py", "host/base/packaging/program_help.py"]
 RAN = re.compile(r"(\d+) tests failed out of (\d+)")
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/hid_link/capture.hpp>
+#include <host/devices/hid_link/capture.hpp>
 
 #include <cmath>
 #include <cstdlib>

@@ -3,8 +3,8 @@
 
 #include "report_target.hpp"
 
-#include <host/hid/answer.hpp>
-#include <host/hid/pid_device.hpp>
+#include <host/devices/hid/answer.hpp>
+#include <host/devices/hid/pid_device.hpp>
 
 namespace tactus::fuzz
 {

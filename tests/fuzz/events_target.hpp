@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/evdev/force_device.hpp>
+#include <host/drivers/evdev/force_device.hpp>
 
 #include <algorithm>
 #include <chrono>

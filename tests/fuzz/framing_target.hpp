@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/hid/report/framing.hpp>
+#include <host/devices/hid/report/framing.hpp>
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 
 #include "whole_error.hpp"
 
-#include <host/assets/image.hpp>
+#include <host/base/assets/image.hpp>
 
 namespace tactus::fuzz
 {

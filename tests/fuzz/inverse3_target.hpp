@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/haply/inverse3_messages.hpp>
+#include <host/drivers/haply/inverse3_messages.hpp>
 
 #include <tactus/text/json_text.hpp>
 

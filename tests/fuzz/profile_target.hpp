@@ -3,7 +3,7 @@
 
 #include "report_target.hpp"
 
-#include <host/hid/profile_reader.hpp>
+#include <host/devices/hid/profile_reader.hpp>
 
 namespace tactus::fuzz
 {

@@ -3,7 +3,7 @@
 
 #include "whole_error.hpp"
 
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 
 #include <cmath>
 #include <cstdlib>

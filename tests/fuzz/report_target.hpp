@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/hid/bits.hpp>
-#include <host/hid/hid_model.hpp>
+#include <host/devices/hid/bits.hpp>
+#include <host/devices/hid/hid_model.hpp>
 
 #include <cstdlib>
 #include <cstring>

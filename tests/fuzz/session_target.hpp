@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/sessions/device_session.hpp>
-#include <host/sessions/workspace.hpp>
+#include <host/devices/sessions/device_session.hpp>
+#include <host/devices/sessions/workspace.hpp>
 
 #include <cstdlib>
 #include <string_view>

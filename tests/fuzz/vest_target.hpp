@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/bhaptics/vest_messages.hpp>
+#include <host/drivers/bhaptics/vest_messages.hpp>
 
 #include <tactus/node/device.hpp>
 #include <tactus/text/json_text.hpp>

@@ -4,7 +4,7 @@
 #include "whole_clip.hpp"
 #include "whole_error.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/text/budget.hpp>
 
 #include <cmath>

@@ -37,7 +37,7 @@ def seeds():
     """Files by kind: what the repository has, small enough to mutate."""
     found = {kind: [] for kind in KINDS}
     found["graph"] += sorted((ROOT / "graphs").glob("*.json"))
-    found["profile"] += sorted((ROOT / "host/profiles").glob("*_*.json"))
+    found["profile"] += sorted((ROOT / "host/devices/profiles").glob("*_*.json"))
     corpus = ROOT / "tests/fuzz/corpus"
     for kind, folder in (("graph", "graph"), ("session", "session"), ("profile", "profile"), ("run_log", "run_log"), ("trace", "csv")):
         found[kind] += [p for p in sorted((corpus / folder).iterdir()) if p.stat().st_size < 60000]

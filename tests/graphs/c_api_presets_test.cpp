@@ -2,7 +2,7 @@
 #include "framework/capi/c_handles.hpp"
 #include "host/cli/program.hpp"
 
-#include <host/assets/image.hpp>
+#include <host/base/assets/image.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>

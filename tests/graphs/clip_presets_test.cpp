@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/measure.hpp>
 #include <tactus/file/graph_file.hpp>

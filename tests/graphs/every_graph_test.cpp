@@ -4,11 +4,11 @@
 #include "host/cli/program.hpp"
 #include "support/sketch.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/hid/physics.hpp>
-#include <host/hid/profile_reader.hpp>
-#include <host/sessions/needs.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/devices/hid/physics.hpp>
+#include <host/devices/hid/profile_reader.hpp>
+#include <host/devices/sessions/needs.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -111,7 +111,7 @@ std::string devicesFor (const graph::Graph& g, const host::hid::LoadedProfiles& 
 
 std::string readme()
 {
-    const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
+    const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "devices" / "profiles");
     std::string text = "# Presets\n\nOpen one in the host, or run `tactus play graphs/NAME.json`. This list is generated from the preset files: "
                        "`TACTUS_UPDATE=1 build/release/bin/tactus_tool_tests \"the list of presets*\"`. "
                        "[Why their guards have these limits](../docs/safety.md#the-limits-of-presets-and-profiles). The column "

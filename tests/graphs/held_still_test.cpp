@@ -3,8 +3,8 @@
 
 #include "support/sketch.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 #include <tactus/run/device/make_device.hpp>

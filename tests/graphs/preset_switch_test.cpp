@@ -4,8 +4,8 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

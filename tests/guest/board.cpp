@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A board that uses the reports of host/profiles/tactus_board.json and can misbehave on request.
+// A board that uses the reports of host/devices/profiles/tactus_board.json and can misbehave on request.
 #include "gadget.hpp"
 
 #include <algorithm>

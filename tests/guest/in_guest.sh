@@ -14,7 +14,7 @@ export HOME=$work
 # The tool seems to move many times faster than it does where reports are lost, and after the board was unplugged.
 mkdir -p $work/profiles
 sed -e 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' \
-    -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/profiles/tactus_board.json >$work/profiles/tactus_board.json
+    -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/devices/profiles/tactus_board.json >$work/profiles/tactus_board.json
 export TACTUS_PROFILES=$work/profiles
 sed 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' graphs/dry_wood.json >$work/dry_wood.json   # the graph's limit counts, too
 failures=0
@@ -199,7 +199,7 @@ keep_fake fake_faults
 say "fake-device with a profile that says it is a keyboard"
 sed -e 's/"id": "woodenhaptics_usb"/"id": "keys"/' \
     -e 's/"vid": "0x1234", "pid": "0x0006"/"vid": "0x1209", "pid": "0x0001", "usage_page": "0x0001", "usage": "0x0006"/' \
-    host/profiles/woodenhaptics_usb.json >$work/profiles/keys.json
+    host/devices/profiles/woodenhaptics_usb.json >$work/profiles/keys.json
 gone
 $work/fake fake-device keys --duration 1 >/run/results/fake_keys.txt 2>&1 & sim=$!
 wait_for '/dev/hidraw*'
@@ -404,7 +404,7 @@ kill $mouse $joystick
 
 say "a device that this user has no permission to open"
 mkdir -p $work/any   # readable by everyone; the sources may not be
-cp -r "$tactus" host/profiles graphs/dry_wood.json $work/any
+cp -r "$tactus" host/devices/profiles graphs/dry_wood.json $work/any
 chmod -R a+rX $work/any
 chmod 0600 /dev/hidraw* 2>/dev/null
 as_nobody="setpriv --reuid=65534 --regid=65534 --clear-groups"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/hid_link/virtual_hid.hpp>
+#include <host/devices/hid_link/virtual_hid.hpp>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -7,11 +7,11 @@
 
 #include <catch2/catch.hpp>
 
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/live/hardware.hpp>
-#include <host/sessions/numbers_device.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/live/hardware.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -204,7 +204,7 @@ TEST_CASE ("the id of a profile that holds only numbers means the profile, also 
     const TemporaryFolder folder;
     const Installed installed (folder.path());
     fs::copy_file (test::driverFile ("lying"), folder / "phantom_1_0.tactus-device");
-    const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
+    const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "devices" / "profiles");
     Messages notes;
     const auto driverOf = [&] (const std::string& text) {
         const auto option = host::parseDeviceOption (

@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <host/plugins/installed_plugins.hpp>
-#include <host/plugins/live_compiler.hpp>
+#include <host/code/plugins/installed_plugins.hpp>
+#include <host/code/plugins/live_compiler.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>

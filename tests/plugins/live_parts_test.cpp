@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include <host/plugins/compiler_output.hpp>
-#include <host/plugins/declarations.hpp>
-#include <host/plugins/live_source.hpp>
+#include <host/code/plugins/compiler_output.hpp>
+#include <host/code/plugins/declarations.hpp>
+#include <host/code/plugins/live_source.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <string>

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <host/plugins/live_plugins.hpp>
+#include <host/code/plugins/live_plugins.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/run/turn.hpp>

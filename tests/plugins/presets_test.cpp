@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/make_device.hpp>
 

@@ -9,9 +9,9 @@
 
 #include <host/cli/program.hpp>
 #include <host/cli/running.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/live/live_session.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/live/live_session.hpp>
 #include <tactus/text/caught.hpp>
 
 #include <algorithm>

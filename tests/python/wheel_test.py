@@ -136,7 +136,7 @@ print(len(tactus.presets()), numpy.abs(by_name).max() > 0, numpy.abs(played).max
             archive.extractall(self.folder / "sources")
         top = next((self.folder / "sources").iterdir())
         missing = [file for file in ("CMakeLists.txt", "framework/python/tactus_backend.py", "LICENSES/MIT.txt", "pyproject.toml", "PKG-INFO",
-                                     "nodes/CMakeLists.txt", "host/live/tactus_live.h") if not (top / file).is_file()]
+                                     "nodes/CMakeLists.txt", "host/devices/live/tactus_live.h") if not (top / file).is_file()]
         self.assertEqual(missing, [])
         run(sys.executable, "-m", "build", "--no-isolation", "--wheel", f"-Cbuild-dir={BUILD}", "--outdir", self.folder / "again", top, cwd=self.folder)
         self.assertEqual((self.folder / "again" / self.wheel.name).read_bytes(), self.wheel.read_bytes())

@@ -9,8 +9,8 @@ from support import ROOT, TestCase
 from tactus._words import in_python
 
 # What the two libraries of the package are made of.
-FOLDERS = ("framework", "nodes", "host/assets", "host/device_plugins", "host/hid", "host/hid_link", "host/io", "host/live", "host/platform", "host/plugins",
-           "host/sessions")
+FOLDERS = ("framework", "nodes", "host/base/assets", "host/devices/device_plugins", "host/devices/failsafe", "host/devices/hid", "host/devices/hid_link", "host/base/files", "host/devices/live", "host/base/platform", "host/code/plugins",
+           "host/devices/sessions")
 LITERAL = re.compile(r'R"\((.*?)\)"|"((?:[^"\\\n]|\\.)*)"')
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 C_NAME = re.compile(r"\btactus_(run|graph|session|messages|text|set|nodes)_?\w*")

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HEADERS = ("framework/capi/tactus.h", "host/live/tactus_live.h", "framework/plugin/tactus_plugin.h", "host/device_plugins/tactus_device.h")
+HEADERS = ("framework/capi/tactus.h", "host/devices/live/tactus_live.h", "framework/plugin/tactus_plugin.h", "host/devices/device_plugins/tactus_device.h")
 FUNCTION = re.compile(r"^TACTUS_API [^;]*?\b(tactus_\w+) \([^;]*;", re.M)
 HOOK = re.compile(r"^ +[\w* ]*\(\*\s*(\w+)\) \([^;]*;", re.M)
 TYPE = re.compile(r"^typedef \w+ \(\*(tactus_\w+)\) \([^;]*;", re.M)

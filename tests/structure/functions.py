@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ["nodes", "framework/kit", "framework/node", "framework/plan", "framework/run", "framework/plugin", "host/hid", "host/audio"]
+FOLDERS = ["nodes", "framework/kit", "framework/node", "framework/plan", "framework/run", "framework/plugin", "host/devices/hid", "host/devices/audio"]
 EXEMPT = {"framework/run/clock/tick_account.cpp": "it counts how long ticks take, and no tick reads the counts"}
 INEXACT = """sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow cbrt hypot
     fmod remainder remquo erf erfc tgamma lgamma sincos polar arg fma exp10 pow10 sinpi cospi

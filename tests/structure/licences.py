@@ -14,11 +14,11 @@ import pathlib
 import re
 import sys
 
-MIT_ROOMS = ["audio", "bhaptics", "check_plugin", "command_line", "device_plugins", "evdev", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply",
-             "hid", "hid_link", "live", "platform", "plugins", "profiles", "sessions", "websocket"]
-GPL_ROOMS = ["app", "bench", "cli", "packaging"]
-MIXED = ["assets", "io", "osc"]
-CARDS = "host/audio/juce_cards.cpp"
+MIT_PARTS = ["code", "devices", "drivers"]   # of host
+MIT_ROOMS = ["base/command_line", "base/platform", "tools/check_plugin", "tools/fitting"]
+MIXED = ["base/assets", "base/files", "devices/osc", "tools/figures"]
+GPL_TESTS = ["app", "cli", "tools/bench"]
+CARDS = "host/devices/audio/juce_cards.cpp"
 ISC = ("juce_core", "juce_events", "juce_audio_basics", "juce_audio_devices")
 SOURCES = (".c", ".cpp", ".hpp", ".h", ".cmake", ".py", ".sh")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -34,12 +34,13 @@ def should_be(root, path):
     """The licence that the folder asks for; "" if each file decides."""
     parts = path.parts
     if parts[0] == "tests":
-        of_gpl = len(parts) > 3 and parts[1] == "host" and parts[2] in GPL_ROOMS
+        of_gpl = parts[1] == "host" and any(path.is_relative_to("tests/host/" + room) for room in GPL_TESTS)
         return "GPL-3.0-or-later" if of_gpl or any(is_gpl(root, what) for what in included(root, path)) else "MIT"
     if parts[0] in ("framework", "nodes", "graphs", "docs"):
         return "MIT"
     if parts[0] == "host" and len(parts) > 2:
-        return "" if parts[1] in MIXED else "MIT" if parts[1] in MIT_ROOMS else "GPL-3.0-or-later"
+        room = "/".join(parts[1:3])
+        return "" if room in MIXED else "MIT" if parts[1] in MIT_PARTS or room in MIT_ROOMS else "GPL-3.0-or-later"
     return ""
 
 

@@ -12,17 +12,17 @@ import pathlib
 import re
 import sys
 
-SESSION = "host/live/live_session.cpp"
+SESSION = "host/devices/live/live_session.cpp"
 ONLY = [
-    ("choosing a clock", r"host::chooseClock \(", ["host/live/role_devices.cpp"]),
-    ("opening the device of a session", r"host::openBound \(", ["host/live/role_devices.cpp"]),
-    ("opening a real device", r"hid::openDevice \(", ["host/live/hardware.cpp", "host/sessions/awaited_device.cpp"]),
+    ("choosing a clock", r"host::chooseClock \(", ["host/devices/live/role_devices.cpp"]),
+    ("opening the device of a session", r"host::openBound \(", ["host/devices/live/role_devices.cpp"]),
+    ("opening a real device", r"hid::openDevice \(", ["host/devices/live/hardware.cpp", "host/devices/sessions/awaited_device.cpp"]),
     ("opening the devices of a live run", r"running->openDevices \(", [SESSION]),
     ("making the clock of a device", r"make_unique<RunClock>", [SESSION]),
     ("starting the ticks", r"running->start \(", [SESSION]),
     ("starting a log", r"startLog \(", [SESSION]),
     ("looking at alarms of the failsafe", r"Failsafe::alarms \(|Failsafe::alarms\(\)(?! noexcept)", [SESSION]),
-    ("arming a device", r"= Failsafe::arm \(", ["host/hid_link/hidapi_system.cpp", "host/hid_link/wires.cpp", "host/device_plugins/driver_about.cpp"]),
+    ("arming a device", r"= Failsafe::arm \(", ["host/devices/hid_link/hidapi_system.cpp", "host/devices/hid_link/wires.cpp", "host/devices/device_plugins/driver_about.cpp"]),
     ("rearming a run", r"engine\(\)\.rearm\(\)", [SESSION]),
     ("stopping an engine", r"engine\(\)\.emergencyStop\(\)", [SESSION]),
     ("watching the health of devices", r"= HealthWatch \{", [SESSION]),
@@ -30,10 +30,10 @@ ONLY = [
 ]
 
 WALK = [
-    ("telling what a record of a plan does", r"[!=]= ?&plan::\w+::\w+|\{ ?&plan::\w+::step", ["host/generate/walk/visit_record.hpp"]),
-    ("ordering what the converters of a section do", r"each \(Action::", ["host/generate/walk/plan_walk.cpp"]),
-    ("ordering what a driven node does", r"\bupdateIfMoved \(n", ["host/generate/walk/plan_walk.cpp"]),
-    ("writing the inputs of a node in C++", r"inOrder \(std::move", ["host/generate/walk/cpp_walk.cpp"]),
+    ("telling what a record of a plan does", r"[!=]= ?&plan::\w+::\w+|\{ ?&plan::\w+::step", ["host/code/generate/walk/visit_record.hpp"]),
+    ("ordering what the converters of a section do", r"each \(Action::", ["host/code/generate/walk/plan_walk.cpp"]),
+    ("ordering what a driven node does", r"\bupdateIfMoved \(n", ["host/code/generate/walk/plan_walk.cpp"]),
+    ("writing the inputs of a node in C++", r"inOrder \(std::move", ["host/code/generate/walk/cpp_walk.cpp"]),
 ]
 
 TEXT, CLIPS = "framework/text/", "framework/file/clips/"

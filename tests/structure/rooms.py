@@ -6,10 +6,12 @@ Usage: rooms.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 
 
 - host includes nodes and framework, and nodes includes framework, never the other way round.
 - Within framework/, includes point downwards only, in the order of LAYERS.
-- Folders do not form a ring. A folder such as framework/plan, nodes/cut or host/hid counts as one, together with its rooms, which are its
-  subfolders. Each subfolder of host/app counts on its own.
+- The parts of host include those that HOST lists for them, and no others. A driver includes no more of Tactus than DRIVERS lists.
+- Folders do not form a ring. A folder such as framework/plan, nodes/cut or host/devices/hid counts as one, together with its rooms, which are
+  its subfolders. host/cli counts as one.
 - docs/architecture.md, "Rooms and doors": if it lists a room of a folder, it lists all of them, each with its doors, which are the headers that
-  others include. It lists the folders that have more than MOST_FILES files.
+  others include. The doors of a folder such as host/devices/hid are the headers that other parts of host include. The page also lists the
+  folders that have more than MOST_FILES files.
 - The folders of MODELS include no header of a component."""
 
 import pathlib
@@ -18,6 +20,10 @@ import sys
 
 LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
+HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers": {"base", "devices"}, "tools": {"base", "code", "devices"},
+        "cli": {"base", "code", "devices", "drivers", "tools"}, "app": {"base", "code", "devices", "drivers", "tools"}}
+DRIVERS = ["base/platform/peer_lock.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
+           "devices/hid/calibration.hpp", "devices/hid/vibration_tracker.hpp"]
 MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
 PAGE = "docs/architecture.md"
 MOST_FILES = 40
@@ -55,8 +61,13 @@ def in_the_tree(header):
 
 
 def house(path):
-    """What counts as one folder: a folder with its rooms, but in host/app each subfolder."""
-    return pathlib.PurePath(*path.parent.parts[:3 if path.parts[:2] == ("host", "app") else 2])
+    """What counts as one folder: a folder with its rooms, in framework/, nodes/ and in the parts of host."""
+    return pathlib.PurePath(*path.parent.parts[:3 if path.parts[0] == "host" and path.parts[1] != "cli" else 2])
+
+
+def part(path):
+    """The part of host that a file belongs to, such as host/devices."""
+    return pathlib.PurePath(*path.parts[:2])
 
 
 def level(path, order, depth):
@@ -71,12 +82,26 @@ def points_upwards(file, target):
         return f"{file.parts[0]} must not include {target.parts[0]}"
     if there > here:
         return f"{PARTS[here]} must not include {PARTS[there]}"
+    if file.parts[0] == "host" and target.parts[0] == "host":
+        return not_for_part(file, target)
     if file.parts[0] != "framework" or target.parts[0] != "framework":
         return None
     below, above = level(file, LAYERS, 1), level(target, LAYERS, 1)
     if below is None or above is None:
         return "framework/ has a folder that LAYERS does not list; add it to LAYERS in rooms.py"
     return f"{LAYERS[below]} must not include {LAYERS[above]}" if above > below else None
+
+
+def not_for_part(file, target):
+    """The reason why a file of host may not include another one, or None."""
+    here, there = file.parts[1], target.parts[1]
+    if here not in HOST:
+        return f"host/ has a part that HOST does not list: {here}; put the file into one of {', '.join(HOST)}"
+    if here != there and there not in HOST[here]:
+        return f"host/{here} must not include host/{there}"
+    if here == "drivers" != there and target.relative_to("host").as_posix() not in DRIVERS:
+        return "a driver needs tactus_device.h and the headers of DRIVERS in rooms.py"
+    return None
 
 
 def shortest_ring(start, edges):
@@ -121,9 +146,10 @@ def wrong_doors(root, files, all_includes):
         folders.setdefault(file.parent, []).append(file)
     problems = [] if rooms else [f"{PAGE}: no room is listed under \"Rooms and doors\""]
     for room, (line, doors) in rooms.items():
-        used = {target.relative_to(room).as_posix() for file, _, target in all_includes if room in target.parents and room not in file.parents}
+        inside = part(room) if len(room.parts) == 3 and room.parts[0] == "host" else room
+        used = {target.relative_to(room).as_posix() for file, _, target in all_includes if room in target.parents and inside not in file.parents}
         problems += [f"{PAGE}:{line}: {room} has another door: {name}" for name in sorted(used - doors)]
-        problems += [f"{PAGE}:{line}: no file outside of {room} includes {name}" for name in sorted(doors - used)]
+        problems += [f"{PAGE}:{line}: no file outside of {inside} includes {name}" for name in sorted(doors - used)]
     with_rooms = {room.parent for room in rooms}
     problems += [f"{PAGE}: the room {folder} is not listed" for folder in sorted(folders)
                  if folder.parent in with_rooms and folder not in rooms]

@@ -36,7 +36,7 @@ LEFT_OUT = [
     ("tests/bench", "measures time, and judges none"),
     ("tests/guest", "programs and devices in a machine whose clock counts instructions"),
     ("tests/host/app/screens", "films and listens to the program"),
-    ("tests/host/generate/exported_code.cpp", "the program that it writes prints its time"),
+    ("tests/host/code/generate/exported_code.cpp", "the program that it writes prints its time"),
     ("tests/plugins/objects", "devices and nodes, which are slow on purpose"),
     ("tests/mutants", "a program that people start by hand: it ends compilers that do not end"),
     ("tests/structure/waits.py", "examples"),

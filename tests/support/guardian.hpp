@@ -10,7 +10,7 @@
 namespace tactus::test
 {
 
-/// The guardian process (host/platform/guardian.hpp) that this process has forked; -1 if there is none. A moment after the fork it
+/// The guardian process (host/devices/failsafe/guardian.hpp) that this process has forked; -1 if there is none. A moment after the fork it
 /// does not have its name yet.
 inline pid_t guardianOf (pid_t process)
 {

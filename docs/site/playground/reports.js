@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// HID reports, as the profiles of Tactus describe them (host/profiles).
+// HID reports, as the profiles of Tactus describe them (host/devices/profiles).
 import { si } from './quantity.js';
 
 /** "54 01 00*62" as bytes. */

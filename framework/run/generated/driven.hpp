@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-/// What fused code (host/fuse) and exported code (host/generate) share.
+/// What fused code (host/code/fuse) and exported code (host/code/generate) share.
 namespace tactus::generated
 {
 

@@ -5,7 +5,7 @@
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/text/file_path.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node_fault.hpp>
 #include <tactus/plan/settings.hpp>

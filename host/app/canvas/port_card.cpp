@@ -3,7 +3,7 @@
 
 #include <host/app/look/component_colour.hpp>
 #include <host/app/look/fitted_text.hpp>
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 #include "binding_choice.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/hid/physics.hpp>
-#include <host/hid_link/force_feedback.hpp>
-#include <host/sessions/audio_settings.hpp>
-#include <host/sessions/numbers_device.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/devices/hid/physics.hpp>
+#include <host/devices/hid_link/force_feedback.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 
 #include <tactus/run/device/gestures.hpp>
 #include <tactus/run/device/make_device.hpp>

@@ -3,8 +3,8 @@
 
 #include <host/app/run/connected_events.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/hid/profile_reader.hpp>
-#include <host/hid_link/transport.hpp>
+#include <host/devices/hid/profile_reader.hpp>
+#include <host/devices/hid_link/transport.hpp>
 #include <tactus/text/json.hpp>
 
 #include <span>

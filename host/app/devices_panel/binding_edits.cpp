@@ -3,7 +3,7 @@
 #include "devices_panel.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/sessions/audio_settings.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
 
 #include <cmath>
 #include <memory>

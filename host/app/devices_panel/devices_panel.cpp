@@ -7,8 +7,8 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/hid_link/force_feedback.hpp>
-#include <host/sessions/audio_settings.hpp>
+#include <host/devices/hid_link/force_feedback.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
 
 #include <algorithm>
 #include <utility>

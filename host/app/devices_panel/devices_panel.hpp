@@ -6,8 +6,8 @@
 #include <host/app/inspector/describe.hpp>
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
-#include <host/audio/card.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/devices/audio/card.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 
 namespace tactus::host
 {

@@ -2,8 +2,8 @@
 #include "reach.hpp"
 #include "binding_choice.hpp"
 
-#include <host/hid/calibration.hpp>
-#include <host/hid/physics.hpp>
+#include <host/devices/hid/calibration.hpp>
+#include <host/devices/hid/physics.hpp>
 
 #include <algorithm>
 

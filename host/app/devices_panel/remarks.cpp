@@ -5,9 +5,9 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/audio/audio_rig.hpp>
-#include <host/hid/physics.hpp>
-#include <host/sessions/numbers_device.hpp>
+#include <host/devices/audio/audio_rig.hpp>
+#include <host/devices/hid/physics.hpp>
+#include <host/devices/sessions/numbers_device.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sound_text.hpp"
 
-#include <host/sessions/audio_settings.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
 
 #include <charconv>
 

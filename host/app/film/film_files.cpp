@@ -2,10 +2,10 @@
 #include "film_files.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/audio/listening.hpp>
-#include <host/io/animated_png.hpp>
-#include <host/platform/background_program.hpp>
-#include <host/platform/private_folder.hpp>
+#include <host/base/platform/background_program.hpp>
+#include <host/base/platform/private_folder.hpp>
+#include <host/devices/audio/listening.hpp>
+#include <host/tools/figures/animated_png.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <chrono>

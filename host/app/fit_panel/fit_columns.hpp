@@ -3,7 +3,7 @@
 
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/tool_button.hpp>
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 
 #include <functional>
 #include <memory>

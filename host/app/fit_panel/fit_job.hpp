@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 
 #include <memory>
 #include <optional>

@@ -6,7 +6,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/fitting/recording_file.hpp>
+#include <host/tools/fitting/recording_file.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 

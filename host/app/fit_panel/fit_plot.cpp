@@ -4,7 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/look.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/app/text/filled.hpp>
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

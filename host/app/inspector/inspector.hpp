@@ -4,7 +4,7 @@
 #include "describe.hpp"
 #include "knob_strip.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 
 #include <functional>
 #include <memory>

@@ -5,7 +5,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

@@ -4,12 +4,12 @@
 
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/hid/physics.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/sessions/binding.hpp>
-#include <host/sessions/choose_clock.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/devices/hid/physics.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/sessions/binding.hpp>
+#include <host/devices/sessions/choose_clock.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/assets/file_assets.hpp>
-#include <host/hid/profile_reader.hpp>
-#include <host/sessions/session_file.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/devices/hid/profile_reader.hpp>
+#include <host/devices/sessions/session_file.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/graph/graph.hpp>

@@ -3,7 +3,7 @@
 
 #include "caret.hpp"
 
-#include <host/io/typeface.hpp>
+#include <host/tools/figures/typeface.hpp>
 
 namespace tactus::host
 {

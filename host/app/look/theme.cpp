@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "theme.hpp"
 
-#include <host/io/colours.hpp>
+#include <host/tools/figures/colours.hpp>
 
 namespace tactus::host
 {

@@ -2,8 +2,8 @@
 #include "force_picture.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/device/make_device.hpp>

@@ -3,7 +3,7 @@
 
 #include <host/app/text/filled.hpp>
 #include <host/app/text/find.hpp>
-#include <host/platform/home_folder.hpp>
+#include <host/base/platform/home_folder.hpp>
 
 #include <tactus/file/graph_file.hpp>
 

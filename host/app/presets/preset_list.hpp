@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/platform/preset_folder.hpp>
+#include <host/base/platform/preset_folder.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "connected_events.hpp"
 
 #if TACTUS_EVDEV
-#include <host/evdev/event_device.hpp>
+#include <host/drivers/evdev/event_device.hpp>
 #endif
 
 namespace tactus::host

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid_link/profile_library.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 
 namespace tactus::host
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_setup.hpp"
 
-#include <host/hid_link/force_feedback.hpp>
+#include <host/devices/hid_link/force_feedback.hpp>
 #include <tactus/text/caught.hpp>
 
 #include <algorithm>

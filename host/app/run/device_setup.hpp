@@ -4,8 +4,8 @@
 #include "connected_events.hpp"
 #include "device_profiles.hpp"
 
-#include <host/hid_link/open_device.hpp>
-#include <host/sessions/session_file.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/sessions/session_file.hpp>
 #include <tactus/text/result.hpp>
 
 #include <condition_variable>

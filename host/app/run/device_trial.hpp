@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/sessions/needs.hpp>
+#include <host/devices/sessions/needs.hpp>
 
 #include <tactus/graph/graph.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/plugins/live_plugins.hpp>
+#include <host/code/plugins/live_plugins.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <chrono>

@@ -3,8 +3,8 @@
 #include "device_setup.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/platform/signals.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/signals.hpp>
 #include <tactus/check/factors.hpp>
 #include <tactus/run/guard/included_guards.hpp>
 #include <tactus/run/turn.hpp>

@@ -10,9 +10,9 @@
 
 #include <host/app/film/film_tape.hpp>
 #include <host/app/model/document.hpp>
-#include <host/assets/file_assets.hpp>
-#include <host/audio/open_audio.hpp>
-#include <host/live/live_session.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/devices/audio/open_audio.hpp>
+#include <host/devices/live/live_session.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/device/sim.hpp>
 

@@ -4,9 +4,9 @@
 #include "device_setup.hpp"
 #include "live_run.hpp"
 
-#include <host/hid_link/open_device.hpp>
-#include <host/sessions/binding.hpp>
-#include <host/sessions/role_fits.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/sessions/binding.hpp>
+#include <host/devices/sessions/role_fits.hpp>
 #include <tactus/run/device/gesture_device.hpp>
 #include <tactus/run/device/trace.hpp>
 

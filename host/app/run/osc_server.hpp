@@ -3,8 +3,8 @@
 
 #include "playback.hpp"
 
-#include <host/osc/remote_control.hpp>
-#include <host/osc/token_file.hpp>
+#include <host/devices/osc/remote_control.hpp>
+#include <host/devices/osc/token_file.hpp>
 
 #include <functional>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/audio/card_keeper.hpp>
-#include <host/audio/high_pass.hpp>
-#include <host/audio/stream.hpp>
+#include <host/devices/audio/card_keeper.hpp>
+#include <host/devices/audio/high_pass.hpp>
+#include <host/devices/audio/stream.hpp>
 #include <tactus/text/result.hpp>
 
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 
 #include <algorithm>
 #include <array>

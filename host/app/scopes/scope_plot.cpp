@@ -4,7 +4,7 @@
 #include <host/app/look/component_colour.hpp>
 #include <host/app/model/with_prefix.hpp>
 
-#include <host/io/colours.hpp>
+#include <host/tools/figures/colours.hpp>
 
 #include <algorithm>
 #include <cmath>

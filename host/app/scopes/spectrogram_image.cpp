@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "spectrogram_image.hpp"
 
-#include <host/io/colours.hpp>
-#include <host/io/spectrogram.hpp>
+#include <host/tools/figures/colours.hpp>
+#include <host/tools/figures/spectrogram.hpp>
 
 #include <bit>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/colours.hpp>
+#include <host/tools/figures/colours.hpp>
 
 #include <cmath>
 

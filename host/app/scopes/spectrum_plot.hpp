@@ -3,7 +3,7 @@
 
 #include "scope_plot.hpp"
 
-#include <host/io/spectrum.hpp>
+#include <host/tools/figures/spectrum.hpp>
 
 namespace tactus::host
 {

@@ -2,10 +2,10 @@
 #include "carry_files.hpp"
 
 #include <host/app/text/file_path.hpp>
-#include <host/assets/file_assets.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/platform/home_folder.hpp>
-#include <host/plugins/installed_plugins.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/platform/home_folder.hpp>
+#include <host/code/plugins/installed_plugins.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>

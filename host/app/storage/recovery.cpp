@@ -3,7 +3,7 @@
 
 #include <host/app/text/filled.hpp>
 
-#include <host/platform/private_folder.hpp>
+#include <host/base/platform/private_folder.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/ownership.hpp>

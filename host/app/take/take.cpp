@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "take.hpp"
 
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/platform/private_folder.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/private_folder.hpp>
 #include <tactus/run/log/run_test.hpp>
 
 #include <chrono>

@@ -4,8 +4,8 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/scopes/scope_ports.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/io/stretch_files.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/files/stretch_files.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/read_number.hpp>

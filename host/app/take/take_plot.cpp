@@ -5,7 +5,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 
 #include <algorithm>
 #include <cmath>

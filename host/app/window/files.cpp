@@ -8,7 +8,7 @@
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>

@@ -7,7 +7,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/juce/native_window.hpp>
+#include <host/base/juce/native_window.hpp>
 #include <tactus/plan/rules/unheard.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
 namespace tactus::host

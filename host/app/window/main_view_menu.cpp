@@ -10,7 +10,7 @@
 #include <host/app/look/key_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <array>

@@ -8,7 +8,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/sessions/audio_settings.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
 
 #include <algorithm>
 

@@ -8,9 +8,9 @@
 #include <host/cli/report.hpp>
 #include <host/cli/run_options.hpp>
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/hid_link/profile_library.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/rules/unheard.hpp>

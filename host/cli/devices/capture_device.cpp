@@ -2,15 +2,15 @@
 #include "capture_device.hpp"
 #include "capture_service.hpp"
 
+#include <host/base/platform/device_file.hpp>
+#include <host/base/platform/signals.hpp>
 #include <host/cli/report.hpp>
-#include <host/hid_link/capture.hpp>
-#include <host/hid_link/hid_device.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/hid_link/udev_rule.hpp>
-#include <host/hid_link/wire_file.hpp>
-#include <host/platform/device_file.hpp>
-#include <host/platform/signals.hpp>
+#include <host/devices/hid_link/capture.hpp>
+#include <host/devices/hid_link/hid_device.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
+#include <host/devices/hid_link/udev_rule.hpp>
+#include <host/devices/hid_link/wire_file.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid_link/open_device.hpp>
+#include <host/devices/hid_link/open_device.hpp>
 
 #include <memory>
 #include <string>

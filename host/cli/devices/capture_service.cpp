@@ -3,13 +3,13 @@
 
 #if defined(TACTUS_SERVICES)
 
-#include <host/bhaptics/vest.hpp>
+#include <host/base/platform/signals.hpp>
 #include <host/cli/report.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/haply/inverse3.hpp>
-#include <host/hid_link/capture.hpp>
-#include <host/platform/signals.hpp>
-#include <host/websocket/service_relay.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid_link/capture.hpp>
+#include <host/drivers/bhaptics/vest.hpp>
+#include <host/drivers/haply/inverse3.hpp>
+#include <host/drivers/websocket/service_relay.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

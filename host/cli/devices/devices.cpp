@@ -3,17 +3,17 @@
 #include "event_devices.hpp"
 #include "numbers_only.hpp"
 
-#include <host/audio/card.hpp>
+#include <host/base/platform/signals.hpp>
+#include <host/base/platform/terminal.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
-#include <host/hid_link/force_feedback.hpp>
-#include <host/hid_link/hid_device.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/hid_link/serial_ports.hpp>
-#include <host/hid_link/udev_rule.hpp>
-#include <host/platform/signals.hpp>
-#include <host/platform/terminal.hpp>
+#include <host/devices/audio/card.hpp>
+#include <host/devices/hid_link/force_feedback.hpp>
+#include <host/devices/hid_link/hid_device.hpp>
+#include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/hid_link/profile_library.hpp>
+#include <host/devices/hid_link/serial_ports.hpp>
+#include <host/devices/hid_link/udev_rule.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>

@@ -3,9 +3,9 @@
 
 #if TACTUS_EVDEV
 #include <host/cli/report.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
-#include <host/device_plugins/plugin_device.hpp>
-#include <host/evdev/event_device.hpp>
+#include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/device_plugins/plugin_device.hpp>
+#include <host/drivers/evdev/event_device.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numbers_only.hpp"
 
-#include <host/hid/physics.hpp>
+#include <host/devices/hid/physics.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile_reader.hpp>
+#include <host/devices/hid/profile_reader.hpp>
 #include <tactus/text/json.hpp>
 
 #include <memory>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit_command.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <host/cli/amount.hpp>
 #include <host/cli/overwriting.hpp>
 #include <host/cli/report.hpp>
-#include <host/fitting/recording_file.hpp>
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
+#include <host/tools/fitting/recording_file.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/command_line/command.hpp>
-#include <host/fitting/fitting.hpp>
+#include <host/base/command_line/command.hpp>
+#include <host/tools/fitting/fitting.hpp>
 
 #include <functional>
 #include <memory>

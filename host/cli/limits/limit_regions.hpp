@@ -5,10 +5,10 @@
 #include "contact_at.hpp"
 #include "varied.hpp"
 
+#include <host/base/platform/signals.hpp>
 #include <host/cli/progress.hpp>
 #include <host/cli/report.hpp>
-#include <host/io/plot.hpp>
-#include <host/platform/signals.hpp>
+#include <host/tools/figures/plot.hpp>
 
 #include <algorithm>
 #include <cmath>

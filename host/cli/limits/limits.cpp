@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limit_regions.hpp"
 
+#include <host/base/platform/signals.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/graph_argument.hpp>
 #include <host/cli/overwriting.hpp>
 #include <host/cli/progress.hpp>
 #include <host/cli/render/figure_size.hpp>
 #include <host/cli/run_options.hpp>
-#include <host/io/plot.hpp>
-#include <host/platform/signals.hpp>
+#include <host/tools/figures/plot.hpp>
 #include <tactus/check/report.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>

@@ -2,7 +2,7 @@
 #include "osc_client.hpp"
 
 #include <host/cli/report.hpp>
-#include <host/osc/token_file.hpp>
+#include <host/devices/osc/token_file.hpp>
 
 namespace tactus::host
 {

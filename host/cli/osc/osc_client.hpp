@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/command_line/command.hpp>
-#include <host/osc/osc_port.hpp>
+#include <host/base/command_line/command.hpp>
+#include <host/devices/osc/osc_port.hpp>
 
 #include <memory>
 #include <string>

@@ -3,9 +3,9 @@
 #include "osc_client.hpp"
 #include "triggered_probe.hpp"
 
+#include <host/base/platform/signals.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
-#include <host/platform/signals.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -2,8 +2,8 @@
 #include "triggered_probe.hpp"
 #include "float_text.hpp"
 
+#include <host/base/platform/signals.hpp>
 #include <host/cli/report.hpp>
-#include <host/platform/signals.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_account.hpp"
 
-#include <host/hid_link/hid_device.hpp>
+#include <host/devices/hid_link/hid_device.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 

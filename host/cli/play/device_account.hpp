@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/sessions/device_health.hpp>
-#include <host/sessions/run_clock.hpp>
+#include <host/devices/sessions/device_health.hpp>
+#include <host/devices/sessions/run_clock.hpp>
 
 #include <span>
 #include <string>

@@ -2,7 +2,7 @@
 #include "emergency.hpp"
 #include "lone_key.hpp"
 
-#include <host/platform/signals.hpp>
+#include <host/base/platform/signals.hpp>
 #include <tactus/run/realtime.hpp>
 #include <tactus/text/caught.hpp>
 

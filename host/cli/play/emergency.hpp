@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/live/live_session.hpp>
-#include <host/platform/terminal.hpp>
+#include <host/base/platform/terminal.hpp>
+#include <host/devices/live/live_session.hpp>
 
 #include <atomic>
 #include <string>

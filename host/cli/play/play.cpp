@@ -5,17 +5,17 @@
 #include "play_status.hpp"
 #include "remote.hpp"
 
+#include <host/base/files/file_watch.hpp>
+#include <host/base/platform/patient_output.hpp>
+#include <host/base/platform/signals.hpp>
+#include <host/base/platform/terminal.hpp>
 #include <host/cli/command_run.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
-#include <host/fuse/fuser.hpp>
-#include <host/io/file_watch.hpp>
-#include <host/osc/osc_options.hpp>
-#include <host/osc/token_file.hpp>
-#include <host/platform/patient_output.hpp>
-#include <host/platform/signals.hpp>
-#include <host/platform/terminal.hpp>
-#include <host/plugins/live_plugins.hpp>
+#include <host/code/fuse/fuser.hpp>
+#include <host/code/plugins/live_plugins.hpp>
+#include <host/devices/osc/osc_options.hpp>
+#include <host/devices/osc/token_file.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 

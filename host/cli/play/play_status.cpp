@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "play_status.hpp"
 
-#include <host/platform/status_line.hpp>
-#include <host/platform/terminal.hpp>
+#include <host/base/platform/status_line.hpp>
+#include <host/base/platform/terminal.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

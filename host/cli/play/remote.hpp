@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/cli/command_run.hpp>
-#include <host/osc/remote_control.hpp>
+#include <host/devices/osc/remote_control.hpp>
 #include <tactus/run/runner.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plot_options.hpp"
 
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
 #include <tactus/text/quote.hpp>
 
 namespace tactus::host

@@ -2,7 +2,7 @@
 #include "plotter.hpp"
 
 #include <host/cli/report.hpp>
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
 
 #include <algorithm>
 

@@ -2,16 +2,16 @@
 #include "plot_options.hpp"
 #include "plotter.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/audio/listening.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/signals.hpp>
 #include <host/cli/command_run.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/overwriting.hpp>
 #include <host/cli/progress.hpp>
 #include <host/cli/recorder.hpp>
 #include <host/cli/report.hpp>
-#include <host/platform/signals.hpp>
+#include <host/devices/audio/listening.hpp>
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/run/replay.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "spectrum_options.hpp"
 
+#include <host/base/platform/signals.hpp>
 #include <host/cli/command_run.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/progress.hpp>
 #include <host/cli/report.hpp>
-#include <host/platform/signals.hpp>
 
 #include <memory>
 

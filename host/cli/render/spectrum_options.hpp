@@ -3,8 +3,8 @@
 
 #include "figure_size.hpp"
 
-#include <host/io/plot.hpp>
-#include <host/io/spectrogram.hpp>
+#include <host/tools/figures/plot.hpp>
+#include <host/tools/figures/spectrogram.hpp>
 #include <tactus/plan/plan.hpp>
 
 #include <string>

@@ -2,8 +2,9 @@
 #include "spectrum_options.hpp"
 #include "stroke.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
+#include <host/base/platform/signals.hpp>
 #include <host/cli/amount.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/graph_argument.hpp>
@@ -11,9 +12,8 @@
 #include <host/cli/progress.hpp>
 #include <host/cli/report.hpp>
 #include <host/cli/run_options.hpp>
-#include <host/fitting/surface_preset.hpp>
-#include <host/platform/signals.hpp>
-#include <host/sessions/audio_settings.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/budget.hpp>

@@ -4,8 +4,8 @@
 
 #include "program.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/io/plot.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/tools/figures/plot.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/kit/geometry/mesh_walk.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/io/clip_io.hpp>
-#include <host/io/clip_samples.hpp>
-#include <host/io/wav.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/files/clip_io.hpp>
+#include <host/base/files/clip_samples.hpp>
+#include <host/base/files/wav.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/text/number_text.hpp>
 

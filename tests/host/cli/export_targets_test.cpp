@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "../generate/fmu.hpp"
+#include "../code/generate/fmu.hpp"
 
 #include <tactus/run/log/run_head.hpp>
 #include <tactus/text/number_text.hpp>
@@ -250,7 +250,7 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
                   { serial_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" }, {}, true },
                   { tight_scratch, tight, { "0.5", "20", "2" }, {} },
                   { single_scratch, tight, { "0.5", "20", "2" }, { "--float" } } };
-    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
+    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/code/generate/boards";
     double pushed_s[2] {};
     for (const auto& patch : patches)
     {

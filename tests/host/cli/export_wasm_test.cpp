@@ -68,7 +68,7 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
         runTactus ({ "render", "canvas_weave", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "weave=0.8", "--out", out });
     INFO (here.err);
     REQUIRE (here.status == 0);
-    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/canvas_weave.js", trace,
+    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/code/generate/wasm/render_in_node.mjs", folder + "/canvas_weave.js", trace,
                                              "drag.d_max=0.0005", "weave=0.8" });
     INFO (there.err);
     REQUIRE (there.status == 0);

@@ -4,9 +4,9 @@
 #include "program.hpp"
 #include "running.hpp"
 
-#include <host/hid/hex.hpp>
-#include <host/hid_link/capture.hpp>
-#include <host/osc/osc_port.hpp>
+#include <host/devices/hid/hex.hpp>
+#include <host/devices/hid_link/capture.hpp>
+#include <host/devices/osc/osc_port.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/json.hpp>
 
@@ -289,7 +289,7 @@ TEST_CASE ("a line that carries only garbage is told from one that carries nothi
 TEST_CASE ("a board whose rate is not that of its profile is told, with the speed of the graph", "[cli][wires]")
 {
     const test::Scratch scratch;
-    auto slow = *readTextFile (TACTUS_SOURCE_DIR "/host/profiles/tactus_board.json");
+    auto slow = *readTextFile (TACTUS_SOURCE_DIR "/host/devices/profiles/tactus_board.json");
     const auto change = [&] (const std::string& from, const std::string& to) {
         REQUIRE (slow.find (from) != std::string::npos);
         slow.replace (slow.find (from), from.size(), to);

@@ -4,7 +4,7 @@
 #include "running.hpp"
 #include "support/waiting.hpp"
 
-#include <host/osc/osc_port.hpp>
+#include <host/devices/osc/osc_port.hpp>
 
 #include <catch2/catch.hpp>
 

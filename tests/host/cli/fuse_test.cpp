@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "running.hpp"
 
-#include <host/fuse/bitcode.hpp>
+#include <host/code/fuse/bitcode.hpp>
 
 #include <catch2/catch.hpp>
 

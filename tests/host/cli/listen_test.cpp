@@ -2,7 +2,7 @@
 // `tactus render --listen`: a sound for loudspeakers.
 #include "program.hpp"
 
-#include <host/io/wav.hpp>
+#include <host/base/files/wav.hpp>
 
 #include <catch2/catch.hpp>
 

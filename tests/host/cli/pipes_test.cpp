@@ -3,7 +3,7 @@
 
 #include "running.hpp"
 
-#include <host/osc/osc_port.hpp>
+#include <host/devices/osc/osc_port.hpp>
 #include <tactus/plugin/plugin_library.hpp>
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
 #include <tactus/file/assets/table.hpp>
 #include <tactus/file/csv.hpp>
 

@@ -4,7 +4,7 @@
 
 #include "program.hpp"
 
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
 #include <support/property.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/text/number_text.hpp>

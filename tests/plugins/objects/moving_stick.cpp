@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The driver of event devices, with a stick that moves by itself. Tests of the window open it as they would open the real one.
 
-#include <host/evdev/driver.hpp>
+#include <host/drivers/evdev/driver.hpp>
 
 #include <chrono>
 #include <thread>

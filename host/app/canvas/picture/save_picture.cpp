@@ -2,8 +2,8 @@
 #include "save_picture.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/io/clip_io.hpp>
-#include <host/io/figure/vector_canvas.hpp>
+#include <host/base/files/clip_io.hpp>
+#include <host/tools/figures/figure/vector_canvas.hpp>
 #include <tactus/file/atomic_file.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "plot_box.hpp"
 
 #include <host/app/look/fitted_text.hpp>
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/app/text/file_path.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 
 #include <tactus/kit/assets.hpp>
 #include <tactus/node/setting.hpp>

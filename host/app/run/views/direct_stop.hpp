@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/live/stop_switch.hpp>
-#include <host/platform/window_stop.hpp>
+#include <host/base/platform/window_stop.hpp>
+#include <host/devices/live/stop_switch.hpp>
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <atomic>

@@ -8,7 +8,7 @@
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/io/axis.hpp>
+#include <host/tools/figures/axis.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 
 #include <host/app/layers/mixer.hpp>
 #include <host/app/model/clip_graph.hpp>
-#include <host/assets/file_assets.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>

@@ -4,7 +4,7 @@
 #include "support/sketch.hpp"
 
 #include <host/app/canvas/node_curve.hpp>
-#include <host/io/clip_io.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node_fault.hpp>
 

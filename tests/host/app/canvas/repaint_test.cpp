@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <host/io/figure/vector_canvas.hpp>
+#include <host/tools/figures/figure/vector_canvas.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
-#include "host/hid_link/fake_board.hpp"
+#include "host/devices/hid_link/fake_board.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <host/app/devices_panel/devices_panel.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/window_rig.hpp"
 
-#include <host/audio/card.hpp>
+#include <host/devices/audio/card.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

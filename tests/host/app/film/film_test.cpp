@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/scene/preset_bodies.hpp"
-#include "host/io/played_png.hpp"
+#include "host/tools/figures/played_png.hpp"
 
 #include "support/waiting.hpp"
 
 #include <host/app/film/film_job.hpp>
 #include <host/app/run/views/hand_panel.hpp>
-#include <host/audio/listening.hpp>
-#include <host/io/wav.hpp>
+#include <host/base/files/wav.hpp>
+#include <host/devices/audio/listening.hpp>
 #include <support/temporary_folder.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>

@@ -7,7 +7,7 @@
 #include <host/app/inspector/settings/setting_editor.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_value.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/graph/edit.hpp>
 #include <tactus/graph/history.hpp>
 

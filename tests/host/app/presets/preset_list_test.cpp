@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/presets/force_picture.hpp>
 #include <host/app/presets/preset_list.hpp>
-#include <host/platform/home_folder.hpp>
+#include <host/base/platform/home_folder.hpp>
 
 #include "support/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
-#include "host/hid_link/fake_board.hpp"
+#include "host/devices/hid_link/fake_board.hpp"
 #include "support/guardian.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
-#include <host/platform/failsafe.hpp>
+#include <host/devices/failsafe/failsafe.hpp>
 
 #include <tactus/file/graph_file.hpp>
 

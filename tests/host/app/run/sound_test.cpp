@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/run/sound.hpp>
 
-#include "host/audio/fake_cards.hpp"
+#include "host/devices/audio/fake_cards.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/app/scene/bodies.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
 

@@ -2,7 +2,7 @@
 #include <host/app/scopes/scope_ports.hpp>
 
 #include <host/app/run/traces.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/edit.hpp>
 #include <tactus/graph/history.hpp>

@@ -3,7 +3,7 @@
 
 #include "made_trace.hpp"
 
-#include <host/io/colours.hpp>
+#include <host/tools/figures/colours.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck.h>

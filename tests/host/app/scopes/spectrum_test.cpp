@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <support/property.hpp>
 
-#include <host/io/spectrum.hpp>
+#include <host/tools/figures/spectrum.hpp>
 
 #include "made_trace.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/device/make_device.hpp>

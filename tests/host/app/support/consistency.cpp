@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consistency.hpp"
 
-#include <host/assets/nearest_by_embree.hpp>
+#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoints.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/plan/flat/flatten.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/run/views/hand_view.hpp>
 #include <host/app/take/take_panel.hpp>
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/log/run_test.hpp>

@@ -2,7 +2,7 @@
 // The Take tab in the whole window, with a mouse.
 #include "host/app/support/window_rig.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/run/log/stretch.hpp>
 
 #include <catch2/catch.hpp>

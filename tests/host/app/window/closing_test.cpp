@@ -2,7 +2,7 @@
 // Closing the window, or opening another graph, loses no film and no take without a question.
 #include "host/app/support/window_rig.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/run/log/stretch.hpp>
 

@@ -3,7 +3,7 @@
 #include "host/app/support/screen.hpp"
 #include "host/app/support/wait_for.hpp"
 
-#include <host/juce/native_window.hpp>
+#include <host/base/juce/native_window.hpp>
 
 #include <catch2/catch.hpp>
 

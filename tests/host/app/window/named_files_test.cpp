@@ -2,7 +2,7 @@
 // Files that settings name, in the whole window: a saved graph finds them again, and a missing one is chosen where it is missed.
 #include "host/app/support/window_rig.hpp"
 
-#include <host/assets/file_assets.hpp>
+#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

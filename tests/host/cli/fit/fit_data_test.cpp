@@ -3,7 +3,7 @@
 
 #include "host/cli/program.hpp"
 
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 #include <tactus/fit/curve_fit.hpp>
 #include <tactus/fit/friction_fit.hpp>
 

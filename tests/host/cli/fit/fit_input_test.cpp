@@ -4,9 +4,9 @@
 #include "host/cli/program.hpp"
 #include "table_text.hpp"
 
-#include <host/fitting/fitting.hpp>
-#include <host/fitting/surface_preset.hpp>
-#include <host/io/wav.hpp>
+#include <host/base/files/wav.hpp>
+#include <host/tools/fitting/fitting.hpp>
+#include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/random.hpp>
 #include <tactus/text/json.hpp>

@@ -2,7 +2,7 @@
 #include "host/cli/program.hpp"
 #include "table_text.hpp"
 
-#include <host/fitting/fitting.hpp>
+#include <host/tools/fitting/fitting.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/random.hpp>
 

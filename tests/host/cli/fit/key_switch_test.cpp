@@ -7,8 +7,8 @@
 #include "support/rig.hpp"
 #include "support/sketch.hpp"
 
-#include <host/fitting/fit_presets.hpp>
-#include <host/io/plot.hpp>
+#include <host/tools/figures/plot.hpp>
+#include <host/tools/fitting/fit_presets.hpp>
 #include <support/property.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/graph_file.hpp>

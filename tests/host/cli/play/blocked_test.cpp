@@ -7,7 +7,7 @@
 #include "host/cli/on_terminal.hpp"
 #include "support/waiting.hpp"
 
-#include <host/osc/osc_port.hpp>
+#include <host/devices/osc/osc_port.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>

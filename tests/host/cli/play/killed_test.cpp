@@ -3,7 +3,7 @@
 
 #include "host/cli/running.hpp"
 
-#include <host/io/wav.hpp>
+#include <host/base/files/wav.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
