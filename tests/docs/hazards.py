@@ -1,20 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks the table in docs/hazards.md: at least 24 rows without an empty cell, each of which names a test that exists in its last
-cell, or says "hardware" there and "only hardware" under detection.
+cell, or says "hardware" there and "only hardware" under detection. Checks also that the page shows the table of force_causes.hpp, that the code and
+the tests that this names exist, and that it lists every OSC message but those of HARMLESS.
 
-    hazards.py [ROOT]     ROOT is the repository, by default the one that contains this file
+    hazards.py [ROOT] [--write]   ROOT is the repository, by default the one that contains this file; --write: puts the table into the page
 """
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
+arguments = [a for a in sys.argv[1:] if a != "--write"]
+ROOT = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parents[2]
 COLUMNS = ["component", "fault", "detection", "reaction", "time until zero", "test"]
 LEAST_ROWS = 24
+CAUSES, OSC = "host/devices/live/force_causes.hpp", "host/devices/osc/remote_control.cpp"
+HARMLESS = {"/tactus/" + name for name in ("hello", "stop", "emergency", "probe", "trigger", "status", "costs", "cost", "guard", "done", "error", "capture", "value")}
+BEGIN, END = f"<!-- the table of {CAUSES} -->", "<!-- end of the table -->"
 
 tests = {file.stem for pattern in ("**/*_test.cpp", "python/*_test.py", "guest/own_*", "site/*_test.*") for file in ROOT.glob("tests/" + pattern)}
-lines = [line for line in (ROOT / "docs/hazards.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
+page = (ROOT / "docs/hazards.md").read_text(encoding="utf-8")
+faults, _, rest = page.partition(BEGIN)
+shown, _, after = rest.partition(END)
+lines = [line for line in faults.splitlines() if line.startswith("|")]
 table = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 problems = []
 if not table or table[0] != COLUMNS:
@@ -35,5 +43,26 @@ for row in rows:
         if not named:
             problems.append(f"{where}: no test is named")
 
-print("\n".join([*problems, f"{len(rows)} hazards, {len(problems)} problems"]))
+cause = re.compile(r'\{' + ",".join([r'\s*"([^"]*)"'] * 5) + r"\s*\}")
+causes = cause.findall((ROOT / CAUSES).read_text(encoding="utf-8"))
+right = "\n".join(["", "", "| event | who may cause it | after which stops it works | code | test |", "|---|---|---|---|---|",
+                   *(f"| {event} | {who} | {stops} | `{code.partition(': ')[0]}`: `{code.partition(': ')[2]}` | `{test}` |"
+                     for event, who, stops, code, test in causes), "", ""])
+if "--write" in sys.argv:
+    (ROOT / "docs/hazards.md").write_text(faults + BEGIN + right + END + after, encoding="utf-8")
+elif shown != right:
+    problems.append(f"the page does not show the table of {CAUSES}: run tests/docs/hazards.py --write")
+for event, _, _, code, test in causes:
+    file, _, function = code.partition(": ")
+    text = (ROOT / file).read_text(encoding="utf-8") if (ROOT / file).is_file() else ""
+    if not re.search(rf"\b{re.escape(function.split('::')[-1])} ?\(", text):
+        problems.append(f"{event}: there is no {function} in {file}")
+    if test not in tests:
+        problems.append(f"{event}: there is no test {test}")
+listed = {event.strip("`") for event, *_ in causes if event.startswith("`/")}
+used = {address for address in re.findall(r'"(/tactus/\w+/?)"', (ROOT / OSC).read_text(encoding="utf-8"))}
+problems += [f"{address}: {CAUSES} does not list it, and it is not HARMLESS" for address in sorted(used - listed - HARMLESS)]
+problems += [f"{address}: {OSC} has no such message" for address in sorted(listed - used)]
+
+print("\n".join([*problems, f"{len(rows)} hazards, {len(causes)} causes of a force, {len(problems)} problems"]))
 sys.exit(1 if problems else 0)

@@ -24,6 +24,9 @@ ONLY = [
     ("looking at alarms of the failsafe", r"Failsafe::alarms \(|Failsafe::alarms\(\)(?! noexcept)", [SESSION]),
     ("arming a device", r"= Failsafe::arm \(", ["host/devices/hid_link/hidapi_system.cpp", "host/devices/hid_link/wires.cpp", "host/devices/device_plugins/driver_about.cpp"]),
     ("rearming a run", r"engine\(\)\.rearm\(\)", [SESSION]),
+    ("editing what a live run plays", r"\b(session->|live\.)edit \(", ["host/app/run/live_run.cpp", "host/devices/live/c_session.cpp"]),   # these, see force_causes.hpp
+    ("turning a control of a live run", r"tactus::turnControl \(", ["host/app/run/live_run.cpp", "host/cli/play/remote.hpp", "host/devices/live/c_session.cpp"]),
+    ("a hit in a live run", r"tactus::strike \(", ["host/app/run/live_run.cpp", "host/cli/play/remote.hpp", "host/devices/live/c_session.cpp"]),
     ("stopping an engine", r"engine\(\)\.emergencyStop\(\)", [SESSION]),
     ("watching the health of devices", r"= HealthWatch \{", [SESSION]),
     ("fusing what runs", r"fusing->poll \(", [SESSION]),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remote_control.hpp"
 
+#include <host/devices/live/force_causes.hpp>
 #include <tactus/run/probe_ring.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
@@ -145,30 +146,30 @@ void RemoteControl::carryOut (const OscPort::ReceivedMessage& received, Clock::t
     const auto address = textOf (m.getAddressPattern().toString());
     const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
     const auto last = [&] (int place) { return OscReturn { host, answerPort (m, place) }; };
-    const auto raise = [&] (int place, auto act) {
-        const auto may = mayRaise (received.from, now);
+    const auto obey = [&] (int place, auto act) {
+        const auto may = raisesForce (address) ? mayRaise (received.from, now) : Result<> {};
         answer (last (place), address, subject, may ? act() : may);
     };
 
     if (address == "/tactus/hello")
         answer (last (subject.empty() ? 0 : 1), address, "", hello (subject, received.from, now));
     else if (address == "/tactus/param" || address == "/tactus/control")
-        raise (2, [&] { return turn (address, subject, m); });
+        obey (2, [&] { return turn (address, subject, m); });
     else if (address == "/tactus/hit")
     {
         const auto speed = m.size() >= 2 ? numberOf (m[1]) : std::nullopt;
         const bool right = ! subject.empty() && speed && m.size() <= 3;
-        raise (2, [&] {
+        obey (2, [&] {
             return right ? controlled.strike (subject, *speed)
                          : badArguments ("send the name of a hit input, a speed in m/s (float or int), and optionally the UDP port for the answer");
         });
     }
     else if (address.starts_with (transport_addresses))
-        raise (1, [&] { return transport (address.substr (transport_addresses.size()), m); });
+        obey (1, [&] { return transport (address.substr (transport_addresses.size()), m); });
     else if (address == "/tactus/start")
-        raise (0, [&] { return start(); });
+        obey (0, [&] { return start(); });
     else if (address == "/tactus/rearm")
-        answer (last (subject.empty() ? 0 : 1), address, "", rearm (subject));
+        answer (last (subject.empty() ? 0 : 1), address, "", rearm (subject));   // with a token of its own, also without a real device
     else if (address == "/tactus/stop" || address == "/tactus/emergency")
     {
         if (address == "/tactus/stop")

@@ -2,6 +2,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
+#include <host/devices/live/force_causes.hpp>
 #include <host/devices/osc/remote_control.hpp>
 #include <host/devices/osc/token_file.hpp>
 
@@ -489,6 +490,15 @@ TEST_CASE ("with a real device, nothing over OSC raises a force without the toke
         CHECK (asks ("/tactus/transport/play", 1) == "osc/token");
         CHECK (asks ("/tactus/start") == "osc/token");
         CHECK (asks ("/tactus/rearm") == "osc/rearm");
+        for (const auto& cause : tactus::host::force_causes)   // all that there are, also those that are added later
+        {
+            if (! cause.event.starts_with ("`/")) continue;
+            auto address = std::string (cause.event.substr (1, cause.event.size() - 2));
+            if (address.ends_with ('/')) address += "seek";
+            INFO (address);
+            const auto id = asks (address.c_str());
+            CHECK ((id == "osc/token" || id == "osc/rearm"));
+        }
         CHECK (stage.puppet.said.empty());
     };
     refuses();
