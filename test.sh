@@ -292,7 +292,7 @@ else
     say "A newcomer's node"
     mkdir -p build/release
     once newcomer tests/newcomer tests/CMakeLists.txt tests/parts.cmake tests/join.cmake tests/every_node_test.cpp CMakeLists.txt nodes/CMakeLists.txt \
-        framework/node host/code/generate/CMakeLists.txt host/code/fuse/bitcode -- tests/newcomer/run.sh   # before the rest is built: what it compiles is not compiled again
+        framework/node host/code/CMakeLists.txt host/code/fuse/bitcode -- tests/newcomer/run.sh   # before the rest is built: what it compiles is not compiled again
     build release
     say "The demo"
     once demo demo.sh .ci/setup.sh graphs build/release/bin/tactus ../shared/data/strokes_evemu ../shared/data/buttons_switchcurves -- ./demo.sh --offline
