@@ -36,7 +36,7 @@ private:
     template <typename T>
     using Cache = std::map<std::string, std::weak_ptr<const T>>;
 
-    /// What the caller supplies. Empty if the file should be read.
+    /// The asset that the caller supplies. Empty if the file should be read.
     template <typename T, typename Take>
     std::optional<Loaded<T>> supplied (Cache<T>&, tactus_asset_kind, const std::string& path, Take) const;
 

@@ -20,7 +20,7 @@ struct tactus_messages
 namespace tactus::capi
 {
 
-/// What every version of the library knows about a struct.
+/// The facts about a struct that are the same in every version of the library.
 struct Form
 {
     std::size_t first = 0;   ///< size up to the last member of the first version

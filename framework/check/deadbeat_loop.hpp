@@ -9,7 +9,7 @@
 namespace tactus::check
 {
 
-/// What a hold.deadbeat assumes of the device that it pushes.
+/// The device and the wall as a hold.deadbeat assumes them to be.
 struct DeadbeatPlan
 {
     double mass = 0.0;        ///< kg, > 0

@@ -29,7 +29,7 @@ struct Stopped final
 {
 };
 
-/// What the device of a role reported on each tick.
+/// The readings of a role's device, one for each tick.
 struct RoleMotion
 {
     std::string role;
@@ -37,7 +37,7 @@ struct RoleMotion
     std::vector<Reading> readings {};   ///< one for each tick of the motion
 };
 
-/// How the hands move while a graph is measured.
+/// The motion of all hands while a graph is measured.
 struct HandMotion
 {
     double rate_hz = 0.0;

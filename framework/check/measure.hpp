@@ -18,8 +18,8 @@
 namespace tactus::check
 {
 
-/// How the force responds to a small displacement at one point of the motion. Each number is the largest response to a displacement in
-/// any direction.
+/// The response of the force to a small displacement at one point of the motion. Each number is the largest response to a displacement in any
+/// direction.
 struct Slope
 {
     double t_s = 0.0;                 ///< time since the start of the motion
@@ -37,9 +37,9 @@ struct Slope
 /// A matrix of slopes. How it gets its memory does not depend on the flags of the compiler, so a program may free what the library has made.
 using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign>;
 
-/// How the forces of all roles respond to small displacements of all roles at one point of the motion. Each matrix has three rows and
-/// three columns for each role, in the order of Demand::roles: a row for each component of a force, a column for each component of a
-/// displacement. A positive number pulls the tool back.
+/// The response of the forces of all roles to small displacements of all roles at one point of the motion. Each matrix has three rows and three
+/// columns for each role, in the order of Demand::roles: a row for each component of a force, a column for each component of a displacement. A
+/// positive number pulls the tool back.
 struct Linked
 {
     double t_s = 0.0;
@@ -63,7 +63,7 @@ struct Jump
     double force = 0.0;             ///< how far the force steps, in N; half of that if it steps across the movement
 };
 
-/// What a role's device is asked to do.
+/// The demands of a graph on the device of one role.
 struct RoleDemand
 {
     std::string role;
@@ -122,7 +122,7 @@ struct MeasuredNode
     std::string type;
 };
 
-/// What a graph asks of its devices.
+/// The demands of a graph on its devices.
 struct Demand
 {
     double rate_hz = 0.0;
@@ -137,7 +137,7 @@ struct Demand
     std::vector<MeasuredNode> nodes {};   ///< by node number
 };
 
-/// How thoroughly a graph is measured. More points take longer.
+/// The number of points and ticks with which a graph is measured. More points take longer.
 struct Thoroughness
 {
     std::size_t places = 96;         ///< number of points at which slopes are measured: see chooseSpots()

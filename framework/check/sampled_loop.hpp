@@ -53,8 +53,9 @@ inline constexpr double at_rest = 1.0 + 1e-7;
 bool comesToRest (std::span<const double> response, const DeviceNumbers&, double period_s);
 bool comesToRest (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s);
 
-/// How many times a response could be as large before its loop swings, given whether it rests if it is so many times as large: within a thousandth.
-/// Above 1 if the loop rests, and below 1 if it swings; 0 if it swings even at a thousandth of the response. At most 1024.
+/// The factor by which a response can grow before its loop swings, within a thousandth. `rests (factor)` tells whether the loop rests if the response
+/// is that many times as large. The result is above 1 if the loop rests now, and below 1 if it swings; 0 if it swings even at a thousandth of the
+/// response. At most 1024.
 template <typename Rests>
 double roomToGrow (Rests&& rests)
 {

@@ -40,7 +40,7 @@ private:
     std::mt19937 random;
 };
 
-/// Which range of its datasheet a random param comes from.
+/// The range of its datasheet that a random param comes from.
 enum class Span
 {
     usual,

@@ -26,7 +26,7 @@ void openPipesBy (OpenPipe) noexcept;
 /// Closes the stream of a file. False, with errno, if not everything was written. [any thread]
 bool closed (std::unique_ptr<std::ostream>&);
 
-/// What becomes of an unfinished file if the process is killed.
+/// The fate of an unfinished file if the process is killed.
 enum class IfKilled
 {
     removed,   ///< the next process that writes into this folder removes it

@@ -37,7 +37,7 @@ struct FitPicture
     std::vector<FitCurve> curves {};
 };
 
-/// How well a model fits a recording, and how certain its parameters are.
+/// The result of a fit: the parameters, how certain they are, and how well the model fits the recording.
 struct FitReport
 {
     std::vector<FitValue> values {};

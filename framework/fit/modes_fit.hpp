@@ -8,7 +8,7 @@
 namespace tactus
 {
 
-/// What a struck object did after the blow: its acceleration, speed, force or sound, in any unit.
+/// The recorded motion of a struck object after the blow: its acceleration, speed, force or sound, in any unit.
 struct RecordedRing
 {
     std::vector<double> time {}, value {};   ///< s, evenly spaced

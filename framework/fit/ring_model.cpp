@@ -22,8 +22,8 @@ using Eigen::VectorXd;
 
 constexpr Index per_tone = 4;
 
-/// What the model is made of, without amplitudes: for each tone Re z, Re i z, Re u z and Re i u z, with z = e^(rate n) and u = n / rows, then the powers
-/// of u of the drift.
+/// The functions that the model adds up, without their amplitudes: for each tone Re z, Re i z, Re u z and Re i u z, with z = e^(rate n) and u = n /
+/// rows, then the powers of u of the drift.
 struct Basis
 {
     const std::vector<Complex>& rates;

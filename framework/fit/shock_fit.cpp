@@ -147,7 +147,7 @@ double massByTime (const Contact& c)
     return impulse / (c.rate.front() - c.rate.back());
 }
 
-/// How the damping grows with depth.
+/// The growth of the damping with depth.
 enum class Damping
 {
     as_spring,   // D = lambda K

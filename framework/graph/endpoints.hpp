@@ -9,7 +9,7 @@
 namespace tactus::graph
 {
 
-/// What kind of port an endpoint refers to.
+/// The kind of port that an endpoint refers to.
 enum class Side
 {
     start,   ///< start of a wire, or exposed output

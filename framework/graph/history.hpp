@@ -10,8 +10,7 @@
 namespace tactus::graph
 {
 
-/// Whether an edit is its own undo step, or joins the last one. Turning a knob sends hundreds of values, which undo should
-/// revert together.
+/// The undo step of an edit: its own, or joined to the last one. Turning a knob sends hundreds of values, which undo should revert together.
 enum class Step
 {
     own,

@@ -39,7 +39,7 @@ public:
         bool virgin = true, in_two = false;
     };
 
-    /// What happened while the blade moved to a depth.
+    /// The events while the blade moved to a depth.
     struct Event
     {
         bool bursts = false, cuts = false;

@@ -14,7 +14,7 @@ struct MotionState
     double d = 0.0, v = 0.0;   // m, m/s
 };
 
-/// How a free mass leaves a contact that it entered.
+/// The end of a contact that a free mass entered: how long the contact lasted, and how fast the mass leaves.
 struct Rebound
 {
     double duration = std::numeric_limits<double>::infinity();   ///< of the contact, in s; infinite: the contact did not end in time

@@ -25,7 +25,7 @@ using FineOf = std::conditional_t<is_single<V>, Fine, V>;
 template <typename V>
 using PositionOf = std::conditional_t<is_single<V>, Position, Vector<V>>;
 
-/// What a comparison of two V gives.
+/// The type of the result of a comparison of two V.
 template <typename V>
 using MaskOf = decltype (V {} < V {});
 
@@ -50,7 +50,7 @@ struct Nothing
 template <typename V, typename E>
 using ChoiceOf = typename detail::ChoiceIn<V, E>::Type;
 
-/// What a node has only when it computes a single instance, such as settings that allocate memory.
+/// A member that a node has only when it computes a single instance, such as settings that allocate memory.
 template <typename V, typename T>
 using OnlySingle = std::conditional_t<is_single<V>, T, detail::Nothing>;
 

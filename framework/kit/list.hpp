@@ -14,7 +14,7 @@ namespace tactus
 /// The most entries an array port can have. Chain a second mixer to add more inputs.
 inline constexpr int list_capacity = 64;
 
-/// What a source holds: a double, or a pack (pack.hpp).
+/// Reads a source: a double, or a pack (pack.hpp).
 template <typename V>
 V read (const double* source) noexcept
 {

@@ -8,8 +8,8 @@
 namespace tactus
 {
 
-/// What a node looks like in a picture of the scene. This is data: each part names a row of the node's own datasheet, and a host draws
-/// from the values of these rows. It does not affect the tick. Optional; a node declares it next to its `ports`:
+/// The look of a node in a picture of the scene. This is data: each part names a row of the node's own datasheet, and a host draws from the values of
+/// these rows. It does not affect the tick. Optional; a node declares it next to its `ports`:
 ///
 ///     static constexpr Appearance appearance { .kind = Appearance::Kind::plane, .tool = "position", .offset = "offset", .depth = "depth" };
 ///

@@ -70,7 +70,7 @@ inline bool isFinite (const Channels& all) noexcept
     return std::all_of (all.begin(), all.end(), [] (double v) { return isFinite (v); });
 }
 
-/// What a device reports at a tick. SI, right-handed: x right, y away from the person, z up.
+/// The reading of a device at a tick. SI, right-handed: x right, y away from the person, z up.
 struct Reading
 {
     static constexpr int most_buttons = 32;
@@ -93,7 +93,7 @@ struct Reading
     Channels signals {};   ///< signal inputs, channel 1 first
 };
 
-/// What a device should apply.
+/// The force, the torque and the other efforts that a device should apply.
 struct Effort
 {
     Vec3 force = Vec3::Zero();    ///< on the tool, in N
@@ -103,7 +103,7 @@ struct Effort
     double brake = 0.0;           ///< damping of the brake on the tool, in N s/m; at least 0
 };
 
-/// What is known about the mechanics of a device, at its tool.
+/// The known mechanics of a device, at its tool.
 struct DeviceMechanics
 {
     double mass = 0.0;      ///< mass that the hand moves, in kg; 0: unknown
@@ -112,9 +112,9 @@ struct DeviceMechanics
     bool operator== (const DeviceMechanics&) const = default;
 };
 
-/// What a device has in addition to a tool that moves and can be pushed, and what is known about that tool. Nodes find their part of a
-/// Reading and an Effort by these names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is
-/// ignored.
+/// The axes, buttons and signals that a device has in addition to a tool that moves and can be pushed, and the known mechanics of that tool. Nodes
+/// find their part of a Reading and an Effort by these names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the
+/// rest is ignored.
 struct DeviceLayout
 {
     std::vector<std::string> axes {};      ///< axes that can be read: triggers, sticks, joints. Each in m, rad or 1

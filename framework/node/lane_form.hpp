@@ -27,7 +27,7 @@ struct LaneForm
     void (*tick) (void* packs, std::size_t count, const double* const* sources, std::size_t inputs, void* outputs) noexcept = nullptr;
 };
 
-/// What a node type needs to run in lanes: its forms, and how an instance moves into a lane and out of it.
+/// The functions with which a node type runs in lanes: its forms, and those that move an instance into a lane and out of it.
 struct NodeLanes
 {
     static constexpr std::size_t most_forms = 3;

@@ -69,14 +69,14 @@ namespace tactus
 class NearestTriangle;
 class QueryService;
 
-/// What a host lends to the nodes of a graph. Each service may be missing; nodes work without it.
+/// The services that a host lends to the nodes of a graph. Each may be missing; nodes work without it.
 struct Services
 {
     std::function<std::unique_ptr<NearestTriangle> (std::shared_ptr<const Mesh>)> nearest_triangle {};   ///< makes an index of a large mesh; call it in prepare
     QueryService* answers = nullptr;                                                                     ///< answers the async queries; null: answered when due
 };
 
-/// What the engine gives every node before it runs.
+/// The rate and the services that the engine gives every node before it runs.
 struct Setup
 {
     double rate_hz = 4000.0;
@@ -85,7 +85,7 @@ struct Setup
     double dt_s() const noexcept { return 1.0 / rate_hz; }
 };
 
-/// What a node guarantees with its current params and settings.
+/// The guarantees of a node with its current params and settings.
 struct Claims
 {
     bool passive = false;             ///< it generates no energy over any closed path

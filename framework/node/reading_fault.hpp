@@ -9,7 +9,7 @@
 namespace tactus
 {
 
-/// Why a reading must not be used, or gets old. Logs contain these numbers, so new faults go to the end.
+/// The reason why a reading must not be used, or gets old. Logs contain these numbers, so new faults go to the end.
 enum class ReadingFault : std::uint32_t
 {
     none,

@@ -10,7 +10,7 @@
 namespace tactus::plan
 {
 
-/// How to load the files that settings name.
+/// The loader of the files that settings name, and their folder.
 struct Files
 {
     Assets* assets = nullptr;   ///< null: a setting that names a file is refused

@@ -15,8 +15,8 @@
 namespace tactus::plugin
 {
 
-/// Whether a copy also retains the asset. If so, the same asset gives the same copy as long as that copy is in use. If not, the copy
-/// can outlive the plugin.
+/// The choice whether a copy also retains the asset. If so, the same asset gives the same copy as long as that copy is in use. If not, the copy can
+/// outlive the plugin.
 enum class Keep
 {
     yes,

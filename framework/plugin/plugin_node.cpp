@@ -17,7 +17,7 @@ namespace tactus::plugin
 
 namespace
 {
-/// What the functions of a NodeType share. The type and each of its nodes keep it alive, and so keep the plugin loaded.
+/// The data that the functions of a NodeType share. The type and each of its nodes keep it alive, and so keep the plugin loaded.
 struct Guest
 {
     std::shared_ptr<const void> library;

@@ -26,8 +26,8 @@ Result<Feed> feedOf (const std::pair<std::vector<std::string>, PythonRun::Rows>&
 }
 }   // namespace
 
-/// While a Turn exists, calls from other threads wait, and this thread does not hold the GIL. The GIL is released before the lock is
-/// taken, so that a thread which holds the lock can always get the GIL.
+/// The turn of one thread to use the run. While it exists, calls from other threads wait, and this thread does not hold the GIL. The GIL is released
+/// before the lock is taken, so that a thread which holds the lock can always get the GIL.
 class PythonRun::Turn
 {
 public:

@@ -192,7 +192,7 @@ private:
         std::vector<double> numbers;
     };
 
-    /// What the guard of a role of a plan is tightened to when the plan takes over.
+    /// The limits that a role's guard is tightened to when the plan takes over.
     struct Tightening
     {
         std::size_t role;

@@ -143,7 +143,7 @@ public:
     /// The values that made the guard withhold an effort. Trivially copyable, so that hosts can pass them to other threads.
     struct Event
     {
-        /// Which value was not a number, or which speed or impulse exceeded its limit: torque means the rotation of the tool.
+        /// The value that was not a number, or whose speed or impulse exceeded its limit: torque means the rotation of the tool.
         enum class Part : std::uint32_t
         {
             none,

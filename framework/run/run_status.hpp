@@ -22,7 +22,7 @@ struct RunStatus
         over
     };
 
-    /// Why the run halts, or halted.
+    /// The reason why the run halts, or halted.
     enum class End : std::uint32_t
     {
         none,

@@ -108,7 +108,7 @@ private:
         return std::chrono::duration<double> (late).count();
     }
 
-    /// How long the thread takes to wake up: more than nearly all of the latest times.
+    /// An estimate of the time that the thread takes to wake up: more than nearly all of the latest times.
     class Wakeup
     {
     public:

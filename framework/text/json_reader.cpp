@@ -45,7 +45,7 @@ private:
         const Json::Array* elements = nullptr;
     };
 
-    /// What may be where reading has failed.
+    /// The part of JSON that was expected where reading has failed.
     enum class Wanted
     {
         value,

@@ -55,7 +55,7 @@ void TrustedFile::keepPath() noexcept {}
 
 namespace
 {
-/// What the user database says about this user or group. Its functions need a buffer.
+/// Asks the user database about this user or group, and gives the entry to `use`. The functions of the database need a buffer.
 template <typename Entry, typename Find, typename Use>
 void askDatabase (Find find, unsigned id, Use use)
 {

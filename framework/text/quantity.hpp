@@ -26,8 +26,8 @@ constexpr Dimension operator* (Dimension a, Dimension b) noexcept { return { exp
 
 constexpr Dimension operator/ (Dimension a, Dimension b) noexcept { return { exponent (a.m - b.m), exponent (a.kg - b.kg), exponent (a.s - b.s) }; }
 
-/// What a number means. Two quantities may share a dimension (torque and energy): a wire between them is a warning. A wire
-/// between different dimensions is an error. `any` has only a dimension, and never causes a warning.
+/// The meaning of a number. Two quantities may share a dimension (torque and energy): a wire between them is a warning. A wire between different
+/// dimensions is an error. `any` has only a dimension, and never causes a warning.
 enum class Quantity
 {
     any,

@@ -37,7 +37,7 @@ namespace @FAMILY@
 
 using namespace tactus;
 
-/// What it feels like, in one sentence.
+/// The feel of the node, in one sentence.
 ///
 ///     f = -k z                                   z: depth below the plane z = 0
 ///

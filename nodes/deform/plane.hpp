@@ -227,7 +227,7 @@ private:
 
     static constexpr double hard_hit = 2.0;   // m/s; the impact speed that `warning` assumes
 
-    /// What is known about the tool.
+    /// The known mechanics of the tool.
     struct Tool
     {
         double mass = 0.0, damping = 0.0;   // kg, N s/m; mass 0: unknown

@@ -11,8 +11,8 @@
 namespace tactus::nodes
 {
 
-/// Which part of a tool touches: its tip, an edge or a flat side. Wire it to `tool` of deform.surface. A probe that comes down upright then
-/// sinks in with its tip, and one that lies down meets the body with its side.
+/// The part of a tool that touches: its tip, an edge or a flat side. Wire it to `tool` of deform.surface. A probe that comes down upright then sinks
+/// in with its tip, and one that lies down meets the body with its side.
 ///
 ///     q_i  = 1 - a_i . m                      a_i: direction of face i of the tool in the world; m: into the body, -normal
 ///     w_i  = (1 / q_i) / sum_j (1 / q_j)      shares of the faces, convex: the outer weights of (8) and (9)

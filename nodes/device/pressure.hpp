@@ -6,7 +6,7 @@
 namespace tactus::nodes
 {
 
-/// How hard the hand presses or squeezes: a pen's tip, a gripper's handle, a force plate.
+/// The force with which the hand presses or squeezes: a pen's tip, a gripper's handle, a force plate.
 ///
 /// While the device gives no valid reading, the last valid one is kept, as in device.position, whose `valid` and `age` report
 /// this. It gives 0 on devices without such a sensor, and on a reading that is not finite, which is not kept.

@@ -196,7 +196,7 @@ struct SignalClip
 private:
     static constexpr double fade_s = 2e-3, calm_s = 20e-3;
 
-    /// What lasts from tick to tick.
+    /// The state that lasts from tick to tick.
     struct State
     {
         double t = 0.0;                   // time in the clip, s

@@ -8,7 +8,7 @@
 namespace tactus::readers
 {
 
-/// How far the rendered envelopes of two clips differ. Both are rendered by ClipScore, at 2 kHz.
+/// The difference between the rendered envelopes of two clips in one channel. Both are rendered by ClipScore, at 2 kHz.
 struct ChannelDifference
 {
     int channel = 1;

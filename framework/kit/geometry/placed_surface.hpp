@@ -21,7 +21,7 @@ class PlacedSurface
 public:
     PlacedSurface (std::shared_ptr<const Surface>, double scale, const Vec3& origin, const Vec3& rotation);   // [main thread]
 
-    /// What a tool is made of: shapes, and the share of each. The sum of the shares is 1.
+    /// A shape that a tool is made of, and its share. The sum of the shares of a tool is 1.
     struct Share
     {
         int shape = 0;
@@ -66,7 +66,7 @@ public:
 private:
     using Weights = std::array<double, 3>;
 
-    /// How the body is rounded off beside an edge of a triangle.
+    /// The rounding of the body beside an edge of a triangle.
     struct Rounding
     {
         Vec3 rise { 0.0, 0.0, 0.0 };   // out of the body, per barycentric weight; 0 if both triangles are level, or at the rim

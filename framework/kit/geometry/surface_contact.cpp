@@ -137,7 +137,7 @@ std::optional<Vec2> slipped (const PlacedSurface& body, const PlacedSurface::Too
     return step.d.head<2>();
 }
 
-/// What a contact feels on its way.
+/// The straight way of a tool during a step, and the contact on it.
 class Way
 {
 public:

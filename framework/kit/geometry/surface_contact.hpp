@@ -31,7 +31,7 @@ SurfaceSample followed (const PlacedSurface&, const PlacedSurface::Tool&, const 
 /// The force on the tool, minus the gradient of the stored energy with respect to its position, with the anchor fixed. [any thread]
 Vec3 forceOf (const PlacedSurface&, const PlacedSurface::Tool&, const SurfaceSample&, const Vec3& p) noexcept;
 
-/// What a step of the tool does to its contact.
+/// The effect of a step of the tool on its contact.
 struct SurfaceStep
 {
     SurfaceSample after {};

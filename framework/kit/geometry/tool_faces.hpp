@@ -19,7 +19,7 @@ struct ToolFace
     double tool = 0.0;                 ///< its number, as deform.surface counts tools
 };
 
-/// How a tool that leans touches.
+/// The part of a leaning tool that touches.
 struct ToolTilt
 {
     double tool = 0.0;          ///< between the numbers of the faces

@@ -42,7 +42,7 @@ T logOf (T f, T k, T rest) noexcept
     return k * ln2 + (f - (s * (f - z * p) - (k * ln2_rest + rest)));
 }
 
-/// What a logarithm is where x is not a positive finite number.
+/// The value of a logarithm where x is not a positive finite number.
 template <typename T>
 T logOutside (T x) noexcept
 {

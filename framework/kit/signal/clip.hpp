@@ -44,7 +44,7 @@ struct ClipTrack
     bool operator== (const ClipTrack&) const = default;
 };
 
-/// What the numbers 0 and 1 of a clip mean on a device. The defaults are those of Meta's MetaQuest.acf, without ducking.
+/// The meaning of the numbers 0 and 1 of a clip on a device. The defaults are those of Meta's MetaQuest.acf, without ducking.
 struct ClipVoice
 {
     double lowest = 55.0, highest = 200.0;           ///< frequency of the tone at sharpness 0 and 1, Hz

@@ -14,7 +14,7 @@
 namespace tactus
 {
 
-/// What a clip gives at one moment. Amplitudes are 1 at the full amplitude of the device.
+/// The output of a clip at one moment. Amplitudes are 1 at the full amplitude of the device.
 struct ClipMoment
 {
     double value = 0.0;       ///< the signal
@@ -40,7 +40,7 @@ public:
     static constexpr int together = 4;                     ///< most transients of a track that sound together
     static constexpr double whole = 0.25, silent = 0.45;   ///< cycles per sample below which a tone sounds in full, and from which it is silent
 
-    /// Where a reader is in a track. It only speeds up the search: any value gives the same result.
+    /// The place of a reader in a track. It only speeds up the search: any value gives the same result.
     struct Cursor
     {
         std::size_t ramp = 0, sweep = 0, burst = 0;

@@ -21,7 +21,7 @@ inline double secondOrder (double h, double loss) noexcept
 }
 }   // namespace detail
 
-/// How a mass M with viscous damping B moves while the force F is constant for the time T:
+/// The motion of a mass M with viscous damping B while the force F is constant for the time T:
 ///
 ///     a = e^(-B T/M)     g = M (1 - a)/B
 ///     x += g v + (T - g)/B F

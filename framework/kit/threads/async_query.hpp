@@ -22,7 +22,7 @@
 namespace tactus
 {
 
-/// What the answering thread sees of an AsyncQuery.
+/// The part of an AsyncQuery that the answering thread sees.
 class AsyncQueryBase
 {
 public:

@@ -64,7 +64,7 @@ struct Line
     }
 };
 
-/// How one component of a wire enters or leaves a section.
+/// The conversion of one component of a wire that enters or leaves a section.
 struct Conversion
 {
     enum class Kind

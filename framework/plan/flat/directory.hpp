@@ -25,7 +25,7 @@ using Ports = std::vector<PortRef>;
 /// An expanded patch: what its names refer to, and the ports it exposes.
 struct Scope
 {
-    /// What a name in a patch refers to: a node, the instances of a subgraph, or a placeholder (neither).
+    /// The member of a patch that a name refers to: a node, the instances of a subgraph, or a placeholder (neither).
     struct Member
     {
         int node = -1;

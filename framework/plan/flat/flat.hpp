@@ -38,7 +38,7 @@ struct Place
     Kind kind;
 };
 
-/// Where something was written, for messages; null for the graph itself. The names it refers to must outlive it.
+/// The place where something was written, for messages; null for the graph itself. The names it refers to must outlive it.
 using Origin = const Place*;
 
 Origin fileOf (Origin) noexcept;

@@ -24,7 +24,7 @@ struct Flattened
     std::set<const graph::Patch*> used;   ///< the patches that were expanded
 };
 
-/// What settings that name files mean.
+/// The treatment of settings that name files.
 enum class SettingFiles
 {
     read,

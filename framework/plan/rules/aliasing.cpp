@@ -62,7 +62,7 @@ private:
     }
 };
 
-/// What a signal contains above half of a given rate.
+/// The content of a signal above half of a given rate.
 struct Content
 {
     enum class Kind

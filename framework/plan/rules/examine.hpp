@@ -7,7 +7,7 @@
 namespace tactus::plan
 {
 
-/// What the steps before building find out about a graph, and all errors and warnings.
+/// The result of the steps before building: what they find out about a graph, and all errors and warnings.
 struct Examined
 {
     Flattened flattened;   ///< the messages are in its `flat`

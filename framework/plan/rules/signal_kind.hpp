@@ -8,7 +8,7 @@
 namespace tactus::plan
 {
 
-/// What a wire carries, which decides how its values are converted from one rate to another.
+/// The kind of signal that a wire carries. It decides how values are converted from one rate to another.
 enum class SignalKind
 {
     signal,   ///< can be interpolated

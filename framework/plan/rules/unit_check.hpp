@@ -42,7 +42,7 @@ private:
 /// The unit of each port of a flat graph: from the datasheet, or inferred for generic nodes.
 struct PortUnits
 {
-    /// What a port carries: `any` and no dimension if nothing determines it.
+    /// The quantity and the dimension of a port: `any` and no dimension if nothing determines them.
     struct Found
     {
         Quantity quantity = Quantity::any;

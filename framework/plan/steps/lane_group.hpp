@@ -31,7 +31,7 @@ public:
     void unload() noexcept;                  ///< gives the state back to the nodes       [tick thread]
     void refresh (std::size_t i) noexcept;   ///< params of the i-th node have changed    [tick thread]
 
-    /// What a plan connects the group to.
+    /// The inputs and outputs that a plan connects the group to.
     struct Connections
     {
         std::size_t inputs = 0;                         ///< components of all inputs of a node

@@ -14,7 +14,7 @@
 namespace tactus::plan
 {
 
-/// Whether any wire of a sum has a gain other than 1. Most have none, and are not multiplied.
+/// The number of wires of a sum with a gain other than 1: none or some. Most sums have none, and are not multiplied.
 enum class Gains
 {
     none,

@@ -48,7 +48,7 @@ std::size_t eighthsOfOctaves (double x) noexcept
     return 8 * octaves + piece.below + (mantissa > piece.bound ? 1 : 0);
 }
 
-/// Only one thread writes, so an addition need not be atomic as a whole.
+/// Adds to a counter. Only one thread writes, so an addition need not be atomic as a whole.
 template <typename T>
 void add (std::atomic<T>& to, T n) noexcept
 {

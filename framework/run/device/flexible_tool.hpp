@@ -33,7 +33,7 @@ namespace tactus
 class FlexibleTool
 {
 public:
-    /// In SI units; all positive, but damping, damping ratio and Coulomb friction may be 0.
+    /// The properties of the tool, in SI units. All are positive, but damping, damping ratio and Coulomb friction may be 0.
     struct Properties
     {
         double motor_mass = 0.05, end_mass = 0.05, damping = 0.0, coulomb = 0.0, first_mode_hz = 100.0, first_mode_damping = 0.05;
@@ -68,7 +68,7 @@ private:
         double motor = 0.0, hand = 0.0;   // N
     };
 
-    /// What the motor does in a phase: sticks, or slips to one side.
+    /// The state of the motor in a phase: it sticks, or slips to one side.
     enum class Phase
     {
         stick = 0,

@@ -32,7 +32,7 @@ void readEffortLimits (ObjectReader&, GuardLimits&);
 /// The longest time that a stop may take because of slew limits, in s.
 inline constexpr double longest_stop_s = 0.5;
 
-/// What a slew limit means whose effort has no maximum in the same limits.
+/// The meaning of a slew limit whose effort has no maximum in the same limits.
 enum class Unlimited
 {
     is_refused,                ///< the limits are complete, and a stop could take forever

@@ -136,8 +136,8 @@ private:
     Vec3 velocity = Vec3::Zero();
 };
 
-/// How long a position, or a part of it along which a force pushes, has stayed the same, to the last bit. Also for a rotation and a
-/// torque.
+/// A watch that measures how long a position, or a part of it along which a force pushes, has stayed the same, to the last bit. Also for a rotation
+/// and a torque.
 ///
 /// A hand that holds against a force never stays still: it trembles at 8 to 12 Hz, by tens of micrometres. So a position that does not
 /// change comes from a sensor that has stopped, if the sensor's quantum is finer than the tremor: at most about 10 um. If only one

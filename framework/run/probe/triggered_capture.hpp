@@ -14,7 +14,7 @@
 namespace tactus
 {
 
-/// When to capture some ports, and for how many ticks, like the trigger of an oscilloscope.
+/// The condition that starts a capture of some ports, and the ticks that are captured, like the trigger of an oscilloscope.
 struct Trigger
 {
     enum class Edge

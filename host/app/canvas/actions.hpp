@@ -34,7 +34,7 @@ graph::Command removeSelected (const graph::Graph&, const std::string& patch, co
 /// Lets a wire run through these points.
 graph::Command bendWire (const graph::Graph&, const std::string& patch, graph::Id wire, const std::vector<juce::Point<double>>& bends);
 
-/// Where the nodes of a move, and the bends of the wires between them, are before it.
+/// The places before a move: of the moved nodes, and of the bends of the wires between them.
 struct MovedParts
 {
     std::vector<std::pair<graph::Id, juce::Point<float>>> nodes;

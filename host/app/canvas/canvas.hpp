@@ -189,7 +189,7 @@ private:
     std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
     void updateBreadcrumbs();
     void breadcrumbsChanged();
-    /// What is under the pointer: its id, a description, and the cursor to show.
+    /// The object under the pointer: its id, a description, and the cursor to show.
     struct Hover
     {
         graph::Id id = 0;

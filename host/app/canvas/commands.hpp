@@ -36,7 +36,7 @@ struct NodeRequest
     graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
 };
 
-/// What the user can do to the selection of a canvas and to its patch. Each edit is one undo step.
+/// The commands for the selection of a canvas and for its patch. Each edit is one undo step.
 class CanvasCommands
 {
 public:

@@ -28,7 +28,7 @@ struct WireChoice
     std::string type {};
 };
 
-/// What W can do with a node: wires to and from what is there, then nodes still to be chosen, then each type of node that fits.
+/// The choices that the key W offers for a node: wires to and from what is there, then nodes still to be chosen, then each type of node that fits.
 class WireChoices
 {
 public:

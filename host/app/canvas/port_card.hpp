@@ -14,7 +14,7 @@ namespace tactus::host
 /// The port or wire under the pointer, whose value the canvas shows.
 struct PointedPort
 {
-    /// Where the card goes, so that it covers neither the node nor the pointer.
+    /// The side on which the card is, so that it covers neither the node nor the pointer.
     enum class Side
     {
         left,
@@ -29,7 +29,7 @@ struct PointedPort
     bool operator== (const PointedPort&) const = default;
 };
 
-/// What a port carries now: its values, and their course over the last seconds. Drawn on the canvas next to the port.
+/// The values that a port carries now, and their course over the last seconds. They are drawn on the canvas next to the port.
 struct PortCard
 {
     static constexpr int width = 240, plot_height = 40;   ///< pixels

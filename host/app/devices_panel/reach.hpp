@@ -14,9 +14,9 @@
 namespace tactus::host
 {
 
-/// Where the devices can reach that the session binds to roles of a run, in its graph. Roles whose tool the mouse or a gesture moves are left out. The
-/// box is that of the profile, of the calibration, or, for a simulated device, of the one that it stands for. Call it as often as you like: what it
-/// reads from the session is kept until that changes. [main thread]
+/// The boxes that devices can reach, in the graph of a run. The devices are those that the session binds to the roles of the run. Roles whose tool
+/// the mouse or a gesture moves are left out. The box is that of the profile, of the calibration, or, for a simulated device, of the one that it
+/// stands for. Call it as often as you like: what it reads from the session is kept until that changes. [main thread]
 class Reaches
 {
 public:

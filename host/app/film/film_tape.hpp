@@ -20,7 +20,7 @@ struct FilmTick
     Vec3 position = Vec3::Zero(), force = Vec3::Zero();   ///< m, N
 };
 
-/// What a picture of the scene shows, and the position of the camera.
+/// The content of a picture of the scene, and the position of the camera.
 struct FilmState
 {
     std::uint64_t tick = 0;

@@ -14,8 +14,8 @@
 namespace tactus::host
 {
 
-/// Which column of a recording is which, its unit and its sign: for each quantity that a kind needs, a list of the columns, a field and, where the tool is
-/// pressed on, a button. [main thread]
+/// A form in which the user assigns the columns of a recording, their units and their signs. It has, for each quantity that a kind needs, a list of
+/// the columns, a field and, where the tool is pressed on, a button. [main thread]
 class FitColumns final : public juce::Component
 {
 public:

@@ -19,7 +19,7 @@ namespace
 {
 constexpr int fit_margin = 24, widest_box = 1240, highest_box = 720, field_height = 28, table_width = 380;
 
-/// What a kind needs to know and a recording does not contain.
+/// A number that a kind of fit needs and a recording does not contain.
 struct Amount
 {
     const char *label, *unit, *usual;

@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// What the blocks of an inspector need.
+/// The objects and functions that the blocks of an inspector need.
 struct InspectorContext
 {
     Document& document;

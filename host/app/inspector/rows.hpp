@@ -16,7 +16,7 @@ namespace tactus::host
 /// Tells the user why an edit was refused.
 using Refusal = std::function<void (const juce::String&)>;
 
-/// What a param has in the run, in SI, by component. Empty if nothing runs, or if it is not known.
+/// A function that returns the value of a param in the run, in SI, by component. Empty if nothing runs, or if it is not known.
 using LiveValues = std::function<std::vector<double> (const std::string& param)>;
 
 /// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. If a wire sets it, its

@@ -15,7 +15,7 @@ namespace
 {
 /// Rounds a gain to the precision with which a drag sets it.
 double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
-/// What a screen reader says about a fader, in dB.
+/// The value of a fader, as a screen reader says and sets it, in dB.
 class FaderValue final : public juce::AccessibilityValueInterface
 {
 public:

@@ -52,7 +52,7 @@ struct Limit
     bool operator== (const Limit&) const = default;
 };
 
-/// How steep the steepest contact of a role may become, in multiples of what it is now.
+/// The limits of the stiffness of a role's steepest contact, in multiples of the stiffness now.
 struct ContactLimit
 {
     std::string node;     ///< path of the steepest node

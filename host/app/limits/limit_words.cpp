@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-/// What a condition is about. Some are about what the device lacks, the others about what the graph asks for.
+/// The subject of a condition. Some are about what the device lacks, the others about what the graph asks for.
 struct LimitNoun
 {
     const char *id, *noun;

@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// How far a number has been dragged, in pixels: to the right and up, as on the knobs of JUCE, or only up, as on a fader. With Shift, it goes a tenth as far.
-/// Shift may be pressed and released during the drag.
+/// The distance by which a number has been dragged, in pixels: to the right and up, as on the knobs of JUCE, or only up, as on a fader. With Shift,
+/// it goes a tenth as far. Shift may be pressed and released during the drag.
 class DragWay
 {
 public:

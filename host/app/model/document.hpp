@@ -35,7 +35,7 @@ public:
         virtual void typesChanged() {}
     };
 
-    /// Where a graph came from.
+    /// The origin of a graph.
     struct Source
     {
         std::filesystem::path file {};     ///< where to save it; if empty, ask the user

@@ -22,7 +22,7 @@ bool followsWires (const UnitRule& rule)
     return rule.kind == Kind::open || rule.kind == Kind::each || (rule.kind == Kind::same && rule.unit.symbol == unit::count.symbol);
 }
 
-/// What the wires from the outputs of a node lead to.
+/// A search along the wires from the outputs of a node, for a port with a unit of its own and a usual range.
 struct Ends
 {
     const graph::Graph& graph;

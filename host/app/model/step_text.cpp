@@ -167,7 +167,7 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
     return {};
 }
 
-/// What a step is about: the nodes and wires that its commands name. If there are more than a name can list, the first ones and the last one.
+/// The objects of a step: the nodes and wires that its commands name. If there are more than a name can list, the first ones and the last one.
 struct Objects
 {
     static constexpr std::size_t most = 3;

@@ -42,7 +42,7 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
 /// The entries that fit the query, the best first. An entry without a name is known by its type.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
 
-/// What a palette lists for a query.
+/// A function that returns the entries that a palette lists for a query.
 using PaletteSearch = std::function<std::vector<PaletteEntry> (const std::string& query)>;
 
 /// Searches these entries.

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What a message is about.
+/// The part of a graph that a message is about.
 struct ProblemLocation
 {
     std::string patch;         ///< "" is the graph itself

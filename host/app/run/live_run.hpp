@@ -35,7 +35,7 @@ class DeviceSetup;
 class LiveRun final : private Document::Listener, private RunListener
 {
 public:
-    /// What moves the tool of the hand, see handRole().
+    /// The source of the motion of the hand's tool, see handRole().
     struct Hand
     {
         enum class Kind
@@ -224,7 +224,7 @@ public:
     void poll();
 
 private:
-    /// Where a tool that the mouse holds begins, and the hand that holds it, in m.
+    /// The first positions of a tool that the mouse holds, and of the hand that holds it, in m.
     struct HeldAt
     {
         Vec3 tool, hand;

@@ -15,8 +15,8 @@
 namespace tactus::host
 {
 
-/// What the ports of a canvas carry while a graph runs: the latest values of many ports, and the course of one of them, in which no tick
-/// is left out. Costs the run one test per tick while no port is wanted. [main thread]
+/// The values of the ports of a canvas while a graph runs: the latest values of many ports, and the course of one of them, in which no tick is left
+/// out. Costs the run one test per tick while no port is wanted. [main thread]
 class PortFeed final : public RunListener
 {
 public:

@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// What a picture of the scene shows of a run: its bodies, its tools, and the values of their ports. Unwatched, it costs a run one
-/// test per tick. [main thread]
+/// The part of a run that a picture of the scene shows: its bodies, its tools, and the values of their ports. Unwatched, it costs a run one test per
+/// tick. [main thread]
 class SceneFeed final : public RunListener
 {
 public:

@@ -8,7 +8,7 @@ namespace tactus::host::scene
 
 namespace
 {
-/// Which tool the values of a node come from. Each wire is followed once, whatever the number of bodies.
+/// The tools that the values of the nodes come from. Each wire is followed once, whatever the number of bodies.
 class Sources
 {
 public:

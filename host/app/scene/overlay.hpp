@@ -9,7 +9,7 @@
 namespace tactus::host::scene
 {
 
-/// What a picture writes over the surfaces: forces with their numbers, stretched contacts, cracks, heights, the axes and the scale.
+/// The marks that a picture draws over the surfaces: forces with their numbers, stretched contacts, cracks, heights, the axes and the scale.
 class Overlay
 {
 public:

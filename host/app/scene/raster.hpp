@@ -31,7 +31,7 @@ public:
         float depth = 0.0f, near = 0.0f;
     };
 
-    /// How many triangles were given, and what became of them.
+    /// The number of triangles that were given, by what became of them.
     struct Count
     {
         int drawn = 0, turned_away = 0, outside = 0;
@@ -45,8 +45,8 @@ public:
         both
     };
 
-    /// What has a colour of its own. If it is the pixel, a triangle is shaded once for all its samples there, in the middle of the pixel: its edges
-    /// are as smooth, and a picture takes half the time.
+    /// The part of a picture that has a colour of its own. If it is the pixel, a triangle is shaded once for all its samples there, in the middle of
+    /// the pixel: its edges are as smooth, and a picture takes half the time.
     enum class Shading
     {
         sample,
@@ -95,7 +95,7 @@ private:
     template <std::size_t N, typename Shade>
     DepthResult fill (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
 
-    /// Where the edge between a corner in front of the near plane and one behind it meets the plane.
+    /// The point where the edge between a corner in front of the near plane and one behind it meets the plane.
     template <std::size_t N>
     Corner<N> cut (const Corner<N>& front, const Corner<N>& behind) const noexcept;
 

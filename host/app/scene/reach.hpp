@@ -9,7 +9,7 @@
 namespace tactus::host::scene
 {
 
-/// Where a device can reach, in the graph.
+/// The box that a device can reach, in the graph.
 struct Reach
 {
     std::string role {};

@@ -16,7 +16,7 @@ struct Tool
     Vec3 force = Vec3::Zero();      ///< N
 };
 
-/// What changes from picture to picture.
+/// The state of the tools and bodies, which changes from picture to picture.
 struct SceneState
 {
     std::vector<Tool> tools {};

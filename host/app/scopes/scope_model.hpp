@@ -47,7 +47,7 @@ struct Cursor
     bool operator== (const Cursor&) const = default;
 };
 
-/// What one scope shows, and how. Ports have the same names as in `tactus render --record`.
+/// The ports that one scope shows, and how it shows them. Ports have the same names as in `tactus render --record`.
 struct ScopeSpec
 {
     static constexpr double least_s = 5e-3, most_s = 10.0;

@@ -24,7 +24,7 @@ struct Lane
     double yAt (float pixel) const noexcept;
 };
 
-/// What all scopes of a panel share.
+/// The data that all scopes of a panel share.
 struct ScopeContext
 {
     std::vector<ScopePort> ports;        ///< all ports that can be probed

@@ -61,7 +61,7 @@ private:
     };
     void add (Chip);
 
-    /// All that the plot and the header depend on.
+    /// The values that the plot and the header depend on.
     struct Seen
     {
         ScopeSpec of;

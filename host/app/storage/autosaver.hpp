@@ -14,7 +14,7 @@ namespace tactus::host
 class Autosaver
 {
 public:
-    /// What is written. The thread makes the text of the graph.
+    /// A copy of the document to write. The thread makes the text of the graph.
     struct Copy
     {
         AutosavedDocument document {};   ///< without `graph` and `changed`

@@ -67,7 +67,7 @@ private:
     bool trial = false;
 };
 
-/// What a crashed run of the program left behind. It is locked while this object lives, so that no other instance picks it up.
+/// The folder that a crashed run of the program left behind. It is locked while this object lives, so that no other instance picks it up.
 class CrashedSession
 {
 public:
@@ -94,7 +94,7 @@ private:
 /// started to run. [main thread]
 std::vector<CrashedSession> findCrashedSessions (const std::filesystem::path& home);
 
-/// What to ask the user about a crashed session.
+/// The question for the user about a crashed session.
 struct RecoveryQuestion
 {
     std::string title, text;

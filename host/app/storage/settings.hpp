@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What the window remembers between starts.
+/// The settings that the window remembers between starts.
 struct Settings
 {
     static constexpr std::size_t most_recent = 12, most_recent_types = 6;

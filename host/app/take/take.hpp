@@ -38,7 +38,7 @@ public:
     /// The folder in which recordings are kept until they go, and where a crash leaves them; empty: a temporary one.
     std::filesystem::path home;
 
-    /// What was recorded, in a log that is removed with this object, unless it stays.
+    /// A recording, in a log that is removed with this object, unless it stays.
     struct Recording
     {
         Recording() = default;
@@ -64,7 +64,7 @@ public:
 
     void poll();   ///< call many times a second
 
-    /// Why a recording is complete.
+    /// The reason why a recording is complete.
     enum class End
     {
         asked,            ///< by stop(), or because it is as long as it may be

@@ -69,7 +69,7 @@ public:
 
 private:
     void documentChanged() override;
-    /// What the panel shows of a recording.
+    /// The recording that the panel shows, the names of its ports, and the port that is shown.
     struct Shown
     {
         std::shared_ptr<Take::Recording> recording;

@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-/// What can be searched in an entry of a list, such as a preset or a node type.
+/// The texts that can be searched in an entry of a list, such as a preset or a node type.
 struct Findable
 {
     std::string title;   ///< "Soft pad"

@@ -86,7 +86,7 @@ juce::String about (const PortSheet& p)
     return parts.joinIntoString ("; ");
 }
 
-/// How wide the column of the names is that the lines of a help text share. Each line widens it by its own name.
+/// The width of the column of names, which the lines of a help text share. Each line widens the column for its own name.
 struct NameColumn
 {
     float widest = 0.0f;

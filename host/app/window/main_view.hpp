@@ -54,7 +54,7 @@ public:
     explicit MainView (const Catalogue&);
     ~MainView() override;
 
-    /// How the program was started.
+    /// The options with which the program was started.
     struct StartOptions
     {
         std::filesystem::path home;   ///< the folder of the settings and autosaves

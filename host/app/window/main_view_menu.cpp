@@ -52,7 +52,7 @@ private:
     juce::FileBrowserComponent& browser;
 };
 
-/// What may be a clip. Of the .json, only those that are: others are graphs, which may be in the same folder.
+/// A filter for files that may be clips. Of the .json files, it lets only clips pass: others are graphs, which may be in the same folder.
 class ClipFilter final : public juce::WildcardFileFilter
 {
 public:

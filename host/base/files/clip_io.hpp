@@ -25,7 +25,7 @@ bool isClipFile (const std::filesystem::path&);
 /// file/unreadable, clip/unknown_kind. [main thread]
 Result<readers::ClipFile> loadClip (const std::filesystem::path&);
 
-/// How far a part of the clip in the file is from the clip that was saved. Both are rendered.
+/// The difference between a part of the clip in the file and the clip that was saved. Both are rendered.
 struct ClipLoss
 {
     std::string part {};   ///< "channel 1", "all channels, the envelope alone"

@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    /// What other programs do with a file. A program may set the time of a file, which looks like writing, without opening it.
+    /// The use of a file by other programs. A program may set the time of a file, which looks like writing, without opening it.
     struct FileUse
     {
         bool is_open = false, is_written = false;

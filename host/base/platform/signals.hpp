@@ -28,8 +28,8 @@ void holdEmergencySignals() noexcept;
 /// From now on, the calling thread handles the signals that the other threads hold. [any thread]
 void takeEmergencySignals() noexcept;
 
-/// While it exists, the calling thread and those that it starts receive no signals but those of faults. So the handlers of a program that uses
-/// libtactus_live run on its own threads, and not on one that ticks. [any thread]
+/// A guard of threads against signals. While it exists, the calling thread and those that it starts receive no signals but those of faults. So the
+/// handlers of a program that uses libtactus_live run on its own threads, and not on one that ticks. [any thread]
 class HeldSignals
 {
 public:

@@ -26,7 +26,7 @@ namespace tactus::host
 class WindowStop
 {
 public:
-    /// In pixels of the window. The types are those of the X protocol.
+    /// A part of the window, in pixels. The types are those of the X protocol.
     struct Area
     {
         std::int16_t x = 0, y = 0;
@@ -36,7 +36,7 @@ public:
         bool operator== (const Area&) const = default;
     };
 
-    /// What a stop does. The functions are called on the thread of this object and must not wait.
+    /// The actions of a stop. These functions are called on the thread of this object and must not wait.
     struct Actions
     {
         std::function<void()> stop;             ///< a click on the area

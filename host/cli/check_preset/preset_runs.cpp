@@ -28,7 +28,7 @@ constexpr double longest_gesture_s = 30.0;
 constexpr double faintest = 0.05;    // N, N m or the unit of a signal: less cannot be felt
 constexpr double strongest = 10.0;   // N
 
-/// What a run lets the hand feel.
+/// The efforts that a run lets the hand feel.
 struct Played
 {
     std::vector<double> efforts {};   // all components, tick after tick

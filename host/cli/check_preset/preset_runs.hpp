@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// What the simulated devices of a preset let the hand feel, in all its runs.
+/// The forces that the simulated devices of a preset let the hand feel, in all its runs.
 struct PresetForces
 {
     double lasts_s = 0.0;   ///< one run

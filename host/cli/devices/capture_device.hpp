@@ -20,7 +20,7 @@ struct ChosenDevice
 /// device with a profile. Ends the command if there is none. [main thread]
 ChosenDevice chooseDevice (const std::string& text, const hid::LoadedProfiles&);
 
-/// What `tactus devices --capture` records, and where.
+/// The options of `tactus devices --capture`: what it records, and where.
 struct DeviceCapture
 {
     std::string file;

@@ -20,7 +20,7 @@ struct Conditions
     std::optional<double> stiffness {}, damping {};
 };
 
-/// How a contact stands under some conditions.
+/// The stability of a contact under some conditions.
 struct Standing
 {
     double stiffness = 0.0;            ///< N/m

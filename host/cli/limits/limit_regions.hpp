@@ -28,7 +28,7 @@ struct View
     Varied x, y;
 };
 
-/// Where a predicate holds around a value; empty if nowhere.
+/// The range around a value in which a predicate holds; empty if it holds nowhere.
 struct Range
 {
     double low = 0.0, high = 0.0;

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// What varies along an axis.
+/// The quantity that varies along an axis.
 struct Varied
 {
     enum class What

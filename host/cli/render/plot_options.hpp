@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// What to plot of a recording.
+/// The options for a plot of a recording.
 struct PlotOptions : FigureSize
 {
     std::string file;      ///< "": no plot

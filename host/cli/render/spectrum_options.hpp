@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Which port to analyse, how, and where to write the result.
+/// The options for a spectrum: which port to analyse, how, and where to write the result.
 struct SpectrumOptions : FigureSize
 {
     std::string file, port;   ///< port "": the input of the first sink

@@ -17,8 +17,7 @@
 namespace tactus::host
 {
 
-/// Where the values of a plan are while fused code runs: in local variables where possible, else in the memory where the plan has them.
-/// [main thread]
+/// The places of a plan's values while fused code runs: local variables where possible, else the memory where the plan has them. [main thread]
 ///
 /// Code that reads a value needs it in memory unless a variable with the value is in scope. This may be known only after the code for
 /// the value has been written, so the code is written again until nothing new is needed; see settled().
@@ -38,7 +37,7 @@ public:
 
     const std::vector<void*>& objects() const noexcept { return all; }
 
-    /// Where code that reads a value finds it.
+    /// The place where code that reads a value finds it.
     struct Place
     {
         enum class Kind

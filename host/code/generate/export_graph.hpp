@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// What to write: the class alone, or with something around it.
+/// The kind of code to write: the class alone, or with something around it.
 enum class ExportTarget
 {
     cpp,

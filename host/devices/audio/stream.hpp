@@ -15,7 +15,7 @@
 namespace tactus::host::audio
 {
 
-/// How the ticks of a run and the blocks of a sound card are related.
+/// The relation between the ticks of a run and the blocks of a sound card.
 enum class Clocks
 {
     apart,   ///< independent clocks: the ratio is estimated and followed

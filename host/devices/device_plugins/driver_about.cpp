@@ -23,7 +23,7 @@ constexpr double highest_rate = 10e3;                             // Hz; a drive
 constexpr std::size_t longest_name = 64, longest_text = 4096, longest_limits = std::size_t { 64 } * 1024;
 constexpr const char* ask_author = "ask the author of the driver to correct it";
 
-/// What a driver says that cannot be.
+/// A check of what a driver says about its device. It reports what cannot be.
 class Checker
 {
 public:

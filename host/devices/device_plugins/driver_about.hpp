@@ -15,7 +15,7 @@
 namespace tactus::host
 {
 
-/// What a device of a driver is, as copied and checked.
+/// The description of a driver's device, copied and checked.
 struct DriverAbout
 {
     std::string about;   ///< a sentence

@@ -17,7 +17,7 @@
 namespace tactus::host
 {
 
-/// What has passed between a driver and a run.
+/// The counts of what has passed between a driver and a run.
 struct PluginCounts
 {
     std::uint64_t readings = 0;             ///< that were new and not malformed

@@ -46,7 +46,7 @@ void leaveToGuardian (Failsafe failsafe)
     all.emplace_back (now, std::move (failsafe));
 }
 
-/// How often a driver may be called. Far more often than any device reports: readings must not queue up because of this.
+/// A limit to how often a driver may be called. It is far above the rate at which any device reports: readings must not queue up because of it.
 class Throttle
 {
 public:

@@ -88,7 +88,7 @@ private:
         std::uint64_t number = 0, episode = 0;
     };
 
-    /// When a call of the driver began, in ns of the steady clock; 0: none is running.
+    /// A call of the driver. It stores the time when it begins, in ns of the steady clock, and 0 when it ends: none is running.
     class Call
     {
     public:

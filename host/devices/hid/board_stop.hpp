@@ -4,9 +4,10 @@
 namespace tactus::host::hid
 {
 
-/// When a device with an emergency stop of its own is told of a stop of its guard that only a rearm ends, and when that the stop is over. The device is
-/// told once its efforts are at zero, so that its stop is no step, and again and again, in case that a report is lost. Only a rearm ends its stop, and
-/// only one that Tactus has caused: one that was pressed at the device stays, also right after a rearm. [tick thread]
+/// The link between a guard and the emergency stop of its device: the device is told when the guard stops in a way that only a rearm ends, and when
+/// that stop is over. The device is told once its efforts are at zero, so that its stop is no step, and again and again, in case that a report is
+/// lost. Only a rearm ends its stop, and only one that Tactus has caused: one that was pressed at the device stays, also right after a rearm.
+/// [tick thread]
 ///
 /// Someone who presses the button of the device may let go of the tool, which then becomes too fast. So after a stop of a limit, the device is told
 /// only when it has had the time to say that it is stopped already. An emergency stop does not wait for this.

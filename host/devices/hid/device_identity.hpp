@@ -14,7 +14,7 @@
 namespace tactus::host::hid
 {
 
-/// What a HID device tells the system when it is plugged in.
+/// The identity of a HID device, as it tells the system when it is plugged in.
 struct DeviceIdentity
 {
     DeviceInfo info;

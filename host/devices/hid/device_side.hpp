@@ -29,7 +29,7 @@ public:
 
     std::size_t inputs() const noexcept { return profile->inputs.size(); }
 
-    /// What an output report asks for.
+    /// The effort that an output report asks for.
     struct Heard
     {
         std::size_t report = 0;

@@ -24,7 +24,7 @@ enum Type : std::uint32_t
     acknowledged = 10
 };
 
-/// Something that the board can be asked for.
+/// A value of the board, by its class, instance and number in the board's protocol.
 struct Row
 {
     std::uint32_t of_class, of_instance, number;

@@ -324,7 +324,7 @@ struct Limits
     bool operator== (const Limits&) const = default;
 };
 
-/// How reports are kept apart on a line that carries only bytes: see writeFrame().
+/// The method to keep reports apart on a line that carries only bytes: see writeFrame().
 enum class Framing
 {
     none,

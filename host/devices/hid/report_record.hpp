@@ -8,8 +8,8 @@
 namespace tactus::host::hid
 {
 
-/// Which of the last 32 reports of a device have arrived, one bit each, the newest last. A device whose reports mostly get lost
-/// still looks fresh: with one report in 15 at 1 kHz, no reading is older than 15 ms, but the loop runs at 67 Hz and a wall buzzes.
+/// A record of which of the last 32 reports of a device have arrived, one bit each, the newest last. A device whose reports mostly get lost still
+/// looks fresh: with one report in 15 at 1 kHz, no reading is older than 15 ms, but the loop runs at 67 Hz and a wall buzzes.
 class ReportRecord
 {
 public:

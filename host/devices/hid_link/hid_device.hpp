@@ -108,7 +108,7 @@ private:
     std::span<const std::uint8_t> bytesOf (std::size_t report, BoardStop::Says) noexcept;
     BoardStop::Cause latched() const noexcept;
 
-    /// When a report came last.
+    /// The last arrival of a report.
     struct ReportArrival
     {
         double age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept;   // in s; call once per tick

@@ -89,7 +89,7 @@ public:
     virtual bool beat (bool /*driven*/) noexcept { return true; }
 };
 
-/// What connects a device to this computer.
+/// The kind of connection between a device and this computer.
 enum class Wire
 {
     hid,

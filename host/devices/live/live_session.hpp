@@ -89,7 +89,7 @@ public:
     //==========================================================================
     // While it runs.
 
-    /// What poll() noticed, each only once.
+    /// The events that poll() noticed, each only once.
     struct Events
     {
         std::optional<Message> alarm {};    ///< of the failsafe: all forces are held at zero until rearm()
@@ -122,7 +122,7 @@ public:
         Messages messages {};
     };
 
-    /// What an edit must satisfy, besides having a plan.
+    /// The conditions that an edit must satisfy, besides having a plan.
     enum class EditPolicy
     {
         errors,      ///< nothing else: the window shows the errors, and placeholders run in place of unknown nodes

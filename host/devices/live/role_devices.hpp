@@ -16,7 +16,7 @@
 namespace tactus::host
 {
 
-/// Which device each role of a run gets: the one that the caller gives it, else the one that the session binds it to, else the one that the graph
+/// The device that each role of a run gets: the one that the caller gives it, else the one that the session binds it to, else the one that the graph
 /// describes, else a simulated tool at rest. [main thread]
 class RoleDevices
 {

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// Who stops or starts a run. A person presses a key, a button or a pad, or clicks; all else is a program.
+/// The one who stops or starts a run. A person presses a key, a button or a pad, or clicks; all else is a program.
 enum class By
 {
     person,
@@ -28,7 +28,7 @@ enum class By
 class StopSwitch
 {
 public:
-    /// How often each kind of stop was pressed.
+    /// The number of presses of each kind of stop.
     struct PressCounts
     {
         std::uint32_t stops = 0, emergencies = 0;

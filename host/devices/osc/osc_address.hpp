@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// Where to listen for OSC messages, and which other machine gets answers.
+/// The address at which to listen for OSC messages, and the only other machine that gets answers.
 struct OscListen
 {
     static constexpr const char* loopback = "127.0.0.1";

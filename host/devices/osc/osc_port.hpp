@@ -23,7 +23,7 @@
 namespace tactus::host
 {
 
-/// Where an answer goes.
+/// The address and port for an answer.
 struct OscReturn
 {
     std::string host;

@@ -35,7 +35,7 @@ struct BoundDevice
     Messages messages;   ///< `where` and line numbers refer to the session file
 };
 
-/// What happens if the device of a role does not open.
+/// The consequence if the device of a role does not open.
 enum class Absence
 {
     waits,     ///< a warning; the guard holds the efforts at zero until the device is available

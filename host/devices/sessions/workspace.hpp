@@ -22,7 +22,7 @@
 namespace tactus::host
 {
 
-/// Where a device's workspace is in a graph:
+/// The place of a device's workspace in a graph:
 ///
 ///     position = scale * axes * p + offset        p: on the device
 ///     rotation = d * axes * r                     d: the determinant of `axes`, -1 for a mirror; r: rotation vector on the device

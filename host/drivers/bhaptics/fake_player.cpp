@@ -32,7 +32,7 @@ std::optional<int> wholeAt (const Json& from, const char* key, int most)
     return static_cast<int> (number);
 }
 
-/// What a key drives.
+/// The part of the vest that a key drives, the intensities of its motors, and when they end.
 struct Shown
 {
     std::string position;

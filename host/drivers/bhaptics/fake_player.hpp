@@ -17,7 +17,7 @@ namespace tactus::host
 class FakePlayer
 {
 public:
-    /// What it does wrong.
+    /// A fault of the fake Player.
     enum class Fault
     {
         none,

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// What the person asks for.
+/// The settings that the person asks for.
 struct VestSettings
 {
     Dots dots;

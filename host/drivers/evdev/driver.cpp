@@ -117,7 +117,7 @@ std::string findPath (const std::string& port, std::string& why)
     return onlyOne ([&] (const EventDeviceInfo& info) { return info.name.find (port) != std::string::npos; }, quote (port), why);
 }
 
-/// What `open` returns.
+/// The device that `open` returns.
 struct Opened
 {
     std::string port;

@@ -13,7 +13,7 @@
 namespace tactus::host::evdev
 {
 
-/// What is known about an event device of Linux (/dev/input/event…).
+/// The known properties of an event device of Linux (/dev/input/event…).
 struct EventDeviceInfo
 {
     struct Axis

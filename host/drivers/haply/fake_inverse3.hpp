@@ -18,7 +18,7 @@ namespace tactus::host
 class FakeInverse3
 {
 public:
-    /// What it does wrong.
+    /// A fault of the fake Inverse3.
     enum class Fault
     {
         none,

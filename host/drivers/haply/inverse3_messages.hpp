@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// Where an arm and its grip are.
+/// The state of an arm and its grip.
 struct Inverse3State
 {
     Vec3 position = Vec3::Zero(), rotation = Vec3::Zero();   ///< the rotation is 0 without a grip

@@ -15,7 +15,7 @@
 namespace tactus::host
 {
 
-/// Where a service is.
+/// The address of a service.
 struct ServiceAddress
 {
     std::string host, port;
@@ -31,7 +31,7 @@ class Exchange
 public:
     using Clock = WebSocket::Clock;
 
-    /// How long it waits for an answer.
+    /// The times that it waits for an answer.
     struct Promises
     {
         Clock::duration late {};                                   ///< then offers fail
@@ -43,7 +43,7 @@ public:
         Promises operator* (int times) const { return { times * late, times * gone, times * rested, times * connected }; }
     };
 
-    /// What counts as an answer.
+    /// The kind of message that counts as an answer.
     enum class Answer
     {
         message,   ///< any message
@@ -56,7 +56,7 @@ public:
         std::string message {};     ///< empty: only a ping
     };
 
-    /// What the exchange is about.
+    /// The part of an exchange that depends on the service: it decides what is said, and takes what is heard.
     class Partner
     {
     public:

@@ -16,8 +16,8 @@
 namespace tactus::host
 {
 
-/// What fakes of services share: a thread that serves one client after the other, a fault, and counts. `Fake` is the interface: it names a Fault (none,
-/// restart, …) and Counts (clients, …), and has virtual functions port(), fail() and counts().
+/// The common part of fake services: a thread that serves one client after the other, a fault, and counts. `Fake` is the interface: it names a Fault
+/// (none, restart, …) and Counts (clients, …), and has virtual functions port(), fail() and counts().
 template <typename Fake>
 class FakeService : public Fake
 {

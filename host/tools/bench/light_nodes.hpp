@@ -10,7 +10,7 @@ namespace tactus::bench::light
 
 constexpr Info infoOf (std::string_view id) { return { .id = id, .name = id, .summary = "A few instructions, for the bench.", .source = "definition" }; }
 
-/// In place of motion.velocity.
+/// A stand-in for motion.velocity.
 struct Speed
 {
     struct Inputs
@@ -37,7 +37,7 @@ private:
     double before = 0.0;
 };
 
-/// In place of deform.surface.
+/// A stand-in for deform.surface.
 struct Floor
 {
     struct Inputs
@@ -66,7 +66,7 @@ struct Floor
     }
 };
 
-/// In place of friction.elasto_plastic.
+/// A stand-in for friction.elasto_plastic.
 struct Drag
 {
     struct Inputs
@@ -96,7 +96,7 @@ private:
     double before = 0.0;
 };
 
-/// In place of texture.grating.
+/// A stand-in for texture.grating.
 struct Ridges
 {
     struct Inputs
@@ -115,7 +115,7 @@ struct Ridges
     Outputs tick (const Inputs& in) noexcept { return { .force = -2.0 * in.position }; }
 };
 
-/// In place of texture.noise.
+/// A stand-in for texture.noise.
 struct Noise
 {
     struct Inputs
@@ -135,7 +135,7 @@ struct Noise
     Outputs tick (const Inputs& in) noexcept { return { in.speed * in.normal_force }; }
 };
 
-/// In place of contact.window.
+/// A stand-in for contact.window.
 struct Window
 {
     struct Inputs
@@ -153,7 +153,7 @@ struct Window
     Outputs tick (const Inputs& in) noexcept { return { std::min (1.0, 5000.0 * in.depth) }; }
 };
 
-/// In place of contact.impact.
+/// A stand-in for contact.impact.
 struct Landing
 {
     struct Inputs
@@ -184,7 +184,7 @@ private:
 /// What the decaying kernels below add on each tick, so that they never reach subnormal numbers, which take much longer to compute with.
 inline constexpr double little = 1e-9;
 
-/// In place of shock.hunt_crossley.
+/// A stand-in for shock.hunt_crossley.
 struct Shock
 {
     struct Inputs
@@ -205,7 +205,7 @@ private:
     double left = 0.0;
 };
 
-/// In place of vibration.modal.
+/// A stand-in for vibration.modal.
 struct Ring
 {
     using Inputs = Shock::Inputs;
@@ -223,7 +223,7 @@ private:
     double left = 0.0;
 };
 
-/// In place of safety.passivity.
+/// A stand-in for safety.passivity.
 struct Passivity
 {
     struct Inputs
@@ -244,7 +244,7 @@ struct Passivity
     Outputs tick (const Inputs& in) noexcept { return { .force = in.force - in.contact * in.position }; }
 };
 
-/// In place of hold.predictive.
+/// A stand-in for hold.predictive.
 struct Limit
 {
     struct Inputs

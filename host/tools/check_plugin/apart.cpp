@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr int most_idle_seconds = 60, looks_per_second = 5;
 constexpr rlim_t most_memory = rlim_t { 8 } << 30;   // bytes of address space: beyond it, allocations fail
 
-/// What a child tells its parent, in memory that they share: the parent can read it however the child ends.
+/// The report of a child process to its parent, in memory that they share. The parent can read it however the child ends.
 struct ChildReport
 {
     examine::Stage::Place stage;

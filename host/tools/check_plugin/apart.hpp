@@ -7,7 +7,7 @@
 namespace tactus::check_plugin
 {
 
-/// How work in a separate process ended.
+/// The result of work in a separate process.
 struct ProcessResult
 {
     bool done = false;       ///< the work returned
@@ -16,7 +16,7 @@ struct ProcessResult
     bool endless = false;    ///< the process had to be killed, because the work never finished
 };
 
-/// What work in a separate process may take.
+/// The CPU time that work in a separate process may take.
 struct Budget
 {
     int cpu_seconds;     ///< of CPU time, for all of the work

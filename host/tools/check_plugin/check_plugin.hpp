@@ -26,7 +26,7 @@ enum class Verdict
     skipped
 };
 
-/// What one examination has found.
+/// The result of one examination.
 struct Finding
 {
     std::string id, promise;

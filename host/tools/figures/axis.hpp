@@ -32,7 +32,7 @@ Extent widened (const Extent& extent, double fraction) noexcept;
 /// The extent, enlarged to the next ticks if they are near its ends: 0 to 1.999 s ends at 2 s.
 Extent roundedOutwards (const Extent& extent, int ticks) noexcept;
 
-/// How an axis shows values: shown = (value - origin) / unit.
+/// The scale of an axis, by which it shows values: shown = (value - origin) / unit.
 struct AxisScale
 {
     double origin = 0.0;   // nonzero if the values differ little relative to their size

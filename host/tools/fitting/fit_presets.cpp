@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-/// What differs from preset to preset. In each, a simulated stylus with a guard moves along a path.
+/// The part that differs from preset to preset. In each, a simulated stylus with a guard moves along a path.
 struct Sketch
 {
     std::string path, tags, nodes, wires;

@@ -27,7 +27,7 @@ enum class FitKind
     shock
 };
 
-/// What the command line and the window say about a kind of fit.
+/// The description of a kind of fit, for the command line and the window.
 struct FitKindInfo
 {
     FitKind kind;
@@ -81,7 +81,7 @@ std::string verdictOf (const FitReport&);
 /// Fits a recording. `file` is named in messages and in the preset. Errors: fit/…; see framework/fit. [any thread]
 Result<FittedGraph> fitRecording (FitKind, const Table&, const std::string& file, const FitSettings&, FitCourse* = nullptr);
 
-/// What was recorded, before it is fitted.
+/// The recorded data, before it is fitted.
 struct RecordedPicture
 {
     FitPicture picture {};             ///< the second column of a kind over the first; empty if the columns cannot be read

@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// What orient() did to the columns of a recording.
+/// The changes that orient() made to the columns of a recording.
 struct Pressing
 {
     std::set<std::string> turned {};     ///< the roles whose sign was turned, also those that the user has chosen
@@ -19,7 +19,7 @@ struct Pressing
     std::vector<std::string> notes {};   ///< a sentence for each change that the user has not chosen
 };
 
-/// Where the depth 0 is.
+/// The choice of the place where the depth is 0.
 struct Touch
 {
     bool is_looked_for = false;       ///< where the force begins, if the recorded 0 cannot be the touch

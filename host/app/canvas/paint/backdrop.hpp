@@ -27,7 +27,7 @@ public:
 private:
     static constexpr int grid = 32;   // pixels
 
-    /// What a change of makes the whole picture old.
+    /// The values that the whole picture depends on. If one changes, the picture is old.
     struct Ground
     {
         View view;
@@ -39,7 +39,7 @@ private:
         bool operator== (const Ground&) const = default;
     };
 
-    /// How a wire looks, and where it is.
+    /// The look and the place of a wire.
     struct Drawn
     {
         juce::Point<float> from, to;

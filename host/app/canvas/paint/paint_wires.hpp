@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Which wires of a scene are painted together, below all others: those of a patch that has very many, except what stands out. Painted one at a
+/// The wires of a scene that are painted together, below all others: those of a patch that has very many, except what stands out. Painted one at a
 /// time, they take longer.
 class Bundling
 {

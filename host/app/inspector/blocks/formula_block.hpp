@@ -45,7 +45,7 @@ private:
         bool is_formula;
     };
 
-    /// Where the next word goes, and where lines begin and end.
+    /// The place for the next word, and where lines begin and end.
     struct Pen
     {
         float x = 0.0f, y = 0.0f, indent = 0.0f, right = 0.0f;

@@ -11,8 +11,8 @@
 namespace tactus::host
 {
 
-/// How steep a contact may become: a bar over its stiffness with the parts where it is passive, stable and unstable, and a mark where it is now.
-/// Takes no room while nothing is known.
+/// A display of how steep a contact may become. It is a bar over the stiffness with the parts where the contact is passive, stable and unstable, and
+/// a mark where it is now. It takes no room while nothing is known.
 class LimitBlock final : public Block
 {
 public:

@@ -21,7 +21,7 @@ namespace tactus::host
 
 namespace
 {
-/// What a screen reader says about a field, and how it sets the value.
+/// The value of a field, as a screen reader says and sets it.
 class FieldValue final : public juce::AccessibilityTextValueInterface
 {
 public:

@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// What the editors of settings need in addition to the value.
+/// The objects and functions that the editors of settings need in addition to the value.
 struct EditorContext
 {
     Assets& assets;

@@ -30,7 +30,7 @@ public:
     const LimitWatch* limits = nullptr;   ///< whose list to show; null for none
 
 private:
-    /// What it watches of a scene.
+    /// The ports, nodes and wires of a scene that it watches.
     struct Watched
     {
         struct Item

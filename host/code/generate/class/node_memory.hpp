@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// What the nodes of an exported graph need.
+/// The memory that the nodes of an exported graph need.
 struct NodeMemory
 {
     std::size_t nodes = 0;      ///< bytes of the nodes themselves

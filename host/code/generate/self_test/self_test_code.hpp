@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// What a self-test does to the graph before a tick.
+/// A change that a self-test makes to the graph before a tick.
 struct SelfTestEvent
 {
     enum class Kind

@@ -321,7 +321,7 @@ std::string description (const Exported& e, const Variables& all)
                      { "@STRUCTURE@", structure } });
 }
 
-/// What the functions of the unit do with its variables.
+/// The code with which the functions of the unit access its variables.
 struct Access
 {
     std::string read, write, set, strike, starts;

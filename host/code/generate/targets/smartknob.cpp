@@ -49,7 +49,7 @@ struct TurnedKnob final : Device
     double angle = 0.0, torque = 0.0;   // rad, N m
 };
 
-/// What a knob is turned through: to one side, all the way to the other one, and back.
+/// The angles that a knob is turned through: to one side, all the way to the other one, and back.
 struct Way
 {
     std::vector<double> angles;
@@ -99,7 +99,7 @@ Result<std::vector<double>> torquesAlong (const Way& way, const std::shared_ptr<
     return torques;
 }
 
-/// Where the torque along increasing angles changes its side: at detents from + to -, between them from - to +.
+/// The angles where the torque changes its sign as the angle increases: at detents from + to -, between them from - to +.
 struct Sides
 {
     std::vector<double> detents, between;
@@ -186,7 +186,7 @@ Result<KnobConfig> placesOf (const Sides& up, const Sides& down)
     return config;
 }
 
-/// What the knob does at an angle, and what the graph does there.
+/// The pull of the knob at an angle, and the torque of the graph there.
 struct Compared
 {
     KnobLaw::Pull pull;

@@ -15,9 +15,9 @@
 namespace tactus::host
 {
 
-/// What the firmware of a SmartKnob takes instead of torques (scottbez1/smartknob, proto/smartknob.proto, protocol version 1; facts only): evenly
-/// spaced detents, perhaps with a stop at each end. It pulls towards the middle of the nearest one with 4 V/rad times the strength, beyond a dead
-/// zone, and takes the next detent for the nearest one beyond `snap_point`.
+/// The configuration that the firmware of a SmartKnob takes instead of torques (scottbez1/smartknob, proto/smartknob.proto, protocol version 1; facts
+/// only): evenly spaced detents, perhaps with a stop at each end. It pulls towards the middle of the nearest one with 4 V/rad times the strength,
+/// beyond a dead zone, and takes the next detent for the nearest one beyond `snap_point`.
 struct KnobConfig
 {
     std::int32_t min_position = 0, max_position = -1;   ///< from 0, which is where the knob begins, clockwise; max below min: no ends

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// What a record does if the type of its object does not tell.
+/// Types that tell what a record does if the type of its object does not.
 struct DelayRead : plan::DelayLine
 {
 };

@@ -13,7 +13,7 @@
 namespace tactus::host::hid
 {
 
-/// Why a report was refused.
+/// The reason why a report was refused.
 enum class Refusal
 {
     none,
@@ -29,7 +29,7 @@ inline constexpr std::size_t refusals = 6;
 /// Describes a refusal, as in "too short".
 std::string_view describe (Refusal) noexcept;
 
-/// How a report relates to the previous report with the same id, judged by its sequence number and the device's clock.
+/// The order of a report and the previous report with the same id, judged by its sequence number and the device's clock.
 enum class ReportOrder
 {
     next,
