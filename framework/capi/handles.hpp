@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the handles of the C API point to. Only this folder and framework/python/ include this.
+/// The objects that the handles of the C API point to. Only this folder and framework/python/ include this.
 
 #include "caller_assets.hpp"
 #include "caller_structs.hpp"

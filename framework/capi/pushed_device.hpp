@@ -24,8 +24,8 @@ public:
 
     explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds) : has (std::move (parts)), now_s (clock) {}
 
-    /// How old a reading may get before the guard brings the effort to zero, if the program does not say it. Like most profiles of devices; a
-    /// program that pushes at 60 Hz may be late by two readings.
+    /// The age that a reading may reach before the guard brings the effort to zero, if the program does not set it. Most profiles of devices have the
+    /// same value. A program that pushes at 60 Hz may be late by two readings.
     static constexpr double default_watchdog = 0.05;   // in s
 
     /// The limits of the program, with a watchdog. Only the program itself can ask for a longer one; a graph only tightens.

@@ -9,7 +9,7 @@ using namespace tactus::capi;
 
 namespace
 {
-/// Where a control of the graph that plays stands.
+/// The position of a control in the graph that plays.
 double positionOf (const tactus_run& r, const tactus::graph::Control& control)
 {
     if (const auto turned = r.turned.find (control.id); turned != r.turned.end()) return turned->second;

@@ -37,7 +37,7 @@ public:
 
     Index size() const { return device_state.size() + 3 + static_cast<Index> (sent.size()); }
 
-    /// What becomes of a state in two ticks.
+    /// The state after two ticks.
     Eigen::VectorXd after (const Eigen::VectorXd& state)
     {
         device_state = state.head (device_state.size());

@@ -66,7 +66,7 @@ struct Reach
     Vec3 min = Vec3::Zero(), max = Vec3::Zero();
 };
 
-/// How far a tool may move from where it started if nothing is known about its reach, in m.
+/// The distance that a tool may move from its start if nothing is known about its reach, in m.
 inline constexpr double farthest_m = 1.0;
 
 /// An error (check/diverged) for each role whose tool ran away while the motion was recorded: one of its positions is not finite,

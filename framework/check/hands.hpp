@@ -29,7 +29,7 @@ struct HandChoice
     std::filesystem::path folder {};   ///< base of the relative paths in the description
 };
 
-/// How long a graph is measured if the paths of all hands are endless, and the longest time that it is measured, in s.
+/// The time for which a graph is measured if the paths of all hands are endless, and the longest time for which it is measured, in s.
 inline constexpr double default_length_s = 2.0, longest_s = 6.0;
 
 struct RecordedMotion

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-/// What judge.cpp, judge_deadbeat.cpp and judge_links.cpp share.
+/// The functions that judge.cpp, judge_deadbeat.cpp and judge_links.cpp share.
 namespace tactus::check::judging
 {
 

@@ -45,8 +45,8 @@ public:
     /// The last response(), per metre, at each tick after the shift. Empty if sections do not run on every tick.
     std::span<const Eigen::VectorXd> lastPath() const noexcept { return period > 1 ? std::span<const Eigen::VectorXd>() : path; }
 
-    /// How the forces of all roles change, in N, if the tools of one copy move to their positions at another time of the motion, while
-    /// those of the other copy stay.
+    /// The change of the forces of all roles, in N, if the tools of one copy move to their positions at another time of the motion, while those of
+    /// the other copy stay.
     Eigen::VectorXd changeAt (double tick);
 
     /// Moves the tools of both copies back to the same positions, and waits.

@@ -27,7 +27,7 @@ Json toJson (const DeviceNumbers& numbers)
     return j;
 }
 
-/// What a role demands, the position at which its force is steepest, and the stiffness of each node there.
+/// The demands of a role, the position at which its force is steepest, and the stiffness of each node there.
 Json toJson (const Demand& demand, const RoleDemand& role)
 {
     Json j { { "role", role.role } };

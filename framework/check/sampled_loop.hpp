@@ -24,8 +24,8 @@ struct HeldHand
 /// magnitude and its relation to postural arm dynamics in 3D", figure 3): 0.554 kg, 6.45 N s/m and 135 N/m.
 std::span<const HeldHand> usualHands() noexcept;
 
-/// How a device and a hand move in a tick: the states after it (the position and the speed of the sensor come first), from those before and, in the last
-/// column, a force that is held. The mass and the damping of the device must be known. [any thread]
+/// The motion of a device and a hand in a tick, as a matrix. Its rows are the states after the tick, the position and the speed of the sensor first;
+/// its columns are the states before the tick and, last, a force that is held. The mass and the damping of the device must be known. [any thread]
 Jacobian heldMotion (const DeviceNumbers&, double period_s, const HeldHand&);
 
 /// The loop of a device, a hand and a graph that was linearised at one place: exact between the ticks, under a force that is held.

@@ -20,7 +20,8 @@ struct SpringAndDamper
     /// The response of this contact with another stiffness and damping, in N/m.
     std::vector<double> response (double stiffness_n_m, double damping_ns_m) const;
 
-    /// What the device must dissipate so that this contact is passive: (2d + 1) sigma T/2 + |b|, in N s/m. `delay_ticks` is that of the device.
+    /// The damping that the device must have so that this contact is passive: (2d + 1) sigma T/2 + |b|, in N s/m. `delay_ticks` is that of the
+    /// device.
     double load (double stiffness_n_m, double damping_ns_m, double delay_ticks) const;
 };
 

@@ -20,10 +20,10 @@ struct Examination
     int level;                  ///< 1 (always) to 10 (only in the longest checks)
     bool random;                ///< true: each seed is another trial; false: one trial is enough
 
-    /// Why the promise does not apply to this node, or cannot be checked in this program; empty if it can be checked.
+    /// The reason why the promise does not apply to this node, or cannot be checked in this program; empty if it can be checked.
     std::string (*skipped) (const NodeType&);
 
-    /// How the node breaks the promise; empty if it does not. The same seed gives the same answer. Passes on what a hook throws.
+    /// A description of how the node breaks the promise; empty if it does not. The same seed gives the same answer. Passes on what a hook throws.
     /// [any thread]
     std::string (*fault) (const NodeType&, unsigned seed);
 };
@@ -34,7 +34,7 @@ std::span<const Examination> examinations() noexcept;
 /// Throws std::invalid_argument if no examination has this id.
 const Examination& examination (std::string_view id);
 
-/// How many trials a random examination gets at a level from 1 to 10.
+/// The number of trials of a random examination at a level from 1 to 10.
 int trialsAt (int level) noexcept;
 
 /// A hash of all outputs of a random run. It is the same in every process if the node keeps its promise to give the same bits.

@@ -34,7 +34,7 @@ std::string wrongAnswer (const Rig& rig, const PortSheet& port, const std::vecto
     return {};
 }
 
-/// Whether a node answers like a fresh one, whatever its past.
+/// True if a node answers like a fresh one, whatever its past.
 bool answersLikeFresh (const NodeType& type, NodeDice& dice, bool with_fault)
 {
     Rig old = prepared (type), fresh = prepared (type);

@@ -10,9 +10,8 @@
 namespace tactus
 {
 
-/// Why a file must not be opened for reading: it does not exist, or is a folder, a device, a socket or a named pipe. Opening a pipe
-/// waits for its writer, and reading a device may never end. Empty for a regular file. Everything that reads files asks this first.
-/// [any thread]
+/// The reason why a file must not be opened for reading: it does not exist, or is a folder, a device, a socket or a named pipe. Opening a pipe waits
+/// for its writer, and reading a device may never end. Empty for a regular file. Everything that reads files asks this first. [any thread]
 std::string whyUnreadable (const std::filesystem::path&);
 
 /// The content of a regular file, charged to the budgets `file` and `reading`. The error has neither a location nor, for

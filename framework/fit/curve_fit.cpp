@@ -196,7 +196,7 @@ Result<CurveFit> rowsOf (const RecordedLoop& loop)
     return fit;
 }
 
-/// How the force at each depth of the table changes with each recorded force, before the curve is made monotone.
+/// The change of the force at each depth of the table with each recorded force, before the curve is made monotone.
 Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing, int points)
 {
     const auto rows = static_cast<Eigen::Index> (d.size());

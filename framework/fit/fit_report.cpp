@@ -63,7 +63,7 @@ Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, s
 
 namespace
 {
-/// What 1 in the last digit of each time means; 0 if the times were not rounded. A time whose last digits are 0 counts like its neighbours.
+/// The size of 1 in the last digit of each time; 0 if the times were not rounded. A time whose last digits are 0 counts like its neighbours.
 std::vector<double> lastDigits (const std::vector<double>& time)
 {
     constexpr int most = 9, around = 5;

@@ -271,7 +271,7 @@ void reportTones (const Ring& ring, const RingModel& model, const VectorXd& resi
     }
 }
 
-/// What the modes do not explain: tones that stand out from the noise, and a residual that decays, as noise does not.
+/// Reports what the modes do not explain: tones that stand out from the noise, and a residual that decays, as noise does not.
 void examineResidual (const Ring& ring, const VectorXd& residual, double least, FitReport& report)
 {
     if (const auto left = detail::ResidualSpectrum (residual, least).strongest())

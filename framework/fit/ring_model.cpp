@@ -107,7 +107,7 @@ MatrixXd slopesIn (const Basis& basis, const std::vector<DecayingTone>& tones)
     return slopes;
 }
 
-/// Which of the basis have amplitudes in the model.
+/// The functions of the basis that have amplitudes in the model.
 std::vector<Index> linearOf (const Basis& basis)
 {
     std::vector<Index> linear;

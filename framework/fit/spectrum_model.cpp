@@ -232,8 +232,8 @@ std::vector<std::vector<std::span<const double>>> quartersOf (const std::vector<
     return parts;
 }
 
-/// What each quarter of the rows contributes to the estimates, by one step of Fisher's scoring. `inverse` is that of the information of all rows, in
-/// which the floor counts in units of `power`.
+/// The contribution of each quarter of the rows to the estimates, by one step of Fisher's scoring. `inverse` is that of the information of all rows,
+/// in which the floor counts in units of `power`.
 MatrixXd contributionsOf (const std::vector<std::span<const double>>& stretches, const VectorXd& x, Index order, double power, const MatrixXd& inverse)
 {
     const auto parts = quartersOf (stretches);

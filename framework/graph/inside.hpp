@@ -15,7 +15,7 @@ struct Inside
     explicit operator bool() const noexcept { return patch != nullptr; }
 };
 
-/// Empty for a node of the catalogue, and if the subgraph or file does not exist.
+/// The inside of a subgraph node. Empty for a node of the catalogue, and if the subgraph or file does not exist.
 Inside insideOf (const Graph& owner, const Node&);
 
 }   // namespace tactus::graph

@@ -30,8 +30,8 @@ struct PathStep
 
 PathStep firstStep (std::string_view path) noexcept;
 
-/// How many names in the path of a node or port have a single instance: 1 for "a[3]/b[*]/c.in[2]". If two values are given for
-/// one parameter, the value with the larger number takes precedence.
+/// The number of names in the path of a node or port that have a single instance: 1 for "a[3]/b[*]/c.in[2]". If two values are given for one
+/// parameter, the value with the larger number takes precedence.
 int namedInstances (std::string_view) noexcept;
 
 /// Matches the path or port `name` against the beginning of `text`, in which every instance is named. Returns the length of the

@@ -61,7 +61,7 @@ public:
     double cutStretch() const noexcept { return e_cut; }         ///< e_c, in m
     double ruptureDepth() const noexcept { return d_rupture; }   ///< d_r, in m
 
-    /// What is wrong with a sample and its laws, as a sentence; empty if nothing is. [main thread]
+    /// The problem of a sample and its laws, as a sentence; empty if there is none. [main thread]
     static std::string problem (double width, double toughness, double rupture_force, const Law& law, const Law& cracked);
 
 private:

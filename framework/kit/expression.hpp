@@ -21,7 +21,7 @@ namespace tactus
 class Expression
 {
 public:
-    /// How deep a formula may nest, in brackets and in values on the stack. Deeper formulas are refused.
+    /// The deepest nesting of a formula, in brackets and in values on the stack. Deeper formulas are refused.
     static constexpr int max_depth = 64;
 
     /// Replaces the formula, which may use `inputs` inputs. Returns "", or what is wrong and in which column.

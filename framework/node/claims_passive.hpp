@@ -6,7 +6,7 @@
 namespace tactus
 {
 
-/// Whether a node with its default params and settings claims that it generates no energy over any closed path. [main thread]
+/// True if a node with its default params and settings claims that it generates no energy over any closed path. [main thread]
 inline bool claimsPassive (const NodeType& type)
 {
     if (type.claims == nullptr) return false;

@@ -54,7 +54,7 @@ public:
 
     void clear() noexcept { count = 0; }
 
-    /// Where the number of values in use is stored. Plugins read it, and the values from begin(), in place.
+    /// The address of the number of values in use. Plugins read it, and the values from begin(), in place.
     const int* used() const noexcept { return &count; }
 
     const double* begin() const noexcept { return values; }
@@ -147,7 +147,7 @@ struct DeviceState
 };
 
 #ifndef TACTUS_ONLY_LANES   // code for one kind of processor must not run when a program starts
-/// What a device node is bound to before its role has a state.
+/// The state that a device node is bound to before its role has one.
 inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };
 #endif
 
@@ -173,10 +173,11 @@ public:
     /// a driver that knows when an effort reaches the device must keep them by the wall clock. Called before prepare(). [main thread]
     virtual void limitSlews (double /*force*/, double /*torque*/, double /*axis*/) {}
 
-    /// What the device has in addition to a tool. Called when the role gets the device; must not change afterwards. [main thread]
+    /// The parts that the device has in addition to a tool. Called when the role gets the device; the answer must not change afterwards.
+    /// [main thread]
     virtual DeviceLayout layout() const { return {}; }
 
-    /// How long this device can drive a run, in s. 0: without limit, so the run needs --duration.
+    /// The time that this device can drive a run, in s. 0: there is no limit, so the run needs --duration.
     virtual double duration() const noexcept { return 0.0; }
 
     /// The guard withholds efforts on this tick: called before write. A driver that sends what it derives from earlier efforts, such as

@@ -53,7 +53,7 @@ struct NodeLanes
 /// The widest packs that this processor has: 8, 4 or 2. [any thread]
 std::size_t widestLanes() noexcept;
 
-/// What a run uses: widestLanes(), or fewer if the environment variable TACTUS_LANES says so. With 1, each node runs on its own.
+/// The number of lanes that a run uses: widestLanes(), or fewer if the environment variable TACTUS_LANES says so. With 1, each node runs on its own.
 /// [main thread]
 std::size_t usualLanes() noexcept;
 

@@ -71,7 +71,7 @@ inline constexpr std::array<ReadingFaultInfo, 18> reading_faults { {
 } };
 static_assert (reading_faults.size() == static_cast<std::size_t> (ReadingFault::moved) + 1, "a new fault needs words");
 
-/// Those that a device can report itself.
+/// True for a fault that a device can report itself.
 constexpr bool isAlarm (ReadingFault fault) noexcept { return fault >= ReadingFault::too_hot && fault <= ReadingFault::failed; }
 
 /// The fault in words, as a sentence; empty for none.

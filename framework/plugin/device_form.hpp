@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Whether a DeviceState of the host can be read in place by a plugin that another compiler has built.
+/// Tells whether a plugin that another compiler has built can read a DeviceState of the host in place.
 
 #include <tactus/node/device.hpp>
 
@@ -27,8 +27,8 @@ inline std::string nameOfLibrary()
 #endif
 }
 
-/// How a DeviceState is laid out in memory: the library, the sizes of its parts, and the place of each member in the order of the C
-/// interface. If two programs give the same text, and it is not empty, one can read the other's DeviceState in place.
+/// The layout of a DeviceState in memory: the library, the sizes of its parts, and the place of each member in the order of the C interface. If two
+/// programs give the same text, and it is not empty, one can read the other's DeviceState in place.
 inline std::string formOfDeviceState()
 {
     auto text = nameOfLibrary();

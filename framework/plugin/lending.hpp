@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the host lends to nodes in plugins, as structs of the C interface.
+/// The services that the host lends to nodes in plugins, as structs of the C interface.
 
 #include <tactus/tactus_plugin.h>
 

@@ -17,7 +17,7 @@ namespace tactus::plugin
 /// For `state_layout`, see NodeType.
 Result<NodeType> readNode (const tactus_plugin_node*, const std::string& file, std::shared_ptr<const void> library, std::string state_layout = {});
 
-/// What is wrong with a node and its datasheet, as a sentence; empty if nothing is. [main thread]
+/// The fault of a node or its datasheet, as a sentence; empty if there is none. [main thread]
 std::string faultOf (const tactus_plugin_node*);
 
 }   // namespace tactus::plugin

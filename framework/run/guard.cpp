@@ -40,7 +40,7 @@ double approached (double from, double to, double most) noexcept
     return std::abs (half_way) <= 0.5 * most ? to : from + std::copysign (most * just_under, half_way);
 }
 
-/// How much a value may change in this time. Without a limit, anything, even if no time has passed.
+/// The largest change of a value in this time. Without a limit it is unlimited, even if no time has passed.
 double stepOf (double slew, double s) noexcept { return slew == GuardLimits::none ? slew : slew * s; }
 
 /// Limits each value of `to` separately: at most `most` from 0, and at most `most_step` from its last value.
@@ -113,7 +113,7 @@ bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.
     return most;
 }
 
-/// What `sizes` of a guard limits, in this order, and the slew limits.
+/// The limits in `sizes` of a guard, in this order, and the slew limits.
 constexpr std::array size_limits { &GuardLimits::max_force, &GuardLimits::max_torque, &GuardLimits::max_axis_effort, &GuardLimits::max_signal,
                                    &GuardLimits::max_brake };
 constexpr std::array slew_limits { &GuardLimits::max_slew, &GuardLimits::max_torque_slew, &GuardLimits::max_axis_slew, &GuardLimits::max_signal_slew,
@@ -252,7 +252,7 @@ bool Guard::tighten (const GuardLimits& wanted) noexcept
     return true;
 }
 
-/// How much force, torque, effort on an axis, signal and braking is on the device, in the order of `sizes`.
+/// The size of the force, torque, effort on an axis, signal and braking on the device, in the order of `sizes`.
 std::array<double, 5> Guard::onDevice() const noexcept
 {
     return { length (last.force), length (last.torque), largest (last.axes), largest (last.signals), last.brake };
@@ -345,7 +345,7 @@ void Guard::passTime (double passed_s) noexcept
     is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
 }
 
-/// How far whatever rises may advance on this tick, in s.
+/// The time by which everything that rises may advance on this tick, in s.
 double Guard::rise (double passed_s) noexcept
 {
     const double most = limits.watchdog == GuardLimits::none ? GuardLimits::default_watchdog : limits.watchdog;

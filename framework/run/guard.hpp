@@ -192,7 +192,7 @@ public:
     /// True during a stop that only rearm() can end, even if another cause is reported. [any thread that owns the guard]
     bool isLatched() const noexcept { return latched != Stop::none; }
 
-    /// Why the last effort was withheld. [any thread that owns the guard]
+    /// The reason why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
 
     /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad but the reason
@@ -202,10 +202,10 @@ public:
     /// True once an effort has been let through since prepare(). [any thread that owns the guard]
     bool hasBegun() const noexcept { return has_begun; }
 
-    /// How many stops there have been since prepare().
+    /// The number of stops since prepare().
     std::uint64_t events() const noexcept { return count; }
 
-    /// How many times latest() has changed since prepare().
+    /// The number of changes of latest() since prepare().
     std::uint64_t changes() const noexcept { return change_count; }
 
     /// True while no effort is on the device, and its brake is as during a stop, so that it can be released without a step.

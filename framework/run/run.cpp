@@ -130,7 +130,8 @@ bool isStandIn (const Run::RoleDevice& opened, const Json* description)
 }
 }   // namespace
 
-/// What the graph asks of the guard of a role, and what earlier graphs of this run asked for. A limit that is no longer there waits for the next run.
+/// The limits that the graph asks of the guard of a role, and those that earlier graphs of this run asked for. A limit that is no longer there waits
+/// for the next run.
 GuardLimits Run::asksFor (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const RoleDevice& of,
                           Messages& messages) const
 {
@@ -303,7 +304,7 @@ Run::Edit::Edit (Run& r, const graph::Graph& g, std::vector<std::string> kept)
     if (compiled.plan) readGuards();
 }
 
-/// What the guards of the edited graph ask of the roles that have a device.
+/// Reads what the guards of the edited graph ask of the roles that have a device.
 void Run::Edit::readGuards()
 {
     const auto guards = includedGuards (graph);

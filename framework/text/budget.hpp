@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// How much the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs
-/// are counted, not measured: the same files are accepted or refused on every computer. The defaults keep the loading of any
-/// file to about 5 s and 500 MB. `tactus validate`, `render` and `play` change them with --limits.
+/// Limits of what the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs are counted,
+/// not measured: the same files are accepted or refused on every computer. The defaults keep the loading of any file to about 5 s and 500 MB.
+/// `tactus validate`, `render` and `play` change them with --limits.
 ///
 /// These limits are not budgets, because they protect the stack or tell files apart: 64 levels of JSON (deepest_nesting), 32
 /// levels of subgraphs and of included files, 64 levels of an expression, and 512 KB in a line of a CSV.

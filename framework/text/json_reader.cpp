@@ -260,7 +260,7 @@ bool JsonReader::expected (const std::string& what, Wanted wanted, bool after_co
     return ! has_failed && syntax (scan.position(), what + ", found " + found(), remedyFor (wanted, after_comma));
 }
 
-/// What is where the scanner is.
+/// The words for what is at the place of the scanner.
 std::string JsonReader::found() const
 {
     const auto rest = scan.rest();

@@ -90,7 +90,7 @@ bool isOwnGroup (gid_t id)
     return is_own;
 }
 
-/// True if a list of further users may change who can write to it. The bits of the group then apply to all of them.
+/// True if the file has an access list, which may let further users write to it. The bits of the group then apply to all of them.
 bool hasAccessList ([[maybe_unused]] const std::string& path)
 {
 #if defined(__linux__)
@@ -113,7 +113,7 @@ enum class Place
 
 std::string what (const struct stat& s, const std::string& path) { return std::string ("the ") + nameOfKind (s) + " " + quotePath (path); }
 
-/// Who else owns this one, which is called `path`.
+/// A sentence about the other user who owns this one, which is called `path`. Empty if there is none.
 std::string ownerOf (const struct stat& s, const std::string& path)
 {
     if (s.st_uid == ::geteuid() || s.st_uid == 0) return {};
@@ -121,7 +121,7 @@ std::string ownerOf (const struct stat& s, const std::string& path)
     return what (s, path) + " belongs to " + (name.empty() ? "user number " + std::to_string (s.st_uid) : "the user " + printableName (name));
 }
 
-/// Who else can change this one, which is called `path`.
+/// A sentence about another user who can change this one, which is called `path`. Empty if nobody can.
 std::string whoElse (const struct stat& s, const std::string& path, Place place = Place::end)
 {
     if (auto owner = ownerOf (s, path); ! owner.empty()) return owner;

@@ -54,7 +54,7 @@ public:
     const T& value() const& { return std::get<0> (content); }
     T&& value() && { return std::get<0> (std::move (content)); }
 
-    /// Why there is no value. Call it only if there is none.
+    /// The reason why there is no value. Call it only if there is none.
     const Message& error() const& noexcept { return *std::get_if<1> (&content); }
     Message&& error() && noexcept { return std::move (*std::get_if<1> (&content)); }
 

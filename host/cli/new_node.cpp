@@ -193,7 +193,7 @@ std::string shellWord (const fs::path& path)
     return word + "'";
 }
 
-/// Where CMake looks for Tactus: where the user says, then next to this program, in an installation or a build tree.
+/// The folders in which CMake looks for Tactus: those that the user names, then the installation or the build tree of this program.
 std::string prefixes()
 {
     const char* told = std::getenv ("CMAKE_PREFIX_PATH");

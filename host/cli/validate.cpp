@@ -48,7 +48,7 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
     return errors;
 }
 
-/// Where a role is first named in the graph; "" if it is named only in an included file.
+/// The place where a role is first named in the graph; "" if it is named only in an included file.
 std::string placeOfRole (const graph::Graph& g, const std::string& role)
 {
     const auto in = [&] (const graph::Patch& patch, const std::string& where) -> std::string {

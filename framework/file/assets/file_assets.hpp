@@ -61,7 +61,7 @@ private:
     Cache<Mesh> meshes;
 };
 
-/// Why nodes cannot use a recording; empty if they can. Id: asset/signal. [any thread]
+/// The reason why nodes cannot use a recording; empty if they can. Id: asset/signal. [any thread]
 std::optional<Message> whyUnusable (const Signal&, const std::string& path);
 
 /// Charges a decoded asset to the budget `reading`. False if it exceeds the budget. [main thread]

@@ -40,7 +40,7 @@ Format formatOf (std::string_view name)
     return extension == "json" ? Format::json : Format::none;
 }
 
-/// What a .json holds, by the keys that the formats require.
+/// The format of a .json, by the keys that the formats require.
 Format inside (const ClipJson& file)
 {
     const auto& root = file.root();

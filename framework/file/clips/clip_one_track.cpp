@@ -12,7 +12,7 @@ namespace
 {
 constexpr double window_s = 0.01;   // of a wave's envelope; one cycle of the lowest tones that a hand tells apart from pushes
 
-/// How often a wave crosses 0 within 0.11 s around each window, in cycles per second.
+/// The frequency of a wave, in cycles per second, from how often it crosses 0 within 0.11 s around each window.
 std::vector<double> frequencies (const std::vector<int>& crossings)
 {
     constexpr std::size_t around = 5;

@@ -8,7 +8,7 @@
 namespace tactus::graph
 {
 
-// Why an edit is refused; edit.hpp lists the ids. `patch` is the name of a subgraph, or "" for the graph itself.
+// The reasons why an edit is refused; edit.hpp lists the ids. `patch` is the name of a subgraph, or "" for the graph itself.
 
 /// "/nodes", or "/graphs/grain/nodes" for the subgraph "grain".
 std::string placeIn (const std::string& patch, const std::string& list);

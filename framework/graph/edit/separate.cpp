@@ -64,7 +64,7 @@ private:
         return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr;
     }
 
-    /// What a path relative to a patch becomes: several paths if it refers to all instances.
+    /// The paths that a path relative to a patch becomes: several if it refers to all instances.
     std::vector<std::string> spread (const std::string& path, const Patch* from)
     {
         for (std::string_view left = path; from != nullptr && ! left.empty();)

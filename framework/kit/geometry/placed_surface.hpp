@@ -55,10 +55,10 @@ public:
 
     Mat3 frameAt (const Spot&, const Tool&) const noexcept;   // [any thread]
 
-    /// Where a spot is if the body is rounded off between its edges, so that a foot crosses an edge without a turn. [any thread]
+    /// The place of a spot if the body is rounded off between its edges, so that a foot crosses an edge without a turn. [any thread]
     Vec3 placeOf (const Spot&) const noexcept;
 
-    /// What a tool at p feels with its foot at a spot, stretched from an anchor; null: not stretched. [any thread]
+    /// The response that a tool at p feels with its foot at a spot, stretched from an anchor; null: not stretched. [any thread]
     ContactSample feel (const Spot&, const Vec3& p, const Vec3* anchor, const Tool&) const noexcept;
 
     double ratio (const Spot&, double depth, const Tool&) const noexcept;   ///< mu_c: largest sideways stretch of the contact / its depth

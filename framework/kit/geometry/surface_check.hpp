@@ -8,7 +8,7 @@
 namespace tactus
 {
 
-/// Why a surface cannot be used, as a sentence. Empty if it can.
+/// The reason why a surface cannot be used, as a sentence. Empty if it can.
 std::string problemOf (const Surface&);
 
 /// A warning if a usable surface faces inwards, and therefore attracts; or empty.

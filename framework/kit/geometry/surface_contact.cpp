@@ -146,8 +146,8 @@ public:
     Vec3 at (double share) const noexcept { return share < 1.0 ? Vec3 { from + share * (to - from) } : to; }
     SurfaceSample follow (const SurfaceTouch& touch, double share) const noexcept { return followed (body, tool, touch, from, at (share)); }
 
-    /// Where the tool is taken to be when the anchor moves: in the middle of the part of the way on which it moves. At the end of the way the
-    /// springs are stretched too far, by half of the move, so the loss would grow with the length of the ticks.
+    /// Sets the place where the tool is taken to be when the anchor moves: the middle of the part of the way on which it moves. At the end of the way
+    /// the springs are stretched too far, by half of the move, so the loss would grow with the length of the ticks.
     void lose (SurfaceStep& step, const SurfaceTouch& start, const SurfaceSample& pulled) const noexcept
     {
         const Vec3 dc = step.after.touch.anchor - start.anchor, dr = pulled.felt.place - body.placeOf (start.foot);

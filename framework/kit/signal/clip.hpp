@@ -121,7 +121,7 @@ struct ClipOrProblem
 };
 ClipOrProblem clipOf (const Grid&);
 
-/// What is wrong with a clip, as a sentence; empty if nothing is. [main thread]
+/// The problem of a clip, as a sentence; empty if there is none. [main thread]
 std::string problemOf (const Clip&);
 
 //==============================================================================

@@ -59,8 +59,8 @@ public:
     double duration() const noexcept { return ends; }   ///< until the last tone and transient have ended, s
     double peak() const noexcept { return most; }       ///< upper bound of |value| and amplitude
 
-    /// What the clip gives at time t. `step` is the time in the clip from one sample to the next: tones that would be faster than
-    /// 0.45 cycles per sample are silent, those slower than 0.25 sound in full. One cursor per track. [tick thread]
+    /// The output of the clip at time t. `step` is the time in the clip from one sample to the next: tones that would be faster than 0.45 cycles per
+    /// sample are silent, those slower than 0.25 sound in full. One cursor per track. [tick thread]
     ClipMoment operator() (double t, double step, Cursor* cursors) const noexcept
     {
         ClipMoment now;
@@ -116,7 +116,7 @@ private:
 
     static double sine (double cycles) noexcept { return math::sin (2.0 * std::numbers::pi * (cycles - std::floor (cycles))); }
 
-    /// How far a transient has taken over, 0…1: rises and falls, each within a quarter of its length.
+    /// The share by which a transient has taken over, 0…1: it rises and falls, each within a quarter of its length.
     static double grip (double through) noexcept
     {
         const double x = std::min (1.0, 4.0 * std::min (through, 1.0 - through));

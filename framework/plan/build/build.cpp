@@ -334,8 +334,8 @@ private:
         return &d.line->out;
     }
 
-    /// Where to read the value of all drivers of a kind: directly from the driver if there is only one and it has no gain,
-    /// otherwise from a sum. Null if there are no drivers.
+    /// The address of the value of all drivers of a kind: that of the driver if there is only one and it has no gain, otherwise from a sum. Null if
+    /// there are no drivers.
     const double* joined (std::span<const Driver> all, Driver::Kind kind, int node)
     {
         const auto is_meant = [kind] (const Driver& d) { return d.kind == kind; };
@@ -447,7 +447,7 @@ private:
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
     }
 
-    /// Where a tap reads one component of a port.
+    /// The address at which a tap reads one component of a port.
     const double* valueOf (const PortRef& r)
     {
         const auto& n = flat.node (r);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What a plan under construction is made of.
+/// The parts of a plan under construction.
 
 #include "lane_groups.hpp"
 #include <tactus/plan/plan.hpp>

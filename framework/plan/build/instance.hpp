@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What survives from plan to plan: nodes, their parameters, and the values in transit on wires that are delayed or change
-/// rate.
+/// The things that survive from plan to plan: nodes, their parameters, and the values in transit on wires that are delayed or change rate.
 
 #include <tactus/plan/steps/knobs.hpp>
 

@@ -24,10 +24,10 @@ class RateConversions
 public:
     RateConversions (const Flat&, const PlanDiff&, PlanParts&, std::span<RunningSection>);
 
-    /// Where to read, in `around`, a value of the section `from`.
+    /// The address at which `around` reads a value of the section `from`.
     const double* leave (const double* value, int from, int around, ConvertedValue&);
 
-    /// Where to read, in the section `to`, a value of `around`.
+    /// The address at which the section `to` reads a value of `around`.
     const double* enter (const double* value, int around, int to, ConvertedValue&);
 
 private:

@@ -13,7 +13,7 @@ namespace tactus::plan
 /// first by path counts. The role stays empty if no wires lead from or to a device node.
 void findDevices (Flat&);
 
-/// What the graph says about the tool of a role's device: `mass` and `damping` in its description. The session may use another device.
+/// The mechanics of the tool of a role's device, according to the graph: `mass` and `damping` in its description. The session may use another device.
 DeviceMechanics describedDevice (const graph::Graph&, const std::string& role);
 
 /// Warns (rate/device_delay) if a node compensates a shorter delay than its device has in the graph's description. A node compensates

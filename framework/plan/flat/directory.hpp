@@ -51,7 +51,7 @@ struct Scope
     std::vector<Member> members;   // by number of the name in `names`
     std::vector<Exposed> exposed;
 
-    /// What a name refers to; null if the patch has no such name.
+    /// The member that a name refers to; null if the patch has no such name.
     const Member* find (std::string_view name) const noexcept
     {
         const auto known = names.find (name);

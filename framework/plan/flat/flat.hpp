@@ -108,7 +108,7 @@ struct FlatNode
         return role_ == Role::param ? type->params : type->outputs;
     }
 
-    /// How many numbers a row holds: the components of a vector, or the entries of an array port.
+    /// The number of values that a row holds: the components of a vector, or the entries of an array port.
     int slots (const PortSheet& row) const noexcept { return row.width * (row.list ? list_size : 1); }
 };
 
@@ -177,7 +177,7 @@ struct Flat
     /// "grain/wave.phase", "mix.in[2]", "hand.position.x".
     std::string nameOf (const PortRef&) const;
 
-    /// How many components a reference covers.
+    /// The number of components that a reference covers.
     int widthOf (const PortRef& r) const { return r.component >= 0 ? 1 : sheet (r).width; }
 
     /// The sections on the way from `around` (not included) to `within` (included, last).
@@ -186,8 +186,8 @@ struct Flat
     /// Ticks of a section per tick of the graph.
     double speed (int section) const;
 
-    /// How many ticks of the graph one tick of a section lasts. A `times` section counts as long as the section that encloses it,
-    /// because no path leads from it back to the hand.
+    /// The number of ticks of the graph that one tick of a section lasts. A `times` section counts as long as the section that encloses it, because
+    /// no path leads from it back to the hand.
     int ticksOf (int section) const;
 
     /// True if the section, or one that encloses it, does not run on every tick.

@@ -11,8 +11,8 @@ namespace tactus::plan
 /// True if several values of this quantity at one port are summed.
 constexpr bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
-/// Whether several wires may end at this port: several wires are summed at an input whose quantity adds up, and at one that takes sums of
-/// any unit. Empty if the wires decide, because the input is generic.
+/// True if several wires may end at this port: they are summed at an input whose quantity adds up, and at one that takes sums of any unit. Empty if
+/// the wires decide, because the input is generic.
 std::optional<bool> sumsWires (const PortSheet&) noexcept;
 
 /// Two wires into one port that does not sum are an error that names both. The same applies to one wire that starts from several

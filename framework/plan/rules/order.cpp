@@ -260,7 +260,7 @@ Order order (Flat& flat)
 
 namespace
 {
-/// How long a value that enters a section may wait until the section runs, in ticks of the graph.
+/// The longest time that a value which enters a section waits until the section runs, in ticks of the graph.
 int waitOf (const Flat& flat, int around, int section) { return flat.ticksOf (section) - flat.ticksOf (around); }
 }   // namespace
 

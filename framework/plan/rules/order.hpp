@@ -38,8 +38,8 @@ struct PathDelay
     bool recirculates = false;   ///< there is a loop on the way, so echoes follow after `longest`
 };
 
-/// What a wire adds to the delay of a path, in ticks of the graph: its own delay, and the delay of linear outputs of the
-/// sections it leaves. The wire must have a start.
+/// The delay that a wire adds to a path, in ticks of the graph: its own delay, and the delay of linear outputs of the sections it leaves. The wire
+/// must have a start.
 std::int64_t delayOf (const Flat&, const PortUnits&, const FlatWire&);
 
 /// The delays between all device sources and all device sinks that a path connects. `node_delays` holds the ticks from the

@@ -14,7 +14,7 @@ namespace
 {
 constexpr double bytes_per_value = 100.0;
 
-/// How many values JSON holds; long texts count as several.
+/// The number of values in JSON; long texts count as several.
 double sizeOf (const Json& json)
 {
     constexpr double text_of_a_value = 10.0;   // bytes of a text that count as one value, because a text may be a formula to parse

@@ -207,7 +207,7 @@ PlanDiff::Predecessor PlanDiff::rebuiltFrom (std::size_t i) const noexcept
     return is_rebuilt ? Predecessor { before, old } : Predecessor {};
 }
 
-/// How often a knob had been turned before the edit that set this value. The withdrawn plan may contain the same edit already.
+/// The number of turns of a knob before the edit that set this value. The withdrawn plan may contain the same edit already.
 std::uint32_t PlanDiff::turnsBefore (const Knobs& knobs, std::size_t knob, double value) const noexcept
 {
     if (withdrawn)

@@ -50,10 +50,10 @@ MadeDevice makeDevice (const Json& description, const std::filesystem::path& fol
 /// True for the drivers that makeDevice() makes, which open no hardware.
 bool isSimulated (const Json& description);
 
-/// What makeDevice() gets for a role to which neither an option, nor a session, nor a person has given a device: the description in
-/// the graph, which may be null. A graph may come from anyone, so it neither chooses real hardware nor calibrates it: instead of a real
-/// device, the role gets a simulated tool at rest, and a warning says how to choose the device. Never pass the description in a
-/// graph to anything else that opens devices. Id: device/not_by_graph. [main thread]
+/// The description that makeDevice() gets for a role to which neither an option, nor a session, nor a person has given a device: the description in
+/// the graph, which may be null. A graph may come from anyone, so it neither chooses real hardware nor calibrates it: instead of a real device, the
+/// role gets a simulated tool at rest, and a warning says how to choose the device. Never pass the description in a graph to anything else that opens
+/// devices. Id: device/not_by_graph. [main thread]
 Json describedByGraph (const Json* description, const std::string& role, Messages&);
 
 /// The device for `--device ROLE=sim` if the graph does not describe the role: a hand that makes strokes.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-/// What fused code (host/code/fuse) and exported code (host/code/generate) share.
+/// The functions that fused code (host/code/fuse) and exported code (host/code/generate) share.
 namespace tactus::generated
 {
 

@@ -42,7 +42,7 @@ public:
         return was_known && reading.rotation == measured ? Vec3 (Vec3::Zero()) : turnedTo (reading);
     }
 
-    /// How far axis i has moved since the last reading. Call once for each axis and reading. [tick thread]
+    /// The distance that axis i has moved since the last reading. Call this once for each axis and reading. [tick thread]
     double axisMoved (const Reading& reading, int i) noexcept
     {
         const double before = std::exchange (axes[static_cast<std::size_t> (i)], reading.axes[i]);

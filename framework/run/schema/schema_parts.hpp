@@ -13,7 +13,7 @@
 namespace tactus::schema
 {
 
-/// What is the same for every catalogue.
+/// The part of the schema that is the same for every catalogue.
 Json base();
 
 Json reference (const std::string& definition);    ///< to "#/$defs/DEFINITION"

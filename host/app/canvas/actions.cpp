@@ -239,7 +239,7 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
 
 namespace
 {
-/// What covers a part of an area: a node or a note. Empty if nothing does, other than the node `own`.
+/// The area of a node or a note that covers a part of an area. Empty if nothing does, other than the node `own`.
 juce::Rectangle<float> coverOf (const Scene& scene, juce::Rectangle<float> area, graph::Id own = 0)
 {
     for (const auto& n : scene.nodes())

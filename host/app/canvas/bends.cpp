@@ -21,7 +21,7 @@ const graph::Wire* wireIn (const graph::Graph& g, const std::string& patch, grap
     return found == in->wires.end() ? nullptr : &*found;
 }
 
-/// How many bends of a wire are before a place on it.
+/// The number of bends of a wire before a place on it.
 std::size_t bendsBefore (const SceneWire& wire, juce::Point<float> at)
 {
     if (! wire.has_bends) return 0;

@@ -57,7 +57,7 @@ public:
     void zoomBy (float factor);
     juce::Point<float> pointerOrCentre() const;   ///< the position of the pointer if it is over the canvas, else the centre of the view
 
-    /// Where the next node goes: with the node that was added last if the pointer has not moved since then, otherwise pointerOrCentre().
+    /// The place for the next node: with the node that was added last if the pointer has not moved since then, otherwise pointerOrCentre().
     juce::Point<float> placeOfNext() const;
 
     void removeSelection();

@@ -31,7 +31,7 @@ std::unordered_map<graph::Id, const Item*> byId (std::span<const Item> items)
     return all;
 }
 
-/// What is in one scene, and not or different in another one.
+/// Collects what is in one scene and is missing or different in another one.
 void collectChanges (const Scene& scene, const Scene& other, std::vector<juce::Rectangle<float>>& changed)
 {
     const auto nodes = byId<SceneNode> (other.nodes());

@@ -155,7 +155,7 @@ std::optional<PlotData> dragCurve (TrialNode& trial, const NodeType& type)
     return strokeOf (trial, *force, type.appearance->tool, Vec3::UnitX(), lengths * trial.param (scale->id, 0.0));
 }
 
-/// How far the input of a node is worth sweeping: somewhat beyond the largest param that is compared with it.
+/// The end of a useful sweep of a node's input: somewhat beyond the largest param that is compared with it.
 double reachOf (const TrialNode& trial, const NodeType& type, const PortSheet& input)
 {
     const bool is_fixed = input.unit.kind == UnitRule::Kind::fixed;
@@ -204,7 +204,7 @@ std::optional<PlotData> characteristic (TrialNode& trial, const NodeType& type)
     return isStraight (plot) ? std::nullopt : std::optional (std::move (plot));
 }
 
-/// How the node itself answers. A plugin's node that fails has no curve; compile() says so.
+/// The answer of the node itself. A plugin's node that fails has no curve; compile() says so.
 std::optional<PlotData> answerOf (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     try

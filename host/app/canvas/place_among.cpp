@@ -63,7 +63,7 @@ private:
     const std::vector<Lead>& leads;
     bool is_careful = true;
 
-    /// What feeds a placed box comes first, then what such a box feeds.
+    /// The next box to place. A box that feeds a placed one comes first, then one that a placed box feeds.
     std::size_t next() const
     {
         for (const auto& l : leads)
@@ -152,7 +152,7 @@ private:
         box.setPosition (std::floor (left / Box::grid) * Box::grid, std::ceil ((low + row_gap) / Box::grid) * Box::grid);
     }
 
-    /// Where a wire begins and ends, with one of the boxes at another place.
+    /// The two ends of a wire, with one of the boxes at another place.
     std::pair<juce::Point<float>, juce::Point<float>> endsOf (const Lead& l, std::size_t moved, juce::Rectangle<float> here) const
     {
         const auto of = [&] (int box) { return at (box) == moved ? here.getPosition() : boxes[at (box)].getPosition(); };

@@ -16,7 +16,7 @@ namespace
 {
 constexpr int card_padding = 8, title_height = 16, value_height = 24, gap_to_port = 16;
 
-/// What the plot covers. Always with 0, so that a small change of a large value looks small.
+/// The range of the plot. It always contains 0, so that a small change of a large value looks small.
 Extent plotRange (const PortCard& card)
 {
     Extent all;

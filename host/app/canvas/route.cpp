@@ -126,7 +126,7 @@ std::vector<juce::Point<float>> bendsAround (std::vector<juce::Rectangle<float>>
 
 namespace
 {
-/// How many of the boxes a path leads through.
+/// The number of boxes that a path leads through.
 int countMet (const juce::Path& path, const std::vector<juce::Rectangle<float>>& boxes)
 {
     const PathPoints points (path);

@@ -20,7 +20,7 @@ namespace
 {
 constexpr std::size_t most_routed = 300;   // nodes; routing a larger patch would slow down every edit
 
-/// Where something connects to a node that does not show its port, such as one deeper inside a subgraph; relative to the node.
+/// The place where something connects to a node that does not show its port, such as one deeper inside a subgraph; relative to the node.
 juce::Point<float> besideHeader (const SceneNode& n, bool is_output) { return { is_output ? n.box.width : 0.0f, Box::header_height / 2 }; }
 }   // namespace
 
@@ -111,7 +111,8 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
     }
 }
 
-/// What the automatic places depend on: the nodes, their ports, the places that are stored, and the wires. Not the values, whose texts make nodes wider.
+/// A text of everything that the automatic places depend on: the nodes, their ports, the places that are stored, and the wires. Values are left out,
+/// though their texts make nodes wider.
 std::string Scene::shapeFor (const std::vector<bool>& placed) const
 {
     std::string shape;
@@ -251,7 +252,7 @@ void Scene::addWires (const graph::Patch& patch)
     }
 }
 
-/// Where a wire leaves its first node, relative to this.
+/// The place where a wire leaves its first node, relative to this node.
 juce::Point<float> Scene::leaveOf (const SceneWire& w) const
 {
     const auto& node = all_nodes[at (w.start)];

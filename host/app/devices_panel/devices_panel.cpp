@@ -100,7 +100,7 @@ std::vector<Part> partsOf (const std::string& driver)
     return parts;
 }
 
-/// What decides which settings a binding has: its driver, or "pid" for a HID device that must be calibrated.
+/// The name that decides which settings a binding has: its driver, or "pid" for a HID device that must be calibrated.
 std::string driverOf (const Json& binding)
 {
     const bool is_pid = hid::isHid (binding) && binding.value ("profile", Json()) == Json (hid::pid_profile);

@@ -35,7 +35,7 @@ public:
     Column& card (std::size_t i) { return *columns[i]; }
 
     void bind (const std::string& role, const std::string& label);   ///< binds the role to the choice with this label
-    /// What each role can be bound to, by its label.
+    /// The labels of what each role can be bound to.
     std::vector<std::pair<std::string, std::vector<std::string>>> choices();
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
     void moveOrigin (const std::string& role, const Vec3& origin);                                  ///< the offset of the workspace, in m

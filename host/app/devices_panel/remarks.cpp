@@ -14,7 +14,7 @@
 namespace tactus::host
 {
 
-/// What the role needs, and what its device lacks.
+/// The remark about what the role needs and its device lacks.
 Remark DevicesPanel::fitRemark (const std::string& role) const
 {
     const auto* fit = fitOf (role);
@@ -75,7 +75,7 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
     return r;
 }
 
-/// Whether an event device is there, and may be opened. The driver finds it by its path, its name, or a part of that.
+/// The remark about whether an event device is there, and may be opened. The driver finds it by its path, its name, or a part of that.
 Remark DevicesPanel::eventRemark (const Json& description) const
 {
     const auto named = description.value ("port", Json());
@@ -88,7 +88,7 @@ Remark DevicesPanel::eventRemark (const Json& description) const
     return { TRANS ("Connected. While it runs, this line says how many new forces per second reach it."), false };
 }
 
-/// What ticks the run, and what the system refuses to a run that drives a device.
+/// The remark about what ticks the run, and what the system refuses to a run that drives a device.
 Remark DevicesPanel::clockRemark() const
 {
     auto r = tickRemark();

@@ -35,7 +35,7 @@ std::filesystem::path filmFile (const std::filesystem::path& named, const std::s
 /// The first file of a film of this name, other than its .png, that exists already.
 std::optional<std::filesystem::path> fileInTheWay (const std::filesystem::path& named);
 
-/// How long each picture is shown, in ms.
+/// The time for which each picture is shown, in ms.
 inline constexpr int film_picture_ms = 40;
 
 /// By how much of 255 a colour may be off. The eye does not notice it, and the smooth shading of a surface no longer changes all over in

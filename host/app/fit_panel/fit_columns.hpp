@@ -24,7 +24,7 @@ public:
     void show (const Table&, FitKind);   ///< begins with what the names of the columns say
     void clear();
 
-    /// What is chosen. A unit that does not fit is left out; see problem().
+    /// The choice of the user. A unit that does not fit is left out; see problem().
     ColumnChoice choice() const;
     juce::String problem() const;
     juce::StringArray turnedByUser() const;   ///< the columns whose signs the user has chosen   ///< what is missing or does not fit; empty: nothing

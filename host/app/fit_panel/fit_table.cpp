@@ -97,7 +97,7 @@ int FitTable::heightFor (int width) const
     return verdict_height + header_height + each * static_cast<int> (rows.size()) + gap + static_cast<int> (std::ceil (remarks (width).getHeight())) + 4;
 }
 
-/// Those of the columns of the value and the interval, with the gap to the left of each.
+/// The widths of the columns of the value and the interval, with the gap to the left of each.
 std::pair<int, int> FitTable::widths() const
 {
     constexpr int apart = 16;

@@ -22,7 +22,7 @@ const std::string* newName (const Names& names, const std::string& old)
     return at == names.end() ? nullptr : &at->second;
 }
 
-/// What a hand or a motor of the fit is in the patch. Null for other nodes, and if the patch has none.
+/// The node of the patch that a hand or a motor of the fit stands for. Null for other nodes, and if the patch has none.
 const graph::Node* counterpart (const graph::Graph& fit, const std::string& name, const graph::Patch& patch)
 {
     const auto* node = fit.root.find (name);

@@ -58,7 +58,7 @@ juce::String textOf (const Json& value)
     return parts.joinIntoString (", ");
 }
 
-/// What was typed for a value. Several parts with commas between them are a list.
+/// The value that was typed. Several parts with commas between them are a list.
 Json valueOf (const juce::String& text)
 {
     const auto one = parseText (text);

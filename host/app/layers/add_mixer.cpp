@@ -70,7 +70,7 @@ Message noMotor (const graph::Graph& g)
     return Message::error ("mixer/no_motor", {}, TRANS ("this graph has no motor yet").toStdString(),
                            TRANS ("add a device.force node, which the mixer can then drive").toStdString());
 }
-/// What the mixer mixes: the largest stream into a motor. Vectors before scalars, because scalars reach the motor as a part of them.
+/// The stream that the mixer mixes: the largest one into a motor. Vectors before scalars, because scalars reach the motor as a part of them.
 Stream streamOf (const graph::Patch& patch, const graph::Node*& motor, bool& vectors)
 {
     Stream found;

@@ -22,7 +22,7 @@ struct Source
     std::string port {};
 };
 
-/// What makes the value at the start of a wire, which may be inside of the group that the wire comes from.
+/// The source of the value at the start of a wire. It may be inside of the group that the wire comes from.
 Source sourceOf (graph::Inside in, graph::Endpoint from)
 {
     for (int depth = 0; depth < deepest_subgraph; ++depth)

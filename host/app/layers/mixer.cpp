@@ -20,8 +20,8 @@ namespace
 {
 constexpr int removed = 1'000'000;   // a list index that cannot exist: marks what is removed
 
-/// The mixers of a patch and of the subgraphs in it. Each subgraph is looked into once, because its instances have the same mixers, and a
-/// broken graph may contain itself.
+/// Finds the mixers of a patch and of the subgraphs in it. Looks into each subgraph only once: its instances have the same mixers, and a broken graph
+/// may contain itself.
 void collect (const graph::Graph& g, const std::string& patch, const std::string& path, std::set<std::string>& seen, std::vector<MixerPlace>& found,
               int depth = 0)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What the edits of mixers share.
+/// The functions that the edits of mixers share.
 
 #include "mixer.hpp"
 

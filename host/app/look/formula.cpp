@@ -120,7 +120,7 @@ private:
         put (group(), Level::lowered);
     }
 
-    /// What a sign for raised or lowered text applies to: the inside of brackets, or a word or number with its sign.
+    /// The text that a sign for raised or lowered text applies to: the inside of brackets, or a word or number with its sign.
     std::string group()
     {
         std::string_view inside;

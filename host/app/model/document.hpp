@@ -139,8 +139,8 @@ private:
     bool is_stepping = false;
 };
 
-/// Makes the edits of one text one undo step, though the text is applied again and again while it is being typed. A step between them begins a
-/// new one. [main thread]
+/// Joins the edits of one text into one undo step, though the text is applied again and again while it is being typed. Another step in between begins
+/// a new one. [main thread]
 class TypedStep
 {
 public:

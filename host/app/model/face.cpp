@@ -74,7 +74,7 @@ Face innermost (const graph::Patch& patch, const graph::Node& node, const Catalo
     return face;
 }
 
-/// What a patch exposes as a port of a role. Null if it exposes nothing by this name.
+/// The endpoint that a patch exposes as a port of a role. Null if it exposes nothing by this name.
 const graph::Endpoint* exposed (const graph::Patch& patch, Role role, const std::string& id)
 {
     const auto in = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names) -> const graph::Endpoint* {

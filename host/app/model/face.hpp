@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// How many levels of nested subgraphs are looked into. compile() refuses a subgraph that contains itself, but the canvas still draws it.
+/// The number of levels of nested subgraphs that are looked into. compile() refuses a subgraph that contains itself, but the canvas still draws it.
 inline constexpr int deepest_subgraph = 32;
 
 /// A port as shown on a node: a datasheet row, one entry of an array port, or a port that a subgraph exposes.

@@ -26,7 +26,7 @@ Result<graph::Command> paste (const graph::Graph&, const std::string& patch, con
 /// The upper left corner of the nodes in copied text. Empty if no node has a position.
 std::optional<juce::Point<double>> cornerOf (const std::string& text);
 
-/// What a new node of this type is called if nothing else is.
+/// The name of a new node of this type, if nothing else names it.
 std::string usualName (const std::string& type);
 
 /// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".

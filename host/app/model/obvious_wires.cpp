@@ -18,8 +18,8 @@ namespace
 {
 constexpr std::string_view window_type = "contact.window", hand_type = "device.position", motor_type = "device.force";
 
-/// How well an output suits an input: the tool itself is best, then an output of the same name, then the resistance of a surface as a load, then
-/// a sensor of the device. 0: not at all.
+/// The rank of an output for an input, where more is better: the tool itself is best, then an output of the same name, then the resistance of a
+/// surface as a load, then a sensor of the device. 0: not at all.
 int rankOf (const graph::Node& node, const FacePort& out, const PortSheet& input)
 {
     if (node.type == hand_type) return 4;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Which wires of a node go without saying: the tool to what it touches, the resistance of a surface to what rubs on it, forces to the motor.
+/// The wires of a node that go without saying: the tool to what it touches, the resistance of a surface to what rubs on it, forces to the motor.
 
 #include <tactus/graph/edit.hpp>
 #include <tactus/node/catalogue.hpp>

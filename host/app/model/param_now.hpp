@@ -51,7 +51,7 @@ juce::String overriddenText (const graph::Graph&, const graph::Control&);
 /// Explains to the user why the value of a param cannot be set: a wire from this output sets it.
 juce::String drivenText (const std::string& output);
 
-/// What a control sets its parameter to now, in the unit its low end is written in.
+/// The value to which a control sets its parameter now, in the unit in which its low end is written.
 Json valueOf (const ControlledParam&, const PortSheet&);
 
 /// Gives a param this value, or its default if there is none. Moves the control that drives it; empty if the value is out of

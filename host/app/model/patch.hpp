@@ -25,7 +25,7 @@ struct SeenPatch
     std::string name;   ///< "" is the graph itself
     std::string path;   ///< such as "grain/wave/"; "" in the graph itself, or if one has not entered the patch
 
-    /// How controls name a parameter of this patch: "grain/wave/drag.mu". Empty if one has not entered the patch.
+    /// The name that controls use for a parameter of this patch: "grain/wave/drag.mu". Empty if one has not entered the patch.
     std::string address (const std::string& param) const { return name.empty() || ! path.empty() ? path + param : std::string(); }
 
     bool operator== (const SeenPatch&) const = default;

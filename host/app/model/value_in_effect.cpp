@@ -19,7 +19,7 @@ namespace tactus::host
 
 namespace
 {
-/// What a control at `at` sets a target to, in the unit of its low end.
+/// The value to which a control at `at` sets a target, in the unit of its low end.
 Json valueBetween (const Json& low, const Json& high, double at)
 {
     if (low.is_array() && high.is_array() && low.size() == high.size())

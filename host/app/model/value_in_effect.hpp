@@ -14,8 +14,8 @@ namespace tactus::host
 
 /// A control sets a parameter to its own value while the node still stores another one. These edits keep the value in effect, so that no force jumps.
 
-/// What the graph runs with for a parameter that controls name like this, in SI units. It may be another value than the stored one, even
-/// without a control: a subgraph node may override it. Empty if there is no such parameter, or if its instances have different values.
+/// The value with which the graph runs for a parameter that controls name like this, in SI units. It may differ from the stored one, even without a
+/// control: a subgraph node may override it. Empty if there is no such parameter, or if its instances have different values.
 std::optional<double> valueInEffect (const graph::Graph&, const std::string& address, const Catalogue&);
 
 /// The graph with the values in effect stored in the nodes of a patch, so that a copy of them feels the same.
@@ -27,8 +27,8 @@ graph::Command removeControl (const graph::Graph&, const std::string& control, c
 /// Removes a target from a control. Its parameter keeps what the control sets it to. Empty if there is no such target.
 std::optional<graph::Command> removeTarget (const graph::Graph&, const std::string& control, const std::string& path, const Catalogue&);
 
-/// Adds a parameter, whose value now is given, to a control. Its range is a part of its usual range, such that the value stays; a control
-/// without targets moves to the value instead. Empty if there is no such control.
+/// Adds a parameter to a control; `now` is the value of the parameter. The control gets a part of the parameter's usual range, chosen so that the
+/// value stays. A control without targets moves to the value instead. Empty if there is no such control.
 std::optional<graph::Command> addTarget (const graph::Graph&, const std::string& control, const std::string& path, const Json& now, const PortSheet&);
 
 }   // namespace tactus::host

@@ -27,7 +27,7 @@ juce::String joined (const std::vector<std::string>& tags)
     return all.joinIntoString (", ");
 }
 
-/// What a preset feels like, or why it cannot be opened as it is.
+/// The feel of a preset, or the reason why it cannot be opened as it is.
 juce::String descriptionOf (const Preset& p)
 {
     if (! p.problem.empty()) return p.problem;
@@ -154,7 +154,7 @@ void PresetBrowser::update()
     repaint();
 }
 
-/// What is typed is looked for everywhere, and the best comes first. Otherwise, own graphs leave room for presets.
+/// Fills the list. A typed text is looked for everywhere, and the best comes first. Otherwise, own graphs leave room for presets.
 void PresetBrowser::fillRows()
 {
     shown.clear();

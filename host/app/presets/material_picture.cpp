@@ -11,7 +11,7 @@ namespace
 constexpr double seen_around_tool = 0.009;   // m
 constexpr int fineness = 2;                  // samples per pixel in each direction
 
-/// What the picture shows.
+/// The bounds of what the picture shows.
 scene::Bounds boundsFor (const scene::Scene& stage, const scene::SceneState& now)
 {
     if (stage.hasSolid() || now.tools.empty()) return stage.bounds();

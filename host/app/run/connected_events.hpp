@@ -16,7 +16,7 @@ struct ConnectedEvents
     bool operator== (const ConnectedEvents&) const = default;
 };
 
-/// Those of this computer. None where the driver `evdev` was not built. Opens each of them for a moment. [any thread]
+/// The event devices of this computer. None where the driver `evdev` was not built. Opens each of them for a moment. [any thread]
 std::vector<ConnectedEvents> connectedEvents();
 
 }   // namespace tactus::host

@@ -24,7 +24,7 @@ public:
     /// Nothing in the window points into the earlier types any longer. A version is unloaded as soon as no plan uses it.
     void forget() { earlier = {}; }
 
-    /// What is wrong with the code that was saved last; each text begins with file and line.
+    /// The errors in the code that was saved last; each text begins with file and line.
     const Messages& messages() const noexcept { return said; }
 
     /// The version that poll() has added: "rough_wood.hpp: in use 3.1 s after it was saved".

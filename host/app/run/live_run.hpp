@@ -119,7 +119,7 @@ public:
 
     std::optional<RunStatus> status() const;   ///< of the run, even if it is over, unless another graph was opened since
 
-    /// What the graph needs from its roles, as of the last successful compile.
+    /// The needs of the graph from its roles, as of the last successful compile.
     const std::vector<RoleNeeds>& needs() const noexcept { return needed; }
 
     /// The state of the real devices, whether present or awaited; empty while nothing runs.
@@ -129,7 +129,7 @@ public:
     /// simulated.
     bool drivesDevice() const { return session && session->drivesDevice(); }
 
-    /// What the system refused to the tick thread when the run started, a sentence each, with what to do: docs/realtime.md.
+    /// The privileges that the system refused to the tick thread when the run started: a sentence for each, with what to do: docs/realtime.md.
     const std::vector<std::string>& refusals() const noexcept { return refused; }
 
     /// True if the run drives something that can push or shake, or would if it began now.
@@ -145,8 +145,7 @@ public:
     /// connected to a sink.
     std::optional<std::int64_t> delay() const;
 
-    /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is
-    /// unknown.
+    /// The stiffness that a wall may have on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is unknown.
     std::optional<double> stiffnessLeft() const;
 
     /// The largest force that the guards let through, in N; empty if they do not limit it.
@@ -160,7 +159,7 @@ public:
     /// False if there is nothing to hold: the session binds no device to the role, or something else moves its tool.
     bool holdWorkspace (bool);
 
-    /// Where the device of a role is in the graph now, with what a clutch has moved. Empty if the session binds no device to the role, or if
+    /// The place of a role's device in the graph now, including what a clutch has moved. Empty if the session binds no device to the role, or if
     /// something else moves its tool.
     std::optional<Workspace> workspaceOf (const std::string& role) const;
 
@@ -180,7 +179,7 @@ public:
     /// The values of the ports on the canvas.
     PortFeed& portFeed() noexcept { return port_feed; }
 
-    /// What a picture of the scene shows.
+    /// The feed of a picture of the scene.
     SceneFeed& scene() noexcept { return scene_feed; }
 
     /// The last seconds of the scene and of the hand's tool.
@@ -217,7 +216,7 @@ public:
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
     void fuse (std::optional<Fuser::Options>);
 
-    /// What runs: "plan", "plan, fusing" or "fused"; empty if fuse() is not wanted.
+    /// The kind of code that runs: "plan", "plan, fusing" or "fused"; empty if fuse() is not wanted.
     std::string fusion() const;
 
     /// Frees what is no longer used, and collects new samples. Call this many times a second.

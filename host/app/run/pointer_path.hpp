@@ -13,11 +13,11 @@ namespace tactus::host
 class PointerPath final : public Path
 {
 public:
-    /// How fast the hand follows: it almost arrives within a twentieth of a second.
+    /// The rate at which the hand follows: it almost arrives within a twentieth of a second.
     static constexpr double follow_rate = 80.0;   // 1/s
 
-    /// How fast the hand moves at most. A mouse can leave the surface and enter it at the far side. This must not look as if the tool were
-    /// torn away: the guards of presets stop a tool at 2 m/s.
+    /// The highest speed of the hand. A mouse can leave the surface and enter it at the far side. This must not look as if the tool were torn away:
+    /// the guards of presets stop a tool at 2 m/s.
     static constexpr double top_speed = 1.0;   // m/s
 
     /// Starts at rest.

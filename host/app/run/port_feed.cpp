@@ -13,7 +13,7 @@ namespace
 {
 constexpr double forgets_in_s = 6.0;   // time constant in which the loudest value of a component is forgotten
 
-/// What counts as nothing, in SI: less can neither be felt nor seen.
+/// The value that counts as nothing, in SI: less can neither be felt nor seen.
 double floorOf (Quantity q)
 {
     switch (q)

@@ -46,8 +46,8 @@ public:
     /// Empty until a value has arrived.
     std::optional<Reading> of (const std::string& port) const;
 
-    /// How much a port carries now, compared with the most that it carried in the last seconds, from 0 to 1. Lengths and angles count
-    /// while they change, everything else while it is not 0.
+    /// The level of a port now, compared with the most that it carried in the last seconds, from 0 to 1. Lengths and angles count while they change,
+    /// everything else while it is not 0.
     double level (const std::string& port) const;
 
     /// The recent course of the port that is followed, the oldest column first, and how many of them make a second.

@@ -203,7 +203,7 @@ void Overlay::drawScale (const Scene& scene, const SceneState& now)
     drawNumber (graphics, is_touched ? filled (TRANS ("%1 deep"), lengthText (depth)) : TRANS ("no contact"), text);
 }
 
-/// How the middle of a box moves in the picture when it moves along an axis.
+/// The motion of the middle of a box in the picture, when it moves along an axis.
 juce::Point<float> Overlay::pixelsPerMetre (const Camera& camera, const Reach& reach, int axis)
 {
     const double step = 1e-3 * camera.distance;

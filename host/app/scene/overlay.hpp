@@ -34,7 +34,7 @@ public:
     /// The axis whose handle is at this place.
     static std::optional<int> handleAt (const Camera&, juce::Rectangle<float> area, const Reach&, juce::Point<float>);
 
-    /// How far the middle of a box goes along an axis when its handle is dragged by this many pixels, in m.
+    /// The distance in m by which the middle of a box goes along an axis when its handle is dragged by this many pixels.
     static double dragged (const Camera&, const Reach&, int axis, juce::Point<float> pixels);
 
     /// The axis of the gizmo at this place: 0, 1 or 2 for x, y or z; empty: none.

@@ -46,7 +46,7 @@ struct Paint
     {
     }
 
-    /// How bright a surface is whose normal points this way, from 0 to about 1. The light comes from the upper left, in front.
+    /// The brightness of a surface whose normal points this way, from 0 to about 1. The light comes from the upper left, in front.
     float light (float nx, float ny, float nz) const noexcept
     {
         constexpr float lx = -0.45f, ly = -0.35f, lz = 0.82f;

@@ -96,7 +96,7 @@ double Scene::gridFor (const Camera& camera) noexcept
     return camera.distance < 0.9 ? 1e-2 : 1e-1;
 }
 
-/// Where the origin of a texture's coordinates is: a node before it may have moved the position.
+/// The origin of a texture's coordinates. A node before it may have moved the position.
 Vec3 Scene::originOf (std::size_t body, const SceneState& now) const
 {
     const auto* tool = now.tool (all[body].role);

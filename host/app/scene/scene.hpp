@@ -55,7 +55,7 @@ public:
     const std::vector<Body>& bodies() const noexcept { return all; }
     bool isEmpty() const noexcept { return all.empty(); }
 
-    /// What a picture should show as a whole, wherever the tools are.
+    /// The bounds of what a picture should show as a whole, wherever the tools are.
     Bounds bounds() const noexcept;
 
     /// The lines through what is drawn of a tool: its shaft, and the edge of a blade.

@@ -126,7 +126,7 @@ private:
         float ku, kv, phase, du, dv, share;
     };
 
-    /// How much of a pattern of this period can be seen: none once it is finer than the pixels.
+    /// The share of a pattern of this period that can be seen: none once it is finer than the pixels.
     float sharpness (double period) const noexcept { return static_cast<float> (std::clamp (0.5 * period / pixel - 0.75, 0.0, 1.0)); }
 
     float lineAt (float x, float y) const noexcept

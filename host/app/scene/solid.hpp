@@ -25,7 +25,7 @@ public:
     int triangles() const noexcept { return static_cast<int> (faces.size()); }
     bool hasStiffnesses() const noexcept { return ! stiffness.empty(); }
 
-    /// How far the colour of depth reaches, in m.
+    /// The depth at which the colour of depth is full, in m.
     static constexpr double full_colour_m = 5e-3;
 
 private:

@@ -35,7 +35,7 @@ public:
     void freezeAll (bool);
     bool isFrozen() const;
 
-    /// Why some ports are not shown; "" if all are.
+    /// The reason why some ports are not shown; "" if all are.
     juce::String warning() const;
 
     std::function<void (const juce::String&)> onHint;   ///< for the status line, such as the name of a saved file

@@ -13,7 +13,8 @@
 namespace tactus::host
 {
 
-/// What is far outside a zoomed lane, or has no place in it, is drawn far outside: JUCE draws only finite numbers.
+/// The place of a point in pixels. A point that is far outside a zoomed lane, or has no place in it, is drawn far outside: JUCE draws only finite
+/// numbers.
 juce::Point<float> Lane::toPixels (double at_x, double at_y) const noexcept
 {
     const auto within = [far = 1e4] (double part) { return static_cast<float> (part > -far ? std::min (part, far) : -far); };

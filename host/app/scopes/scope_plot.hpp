@@ -98,7 +98,7 @@ protected:
 
     const Theme& theme() const { return themeOf (*this); }
 
-    /// Why there is nothing to plot of the ports.
+    /// The reason why there is nothing to plot of the ports.
     juce::String whyEmpty() const
     {
         return context.leaves_out ? TRANS ("Not recorded, because the scopes show too many ports. Close a scope or remove a port")

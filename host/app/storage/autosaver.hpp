@@ -31,7 +31,7 @@ public:
     void write (Copy);
     void finish();   ///< waits until everything is written
 
-    /// Why the latest writing failed; empty if it did not, or if this was asked before.
+    /// The reason why the latest writing failed; empty if it did not, or if this was asked before.
     std::optional<Message> takeProblem();
 
 private:

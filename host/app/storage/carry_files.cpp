@@ -70,7 +70,7 @@ bool isWithin (const fs::path& file, const fs::path& folder)
     return ! outer.empty() && std::ranges::mismatch (outer, inner).in1 == outer.end();
 }
 
-/// True where a file would become a plugin, a profile, the session or a setting.
+/// True for a place where a file would become a plugin, a profile, the session or a setting.
 bool isReadByTactus (const fs::path& file)
 {
     auto folders = usedPluginFolders();

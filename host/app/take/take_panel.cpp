@@ -128,7 +128,7 @@ void TakePanel::toggleRecording()
     refresh();
 }
 
-/// What was recorded so far joins the list.
+/// Adds what was recorded so far to the list.
 void TakePanel::endRecording()
 {
     while (recording.state() == Take::State::recording)

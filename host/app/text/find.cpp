@@ -93,7 +93,7 @@ struct Fields
 
     bool says (std::string_view word) const { return begins (names, word) || begins (tags, word) || begins (text, word); }
 
-    /// How well a word of a query fits: 0 is best. From first_guess on, it may be mistyped or shortened.
+    /// The rank of a word of a query: 0 fits best. From first_guess on, it may be mistyped or shortened.
     int rankOf (const std::string& word) const
     {
         if (std::ranges::count (name_words, word) > 0) return 0;

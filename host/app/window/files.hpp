@@ -80,7 +80,7 @@ private:
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);
-    /// Asks before it copies files of the graph there; `agreed` are those that the user has agreed to.
+    /// Saves the graph there. Asks before it copies files of the graph; `agreed` are those that the user has agreed to.
     void saveTo (const std::filesystem::path&, const std::function<void()>& then, const std::optional<std::vector<std::filesystem::path>>& agreed = {});
     std::string nameIn (const std::filesystem::path&) const;
     bool wasChangedElsewhere (const std::filesystem::path&) const;

@@ -22,8 +22,8 @@ public:
     static constexpr std::uint32_t settled = 1000;              ///< ms at the place, once the frame is known
     static constexpr std::uint32_t settled_unframed = 10'000;   ///< ms at the place if no frame is ever known: there may be no window manager
 
-    /// Where to move the window now; empty: nowhere. `frame`: empty or zero as long as it is not known; `scale`: pixels of the frame per unit of the other
-    /// rectangles; `now`: ms. [main thread]
+    /// The place to move the window to now; empty: it stays. `frame`: empty or zero as long as it is not known; `scale`: pixels of the frame per unit
+    /// of the other rectangles; `now`: ms. [main thread]
     std::optional<juce::Rectangle<int>> next (juce::Rectangle<int> window, juce::Rectangle<int> screen, std::optional<juce::BorderSize<int>> frame,
                                               double scale, std::uint32_t now)
     {

@@ -73,7 +73,7 @@ void MainView::reveal (Tabs& tabs, const juce::Component& panel)
     tabs.show (panel);
 }
 
-/// What can be done to the parameters of the selected node, and the commands of the canvas.
+/// Adds the actions for the parameters of the selected node, and the commands of the canvas.
 void MainView::addEdits (std::vector<Action>& all)
 {
     if (! patching.isShowing() || welcome.isVisible()) return;
@@ -110,7 +110,7 @@ void MainView::addTabsAndButtons (std::vector<Action>& all)
     });
 }
 
-/// What moves the tool: the mouse, a gesture, or the device of a role.
+/// Adds the choices for what moves the tool: the mouse, a gesture, or the device of a role.
 void MainView::addHands (std::vector<Action>& all)
 {
     if (welcome.isVisible()) return;

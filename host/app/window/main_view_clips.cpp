@@ -14,7 +14,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// What a saved clip lost, a line each.
+/// The losses of a saved clip, a line each.
 juce::String lossText (const SavedClip& saved, const Messages& notes)
 {
     constexpr std::size_t most = 8;

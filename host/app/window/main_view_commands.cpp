@@ -70,7 +70,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     // Elsewhere, Tab goes to the next field.
     if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
-    // What moves or deletes the selected nodes is for the canvas alone: in a panel, such a key is meant for a value.
+    // Keys that move or delete the selected nodes are for the canvas alone. In a panel, such a key is meant for a value.
     const bool is_in_panel = inspector.hasKeyboardFocus (true) || bottom.hasKeyboardFocus (true);
     if (is_in_panel && (isErasing (key) || isArrow (key))) return scopes.keyPressed (key);
     const bool is_hidden = ! patching.isVisible();   // you would not see what you edit
@@ -113,8 +113,8 @@ void MainView::endDrag()
                             juce::MouseInputSource::defaultPressure, juce::MouseInputSource::defaultOrientation, juce::Time::currentTimeMillis());
 }
 
-/// What is typed counts before a button acts, because that may undo, store a snapshot or make a file. `focused` is the field still: a press takes the
-/// focus at once, but tells of it later.
+/// Applies what is typed before a button acts, because a button may undo, store a snapshot or make a file. `focused` is still the field: a press
+/// takes the focus at once, but tells of it later.
 void MainView::mouseDown (const juce::MouseEvent& e)
 {
     wake();

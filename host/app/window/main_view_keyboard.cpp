@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What has the keyboard unless the user has given it to something else.
+/// The component that has the keyboard unless the user has given it to another one.
 juce::Component& MainView::keyboardHome()
 {
     if (question.isOpen()) return question;
@@ -106,8 +106,8 @@ bool MainView::clutchKey (const juce::KeyPress& key)
     return true;
 }
 
-/// Which key has come up is not known, so any of them ends the clutch, unless S comes again at once: between two repetitions of a held key, the system
-/// may report that it is up.
+/// Ends the clutch when a key comes up. It is not known which key that is, so any key ends it, unless S comes again at once: between two repetitions
+/// of a held key, the system may report that it is up.
 bool MainView::keyStateChanged (bool is_down)
 {
     clutch_ends = clutch_ends || ! is_down;

@@ -76,7 +76,7 @@ struct MainView::SaveWords
 {
     juce::String title, patterns;
 
-    /// What is saved follows from the proposed name.
+    /// The words for a dialog, by the file name that it proposes.
     static SaveWords of (const std::filesystem::path& begin)
     {
         if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };

@@ -28,7 +28,7 @@ std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
     return found;
 }
 
-/// How the palette calls a template, as it calls a subgraph "graph:grain".
+/// The id of a template in the palette, as that of a subgraph is "graph:grain".
 std::string idOf (const Preset& t) { return "template:" + t.file.stem().string(); }
 
 /// The entries whose name begins like this.

@@ -35,7 +35,7 @@ public:
     /// Call after each change of the document or the trail.
     void show (std::vector<juce::String> trail, std::optional<Instance> = {});
 
-    /// Where the graph is saved, and whether it was edited since then: "oak.json, edited". Empty for a new graph.
+    /// The file of the graph, and whether the graph was edited since it was saved: "oak.json, edited". Empty for a new graph.
     juce::String savedText() const;
 
     std::function<void (std::size_t depth)> onLeave;

@@ -29,7 +29,7 @@ const CLI::App& givenCommand (const CLI::App& program)
     return given.empty() ? program : *given.front();
 }
 
-/// What may have been meant by an argument that the command does not know.
+/// The option that may have been meant by an argument that the command does not know.
 std::string suggestionFor (const CLI::App& program)
 {
     const auto& command = givenCommand (program);
@@ -44,7 +44,8 @@ std::string suggestionFor (const CLI::App& program)
     return "";
 }
 
-/// CLI11 repeats arguments as they are: escapes what could disturb a terminal, and line ends, which could forge a message.
+/// The message about a wrong command line. CLI11 repeats arguments as they are, so this escapes what could disturb a terminal, and line ends, which
+/// could forge a message.
 std::string usageMessage (const CLI::App* app, const CLI::Error& error)
 {
     std::string what = error.what();

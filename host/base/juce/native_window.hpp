@@ -8,9 +8,9 @@
 namespace tactus::host
 {
 
-/// How often a second JUCE looks whether a native window must be painted again. JUCE itself does so as often as the display shows a picture, also
-/// while nothing changes, and sets this rate again when the window is moved. Empty: that rate. Does nothing on systems where JUCE has no such timer,
-/// and without a display. [message thread]
+/// Sets how often a second JUCE looks whether a native window must be painted again. JUCE itself does so as often as the display shows a picture,
+/// also while nothing changes, and sets this rate again when the window is moved. Empty: that rate. Does nothing on systems where JUCE has no such
+/// timer, and without a display. [message thread]
 void setRepaintRate (juce::ComponentPeer&, std::optional<int> per_second);
 
 /// From now on, each key event says which of Shift, Ctrl and Alt are held. JUCE itself counts their presses and releases, but a release does not

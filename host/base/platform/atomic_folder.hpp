@@ -21,7 +21,7 @@ namespace tactus::host
 class AtomicFolder
 {
 public:
-    /// What may be in the target: nothing, or an earlier folder with a file of this name that lists what was written.
+    /// Checks what is in the target. It may be nothing, or an earlier folder with a file of this name that lists what was written.
     /// Errors: output/exists (something else is there, or it belongs to another user, or this program works in it).
     static Result<> check (const std::filesystem::path& target, const std::string& list = {});
 

@@ -18,7 +18,7 @@ std::filesystem::path homeFolder();
 /// systems, or if the user's home is unknown. [main thread]
 std::filesystem::path documentsFolder();
 
-/// Why an existing folder is not used, if another user can change what is in it. Id: home/foreign. [main thread]
+/// The reason why an existing folder is not used: another user can change what is in it. Empty if it is used. Id: home/foreign. [main thread]
 std::optional<Message> homeTrouble();
 
 }   // namespace tactus::host

@@ -134,7 +134,7 @@ Message fault (const char* id, std::string where, std::string text, std::string 
 
 std::string newtons (double v) { return roundedText (v, 3) + " N"; }
 
-/// What a single run shows.
+/// The messages about a single run.
 Messages examine (const Played& p, const std::string& where, const std::string& when)
 {
     if (hasErrors (p.messages)) return p.messages;

@@ -11,8 +11,8 @@
 namespace tactus::host
 {
 
-/// What is missing or wrong in what a preset says about itself: its words, its licence, the sources of its numbers, its devices and their guards.
-/// `text` is the text of the file.
+/// Examines what a preset says about itself, and reports what is missing or wrong: its words, its licence, the sources of its numbers, its devices
+/// and their guards. `text` is the text of the file.
 ///
 /// Ids: preset/format, preset/name, preset/about, preset/tags, preset/rate, preset/controls, preset/licence, preset/source, preset/device,
 /// preset/guard. [main thread]

@@ -39,7 +39,7 @@ constexpr auto look = 5ms;   // how often reports are taken, and whether the com
                                   "`tactus devices` lists them");
 }
 
-/// What passes through a device that a profile describes.
+/// The device that --device names. Ends the command if there is none with a profile.
 FoundDevice deviceNamed (const std::string& text, const LoadedProfiles& profiles)
 {
     const std::vector<std::pair<std::string, Json>> no_graph;

@@ -71,7 +71,7 @@ std::string_view nameOf (Bus bus)
     }
 }
 
-/// How much of a profile has been verified on a real device.
+/// The degree to which a profile has been verified on a real device.
 std::string_view verifiedOf (const Profile& p)
 {
     const auto seen = [] (const auto& report) { return report.verified; };

@@ -19,7 +19,7 @@ struct ListedEvents
     std::string text;   ///< three lines
 };
 
-/// Those of this computer. None where the driver `evdev` was not built.
+/// The event devices of this computer. None where the driver `evdev` was not built.
 std::vector<ListedEvents> listEventDevices();
 
 /// An open event device whose readings are shown. It gets no force.

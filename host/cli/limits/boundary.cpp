@@ -18,7 +18,7 @@ struct Corner
     bool isInside() const { return value < 0.0; }
 };
 
-/// Where the boundary crosses the side between two corners; empty if it does not.
+/// The point where the boundary crosses the side between two corners; empty if it does not.
 std::optional<Corner> crossing (const std::function<double (double, double)>& f, Corner a, Corner b, bool is_cheap)
 {
     if (std::isnan (a.value) || std::isnan (b.value) || a.isInside() == b.isInside()) return std::nullopt;

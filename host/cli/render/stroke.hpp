@@ -13,7 +13,7 @@ struct Stroke
 {
     double speed = 0.1, length = 0.06, depth = 1e-3;   ///< m/s, m, m
 
-    /// How long the tool moves before the stroke begins, in s, so that transients of the first contact are over.
+    /// The time for which the tool moves before the stroke begins, in s, so that transients of the first contact are over.
     static constexpr double lead_in_s = 0.2;
 };
 

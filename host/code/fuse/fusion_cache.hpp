@@ -34,7 +34,7 @@ public:
     /// The user's cache: in TACTUS_HOME, XDG_CACHE_HOME or ~/.cache. Empty if the user's home is unknown.
     static std::filesystem::path usualFolder();
 
-    /// Why nothing is kept or found, if another user could have put code into the folder, or it cannot be made. Id: fuse/cache.
+    /// The reason why nothing is kept or found: another user could have put code into the folder, or it cannot be made. Id: fuse/cache.
     const std::optional<Message>& trouble() const noexcept { return wrong; }
 
     /// The object with this key, if there is one that this user has made.

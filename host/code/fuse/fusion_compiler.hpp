@@ -40,7 +40,7 @@ public:
     /// The user's cache for fused code: see FusionCache::usualFolder.
     static std::filesystem::path usualCache() { return FusionCache::usualFolder(); }
 
-    /// Why nothing is kept: see FusionCache::trouble.
+    /// The reason why nothing is kept: see FusionCache::trouble.
     const std::optional<Message>& cacheTrouble() const noexcept { return cache.trouble(); }
 
     /// Starts to compile. Stops a compilation that is still running. Ids: fuse/no_compiler, fuse/no_llvm, fuse/no_folder, output/unwritable.

@@ -52,7 +52,7 @@ ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 /// Errors: output/exists, output/unwritable. [main thread]
 Result<> writeFolder (const ExportedFolder&, const std::filesystem::path&);
 
-/// Whether the folder can be written: it is new or empty, or holds an earlier export of this user. Error: output/exists.
+/// Checks that the folder can be written: it is new or empty, or holds an earlier export of this user. Error: output/exists.
 Result<> canWriteFolder (const std::filesystem::path&);
 
 }   // namespace tactus::host

@@ -151,7 +151,7 @@ memory: lib@STEM@.a
 
 namespace
 {
-/// How to build what is in the folder.
+/// The text about how to build what is in the folder.
 std::string buildOf (const Exported& e, ExportTarget target)
 {
     if (target == ExportTarget::arduino)
@@ -196,7 +196,7 @@ in the same unit; it cannot be serialised.
     return text;
 }
 
-/// How exact the values are.
+/// The text about how exact the values are.
 std::string bitsOf (const Exported& e)
 {
     if (! e.is_single)
@@ -207,7 +207,7 @@ std::string bitsOf (const Exported& e)
            "- The bits are the same on all machines if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";
 }
 
-/// What is known about memory without a compiler.
+/// The text about the memory, as far as it is known without a compiler.
 std::string memoryOf (const Exported& e)
 {
     const auto size = objectSize (e);

@@ -75,7 +75,7 @@ enum class Braces
     other       ///< anything else
 };
 
-/// What a brace opens, judged by the words between the previous statement and the brace.
+/// The kind of block that a brace opens, judged by the words between the previous statement and the brace.
 Braces bracesAfter (const Words& statement)
 {
     constexpr std::array<std::string_view, 9> may_decide { "constexpr", "consteval", "auto", "concept", "requires", "decltype", "=", "[", "alignas" };

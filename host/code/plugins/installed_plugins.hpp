@@ -20,7 +20,7 @@ std::vector<std::filesystem::path> pluginFolders (const std::vector<std::string>
 /// The folders in which this program looks: those of pluginFolders(), with those given to usePlugins(). [main thread]
 std::vector<std::filesystem::path> usedPluginFolders();
 
-/// Where the Quarantine of this user keeps its marks; empty if this user has no folder. [main thread]
+/// The folder in which the Quarantine of this user keeps its marks; empty if this user has no folder. [main thread]
 std::filesystem::path pluginMarks();
 
 /// Loads all plugins of these folders, within each folder sorted by name. Errors: those of loadPlugins, plugin/quarantined. `marks` is
@@ -31,7 +31,7 @@ LoadedPlugins loadFolders (const std::vector<std::filesystem::path>& folders, co
 /// Call it when the program starts, before anything uses the catalogue. [main thread]
 Messages usePlugins (const std::vector<std::string>& more);
 
-/// What was refused, as text for a terminal: the file, the reason, the remedy. Empty if nothing was.
+/// The refused plugins, as text for a terminal: the file, the reason, the remedy. Empty if nothing was.
 std::string textOf (const Messages&);
 
 /// The folders that --plugins names on a command line: `--plugins DIR` or `--plugins=DIR`, any number of times. The nodes must be known

@@ -34,8 +34,8 @@ public:
         double secondsSinceSaved() const;
     };
 
-    /// What has happened since the last look; empty if nothing has. Code that differs from what it was and stays the same from one look to
-    /// the next counts as saved. Call this some thirty times a second.
+    /// The new version of a plugin since the last look, or why there is none; empty if nothing has happened. Code that differs from what it was and
+    /// stays the same from one look to the next counts as saved. Call this some thirty times a second.
     std::optional<RebuiltPlugin> poll();
 
     /// Starts to make the precompiled header, in the background. Ids: those of LiveCompiler::prepareFor.

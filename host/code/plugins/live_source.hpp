@@ -25,14 +25,14 @@ struct LiveSource
 
     bool isC() const;   ///< all sources are C
 
-    /// Whether only this user and root can have written the sources, or else the error live/foreign.
+    /// Checks that only this user and root can have written the sources. Error: live/foreign.
     Result<> trusted() const;
 };
 
 /// The code of a node that is only a header. Ids: live/no_header.
 Result<LiveSource> liveHeader (const std::filesystem::path&);
 
-/// What tactus_add_plugin has written next to a plugin about how to build it. Ids: live/no_build_file, live/foreign.
+/// Reads what tactus_add_plugin has written next to a plugin about how to build it. Ids: live/no_build_file, live/foreign.
 Result<LiveSource> liveBuild (const std::filesystem::path& plugin);
 
 /// The plugins in this catalogue that have been built on this machine, so that their code can be watched.

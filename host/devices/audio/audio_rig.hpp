@@ -59,7 +59,8 @@ public:
     /// run. The device must outlive the ticks, and the rig must outlive the device. [main thread]
     std::unique_ptr<AudioDevice> open (AudioRole, Messages&);
 
-    /// The same for a description: openAudio, with the channels that the nodes of the role use if it names none. [main thread]
+    /// Opens the device that a description names, as openAudio does. If the description names no channels, it gets those that the nodes of the role
+    /// use. [main thread]
     MadeDevice open (const Json& description, const std::string& role, const Plan&) override;
 
     /// Selects a card by name (see parseCard). If one has already been selected, it must be the same one (audio/two_cards). Call

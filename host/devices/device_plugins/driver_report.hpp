@@ -24,7 +24,7 @@ public:
     const tactus_plugin_report* to() const noexcept { return &sink; }
     void clear() noexcept { length = 0; }
 
-    /// What was said, or another text if nothing was.
+    /// The text of the driver, or another one if it said nothing.
     std::string text (std::string_view otherwise = "it does not say why") const
     {
         return length == 0 ? std::string (otherwise) : printableName ({ said.data(), length });

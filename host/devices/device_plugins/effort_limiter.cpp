@@ -9,7 +9,7 @@ namespace tactus::host
 
 namespace
 {
-/// How far an effort may move. Without a limit, any distance, also in no time.
+/// The largest change of an effort in this time. Without a limit it is unlimited, even if no time has passed.
 double stepOf (double slew, double passed_s) noexcept { return slew == GuardLimits::none ? slew : slew * passed_s; }
 
 /// Moves towards what is wanted, within `most`, and by no more than `step`. True if the step is too short.

@@ -19,7 +19,7 @@ public:
     /// Adds slew limits, per s.
     void tighten (double force, double torque, double axis) noexcept;
 
-    /// What may be sent now, `passed_s` after the last call.
+    /// The effort that may be sent now, `passed_s` after the last call.
     const Effort& operator() (const Effort& wanted, double passed_s) noexcept;
 
     /// True if a slew limit keeps the last effort from what was wanted.

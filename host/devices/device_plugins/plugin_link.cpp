@@ -239,7 +239,7 @@ bool PluginDevice::Link::isWhole (const tactus_reading& r) const noexcept
 
 void PluginDevice::Link::take (tactus_reading& r, const tactus_device_stamp& stamp, Clock::time_point now) noexcept
 {
-    // What the driver has not named, it does not have.
+    // The device has no part that its driver has not named.
     if (! about.position) std::ranges::fill (r.position, 0.0);
     if (! about.rotation) std::ranges::fill (r.rotation, 0.0);
     if (! about.pressure) r.pressure = 0.0;

@@ -193,8 +193,8 @@ void waitForEndOf (pid_t guardian, int socket) noexcept
     }
 }
 
-/// A thread that replaces the guardian whenever someone kills or freezes it. As long as that fails, the alarm is raised again and again, and
-/// because nothing rearms within a second of an alarm, the forces stay at zero.
+/// Runs on a thread, and replaces the guardian whenever someone kills or freezes it. As long as that fails, the alarm is raised again and again.
+/// Nothing rearms within a second of an alarm, so the forces stay at zero.
 void watchGuardian()
 {
     constexpr auto pause = std::chrono::milliseconds (250);

@@ -67,7 +67,7 @@ public:
     /// The number of alarms so far. One atomic read. [any thread, including the tick thread]
     static std::uint32_t alarms() noexcept;
 
-    /// What the latest alarm was about. Ids: run/frozen, run/unguarded, run/slept. [any thread but the tick thread]
+    /// The message of the latest alarm. Ids: run/frozen, run/unguarded, run/slept. [any thread but the tick thread]
     static Message alarm();
 
 private:

@@ -34,7 +34,7 @@ struct SharedState
         slept
     };
 
-    /// When the latest beat of each device came, in ns of the steady clock, or at_rest, or taken.
+    /// The time of the latest beat of each device, in ns of the steady clock, or at_rest, or taken.
     std::array<std::atomic<std::int64_t>, Failsafe::most_devices> beats {};
     std::atomic<std::uint32_t> looks { 0 };   ///< the guardian's own sign of life: a counter that it increases many times a second
     std::atomic<std::int64_t> asleep { 0 };   ///< how long the computer has slept, in ns, as far as anyone has noticed

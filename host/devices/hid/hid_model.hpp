@@ -79,9 +79,9 @@ public:
     /// Neutral reports are sent on this tick, so the motors start from rest on the next one. [tick thread]
     void rest() noexcept;
 
-    /// How much of the force and the torque of the last drive() or rest() the motors render: on the tool, in Tactus axes, in N and N m. The
-    /// force is smaller than requested if the pose, a current, a motor or a slew limits it, and 0 along an axis without a motor. This
-    /// does not consider a field that clamps the value of a single motor, such as one that can only pull. [tick thread]
+    /// The part of the force and the torque of the last drive() or rest() that the motors render: on the tool, in Tactus axes, in N and N m. The
+    /// force is smaller than requested if the pose, a current, a motor or a slew limits it, and 0 along an axis without a motor. This does not
+    /// consider a field that clamps the value of a single motor, such as one that can only pull. [tick thread]
     const Vec3& renderedForce() const noexcept { return rendered_force; }
     const Vec3& renderedTorque() const noexcept { return rendered_torque; }
 
@@ -118,7 +118,7 @@ public:
 
     /// The steps to perform after the neutral reports.
     const std::vector<Step>& exit() const noexcept { return description->exit; }
-    /// Whether any of the input reports has a number.
+    /// True if any of the input reports has a number.
     bool hasSequence() const noexcept
     {
         return std::ranges::any_of (description->inputs, [] (const auto& r) { return ! r.sequence.empty(); });

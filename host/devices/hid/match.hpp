@@ -21,7 +21,7 @@ struct DeviceInfo
     std::string product;
 };
 
-/// How well a profile fits. 0: not at all; a more specific rule scores higher.
+/// The score of how well a profile fits. 0: not at all; a more specific rule scores higher.
 int fit (const Profile&, const DeviceInfo&) noexcept;
 
 /// The profiles that fit, most specific first; profiles with the same score are sorted by id.

@@ -46,7 +46,7 @@ public:
     Bytes blockLoad() const;
     Answer answer() const;
 
-    /// How to drive the effect. The profile has no match rules; the caller adds them.
+    /// A profile that drives the effect. It has no match rules; the caller adds them.
     Profile profile (const PidCalibration& = {}) const;
 
     /// The axes that the device reports.

@@ -25,8 +25,8 @@ public:
     /// At least half have arrived. A new record counts as complete.
     bool isTrusted() const noexcept { return std::popcount (bits) >= enough; }
 
-    /// How many reports are missing, if this much time has passed since the last one. Bursts do not count as losses:
-    /// the first report of a burst counts the others as missing, but they arrive right after it.
+    /// The number of missing reports, if this much time has passed since the last one. Bursts do not count as losses: the first report of a burst
+    /// counts the others as missing, but they arrive right after it.
     static std::uint64_t missingAfter (double elapsed_s, double rate_hz) noexcept
     {
         const double periods = std::round (elapsed_s * rate_hz);

@@ -43,7 +43,7 @@ std::vector<Bytes> stepsOf (const Profile& profile)
     return steps;
 }
 
-/// What the device hears: its output reports, and the steps that set it up.
+/// The shapes of the reports that the device hears: its output reports, and the steps that set it up.
 std::vector<FrameReader::Shape> heardShapes (const Profile& profile, const std::vector<Bytes>& steps)
 {
     auto shapes = outputShapes (profile);
@@ -181,7 +181,7 @@ Result<> FakeDevice::findFile()
                            "load the module hid-generic; if the kernel has its own driver for this device, that driver needs more than a profile describes");
 }
 
-/// What it answers if it is asked for a report: the latest one of this id, or a feature report of `init`.
+/// The answer if the device is asked for a report: the latest one of this id, or a feature report of `init`.
 Bytes FakeDevice::answerTo (std::uint8_t id, bool is_feature) const
 {
     if (is (FaultKind::stall) || is (FaultKind::reset)) return {};

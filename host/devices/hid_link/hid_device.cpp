@@ -161,7 +161,7 @@ void HidDevice::judge (const ArrivedReport& report, std::uint64_t lost) noexcept
     arrived_last = report.at;
 }
 
-/// What keeps the reading from being valid, other than its content.
+/// The fault that keeps the reading from being valid, other than its content.
 ReadingFault HidDevice::fault (bool is_connected) const noexcept
 {
     if (! is_connected) return ReadingFault::unplugged;

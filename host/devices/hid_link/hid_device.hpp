@@ -41,8 +41,8 @@ std::string describe (const ReadingCounts&, const PortCounts&);
 /// Says how many bytes of a serial line belong to no report, and what that means if no report has come; empty: none.
 std::string describeStray (const PortCounts&);
 
-/// What nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of the signal outputs, the channels of
-/// the streams come first, then the signals that the profile turns into efforts.
+/// The parts that nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of the signal outputs, the channels of the
+/// streams come first, then the signals that the profile turns into efforts.
 DeviceLayout layoutOf (const HidModel&);
 
 /// A HID device in a run. Reports are decoded and encoded on the tick thread, so an answer carries the pose and the sequence

@@ -106,7 +106,7 @@ public:
     bool hasIds() const noexcept { return has_ids; }   ///< true if reports begin with an id
     const ConnectedDevice& device() const noexcept { return wanted; }
 
-    /// How long a device may be silent: the profile's watchdog, or GuardLimits::default_watchdog.
+    /// The longest time that a device may be silent: the profile's watchdog, or GuardLimits::default_watchdog.
     Clock::duration watchdog() const noexcept { return longest_silence; }
 
     //==========================================================================
@@ -143,7 +143,7 @@ public:
     /// True as soon as a report has arrived since the last wait; false on timeout.
     bool waitForReport (Clock::time_point until) noexcept;
 
-    /// When the latest report was read.
+    /// The time when the latest report was read.
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
 
     /// True if this thread reads the device and came too late for the latest report: it was already there, or there were several.

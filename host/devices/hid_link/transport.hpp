@@ -57,7 +57,7 @@ public:
     /// True if readUntil() works.
     virtual bool canReadUntil() const noexcept { return false; }
 
-    /// How many reports the system keeps for a reader who is late; it drops newer ones.
+    /// The number of reports that the system keeps for a reader who is late; it drops newer ones.
     virtual std::size_t keptBySystem() const noexcept { return 63; }   // Linux, of HID: HIDRAW_BUFFER_SIZE is 64
 
     /// Bytes that have come so far and belong to no report. [any thread]

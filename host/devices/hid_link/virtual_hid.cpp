@@ -36,7 +36,7 @@ void copyText (std::uint8_t (&into)[size], const std::string& text)
     std::memcpy (into, text.data(), std::min (text.size(), size - 1));   // the rest stays 0
 }
 
-/// What is left, for ppoll.
+/// The time that is left, for ppoll.
 timespec timeUntil (VirtualHid::Clock::time_point until)
 {
     const auto left = std::max (until - VirtualHid::Clock::now(), VirtualHid::Clock::duration::zero());

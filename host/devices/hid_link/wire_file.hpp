@@ -26,7 +26,7 @@ public:
     /// A serial line that passes all bytes unchanged: 8 bits, no parity, no flow control. Also works on a pseudo-terminal.
     static Result<WireFile> openSerial (const std::string& path, int baud);
 
-    /// Whether an address for connectUdp() is one: numbers, with a port from 1 to 65535.
+    /// Checks that an address is one for connectUdp(): numbers, with a port from 1 to 65535.
     static Result<> checkUdp (const std::string& address);
 
     /// A socket that exchanges datagrams with one address, such as "192.168.4.1:9750" or "[fe80::1]:9750", and takes none from other addresses.

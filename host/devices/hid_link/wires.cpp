@@ -153,10 +153,10 @@ private:
     Bytes room, unsent;   // [writer]
 };
 
-/// A line whose device only answers: each report with one report, in order. The bytes do not show where an answer begins, nor to which report it belongs.
-/// So a report with a force waits for the answer to the previous report, and bytes that come without a request are dropped. A report that brings the device
-/// to rest does not wait: fillers go first, and end a report of which the device may have missed a part. While there is nothing to send, the neutral report
-/// is sent as a request.
+/// A line whose device only answers: it answers each report with one report, in order. The bytes do not show where an answer begins, nor to which
+/// report it belongs. So a report with a force waits for the answer to the previous report, and bytes that come without a request are dropped. A
+/// report that brings the device to rest does not wait. Fillers go before it, and complete a report of which the device may have missed a part. While
+/// there is nothing to send, the neutral report is sent as a request.
 class AskedTransport final : public SerialTransport
 {
 public:

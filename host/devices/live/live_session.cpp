@@ -108,7 +108,7 @@ Messages LiveSession::openDevices()
     return messages;
 }
 
-/// Shows each HID device the guard of its role, whose stops may be its own, too.
+/// Shows each HID device the guard of its role, so that the device can stop with it.
 void LiveSession::showStops()
 {
     for (const auto& real : realDevices())

@@ -66,7 +66,7 @@ public:
         if (who == By::person) stopped_by_person.fetch_add (1);
     }
 
-    /// How often a person has stopped. [any thread]
+    /// The number of stops by a person. [any thread]
     std::uint32_t personStops() const noexcept { return stopped_by_person.load(); }
 
     /// A person starts or rearms, and has seen this many stops of a person: a later one still counts. [any thread]
@@ -79,11 +79,11 @@ public:
         if (! isAhead()) startedAfter (seen);
     }
 
-    /// Whether a program may start or rearm. Id: run/stopped_by_person. [any thread]
+    /// Checks that a program may start or rearm. Id: run/stopped_by_person. [any thread]
     Result<> mayStart() const;
 
-    /// When the latest emergency stop was. Only for comparison with an earlier answer. It writes, so that it comes neither before nor after what its
-    /// thread does before and after it. [any thread]
+    /// The time of the latest emergency stop, only for comparison with an earlier answer. The call writes, so that it cannot move before or after
+    /// what its thread does before and after it. [any thread]
     std::chrono::steady_clock::rep latest() noexcept { return pressed_at.fetch_add (0); }
 
     /// Allows a rearm that was asked for at this time, or refuses because it was asked for within a pause of an emergency stop, or before the

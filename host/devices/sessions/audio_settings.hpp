@@ -97,7 +97,7 @@ Result<Route> parseRoute (std::string_view);
 /// Parses TYPE:NAME, NAME or TYPE. `types` are the known types.
 CardRequest parseCard (std::string_view, const std::vector<std::string>& types);
 
-/// Why a port with this unit ("N"; "" if unknown) cannot be played on a channel with this calibration; "" if it can.
+/// The reason why a port with this unit ("N"; "" if unknown) cannot be played on a channel with this calibration; "" if it can.
 std::string unitProblem (const FullScale&, std::string_view unit);
 
 }   // namespace tactus::host::audio

@@ -42,7 +42,7 @@ public:
 
     const std::shared_ptr<const hid::Profile>& profile() const noexcept { return wanted; }
 
-    /// Why the latest attempt to open the device failed. [any thread]
+    /// The reason why the latest attempt to open the device failed. [any thread]
     std::string trouble() const;
 
 private:

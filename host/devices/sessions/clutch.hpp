@@ -39,7 +39,7 @@ public:
     /// Takes what the guard has passed on.
     void wrote (const Effort& guarded) noexcept;
 
-    /// How far the workspace has moved, in m.
+    /// The displacement of the workspace, in m.
     const Vec3& moved() const noexcept { return shift; }
 
 private:

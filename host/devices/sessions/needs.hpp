@@ -34,7 +34,7 @@ struct RoleNeeds
     DeviceParts parts;
 };
 
-/// What a graph needs from each of its roles, in the order of the plan. Bypassed nodes need nothing. [main thread]
+/// The needs of a graph from each of its roles, in the order of the plan. Bypassed nodes need nothing. [main thread]
 std::vector<RoleNeeds> needsOf (const Plan&);
 
 /// The parts of a device according to its description; empty if only the device itself knows them, or if the description is
@@ -43,7 +43,8 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
 DeviceParts partsOf (const hid::Profile&);
 DeviceParts partsOf (const DriverAbout&);
 
-/// The directions in which a device can move the tool, if these are not all: "y", or "x and y". `axes`: those of its workspace.
+/// The directions in which a device can move the tool: "y", or "x and y"; empty if it can move the tool in all of them. `axes`: those of its
+/// workspace.
 std::string movesAlong (const hid::Profile&, const Mat3& axes);
 
 /// The same for its force: "x" or "x and y"; empty for all three, and for a device without a force.

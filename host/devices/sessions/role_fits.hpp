@@ -47,7 +47,8 @@ std::string nameOf (const Json& description);
 /// True if the driver of a description is none of Tactus, so that it must be in a plugin, which may not be installed. Loads nothing.
 bool namesPlugin (const Json& description);
 
-/// Whether a connected HID device matches the description. On other wires: false if the port does not exist; else empty, because only a run asks the device.
+/// True if a connected HID device matches the description. On other wires: false if the port does not exist; else empty, because only a run asks the
+/// device.
 std::optional<bool> isConnected (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
 /// Checks the description of a device with any driver, as far as that is possible without the device. Loads the driver if it is in a plugin.

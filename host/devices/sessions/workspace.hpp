@@ -59,7 +59,8 @@ Workspace readWorkspace (const Json&, std::string where, Messages&);
 /// graph.
 GuardLimits inWorkspace (GuardLimits ofDevice, const Workspace&) noexcept;
 
-/// What is wrong with the clutch on a device with these buttons. Id: device/no_button; where: relative to the description of the device.
+/// The problem of the clutch on a device with these buttons; empty if there is none. Id: device/no_button; where: relative to the description of the
+/// device.
 std::optional<Message> wrongClutch (const Workspace&, const DeviceLayout&);
 
 /// A device whose readings are converted to a graph's workspace. Its origin can be moved while it is in use: by the clutch, which is a button of the
@@ -87,7 +88,7 @@ public:
     /// nothing is on the device, and while it has no valid reading, the origin stays where it is. [main thread]
     void moveTo (const Vec3& origin) noexcept;
 
-    /// Where the device's origin is in the graph, or will be soon, in m. [main thread]
+    /// The place of the device's origin in the graph, now or soon, in m. [main thread]
     Vec3 origin() const noexcept;
 
 private:
@@ -103,7 +104,8 @@ private:
     const double max_still, still_force, still_torque;
     double dt = 1e-3;
 
-    /// Where moveTo() wants the origin. The tick thread must not wait, so the main thread writes the other of two places, and counts it then.
+    /// The place where moveTo() wants the origin. The tick thread must not wait, so the main thread writes the other of two values, and counts it
+    /// then.
     std::array<std::array<std::atomic<double>, 3>, 2> goals {};
     std::atomic<std::uint32_t> goals_told = 0;
     struct Origin

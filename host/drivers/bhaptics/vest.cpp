@@ -121,7 +121,7 @@ private:
 
     void takeAnswer() override { answers = std::min (answers + 1, most_answers); }
 
-    /// The newest values as soon as the period of the last ones is over. Meanwhile, asks whether the Player is there.
+    /// Sends the newest values as soon as the period of the last ones is over. Meanwhile, asks whether the Player is there.
     Exchange::Turn speak (Clock::time_point now) override
     {
         const auto due = std::min (asked + between_asks, is_new ? shown + period : Clock::time_point::max());

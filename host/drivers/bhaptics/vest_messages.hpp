@@ -19,7 +19,7 @@ struct VestSettings
     static Result<VestSettings> read (const Json& description);
 };
 
-/// Whether a vest is among the devices that bHaptics Player says it has; true if it does not say. None if the message is not JSON.
+/// True if a vest is among the devices that bHaptics Player says it has, or if it does not say. Empty if the message is not JSON.
 std::optional<bool> hasVest (std::string_view message);
 
 }   // namespace tactus::host

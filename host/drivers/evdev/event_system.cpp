@@ -104,7 +104,8 @@ bool bitIn (const std::string& map, unsigned bit)
     return (value >> bit % word_bits & 1u) != 0;
 }
 
-/// How often the USB port of a device takes a report, by the interval of its interrupt OUT endpoint: 0.004 for "4ms". 0: it has none, or is not USB.
+/// The time in s from one report to the next that the USB port of a device takes, by the interval of its interrupt OUT endpoint: 0.004 for "4ms". 0:
+/// it has none, or is not USB.
 double updateInterval (const fs::path& input_device)
 {
     std::error_code failed;
@@ -133,7 +134,7 @@ std::string nodeOf (const std::string& path)
     return failed ? fs::path (path).filename().string() : real.filename().string();
 }
 
-/// What is known about a device without opening it.
+/// The properties of a device that are known without opening it.
 EventDeviceInfo look (const std::string& path)
 {
     const auto at = fs::path (sys_folder) / nodeOf (path) / "device";

@@ -80,7 +80,7 @@ private:
             if (! client.says (look_ms)) continue;
             hear (client.hear());
             if (fault() == Fault::silent || fault() == Fault::push) continue;
-            // What comes before the answer has gone out was sent without waiting for it.
+            // A message that comes before the answer has gone out was sent without waiting for it.
             if (client.says (delay_ms)) count ([] (Counts& n) { ++n.together; });
             send (client, false);
             count ([] (Counts& n) { ++n.answered; });

@@ -26,7 +26,7 @@ class Inverse3Messages
 public:
     static constexpr std::array<const char*, 4> buttons { "a", "b", "c", "home" };   ///< of a grip, by bit
 
-    /// What the person asks for: "device_id", "grip" and "spelling". Returns what is wrong with it; empty: nothing.
+    /// Takes what the person asks for: "device_id", "grip" and "spelling". Returns what is wrong with it; empty: nothing.
     std::string configure (const Json& description);
 
     bool hasGrip() const noexcept { return ! grip.empty(); }

@@ -24,8 +24,8 @@ struct ServiceAddress
     static std::optional<ServiceAddress> read (std::string_view text, std::string_view otherwise);
 };
 
-/// Talks with a service in turns: nothing is said before the last message has been answered, so at most one is on its way, and it is the newest. A thread
-/// reads and another one writes, as the interface of drivers has it; neither waits for the other.
+/// Talks with a service in turns. Nothing is said before the last message has been answered, so at most one message is on its way, and it is the
+/// newest. One thread reads and another one writes, as in the interface of drivers; neither waits for the other.
 class Exchange
 {
 public:
@@ -60,7 +60,7 @@ public:
     class Partner
     {
     public:
-        /// What is said next, if that is due now. [strand, with `mutex` held]
+        /// The next message to say, if it is due now. [strand, with `mutex` held]
         virtual Turn speak (Clock::time_point now) = 0;
 
         /// Takes a message. Returns why the connection cannot be used any more; empty if it can. [strand]
@@ -72,7 +72,7 @@ public:
         /// From now on, until something else is offered, speak() asks for rest. [writing thread, with `mutex` held]
         virtual void askForRest() = 0;
 
-        /// That has been said. [writing thread, with `mutex` held]
+        /// True once speak() has asked for rest. [writing thread, with `mutex` held]
         virtual bool hasAskedForRest() const = 0;
 
     protected:

@@ -21,7 +21,7 @@ public:
     WebSocket (const WebSocket&) = delete;
     WebSocket& operator= (const WebSocket&) = delete;
 
-    /// What was under way ends with an error. For the destructor of whoever is called, when no other thread uses this any more.
+    /// Ends what is under way with an error. Call it in the destructor of the object that is called, when no other thread uses this any more.
     void close();
 
     /// Connects, and waits for a message if `first` is not null. Returns why it cannot; empty if it can.

@@ -66,7 +66,7 @@ void LightByHand::tick (const double* in) noexcept
     motor.tick ({ .force = limit.tick ({ .in = braked, .contact = landed.contact }).out });
 }
 
-/// What replaces the large kernels of the reference graph.
+/// The types of nodes that replace the large kernels of the reference graph.
 const std::map<std::string, std::string, std::less<>> light_types {
     { "motion.velocity", "light.speed" },
     { "deform.surface", "light.floor" },

@@ -181,7 +181,7 @@ private:
     double before = 0.0;
 };
 
-/// What the decaying kernels below add on each tick, so that they never reach subnormal numbers, which take much longer to compute with.
+/// The number that the decaying kernels below add on each tick, so that they never reach subnormal numbers, which take much longer to compute with.
 inline constexpr double little = 1e-9;
 
 /// A stand-in for shock.hunt_crossley.

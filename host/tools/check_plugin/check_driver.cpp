@@ -264,7 +264,7 @@ std::string checkTimeout (const Device& device, int times)
     return {};
 }
 
-/// What is wrong with a reading; empty if nothing is.
+/// The fault of a reading; empty if there is none.
 std::string faultOf (const tactus_reading& r, const host::DriverAbout& about)
 {
     if (const auto named = about.layout.axes.size(); r.axis_count < named)
@@ -322,7 +322,7 @@ std::string checkReadings (const Device& device, double seconds)
     return {};
 }
 
-/// What is wrong with an answer of write or rest; empty if nothing is.
+/// The fault of an answer of write or rest; empty if there is none.
 std::string faultOf (const char* function, int answer, Clock::duration took, const DriverReport& said)
 {
     const auto name = std::string ("`") + function + "` ";

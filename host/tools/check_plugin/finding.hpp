@@ -12,7 +12,7 @@ namespace tactus::check_plugin
 /// Begins the answer of an examination that is skipped; the reason follows.
 inline constexpr const char* skip_mark = "\1";
 
-/// What an examination has found that has run in a separate process: its answer is why it failed, or empty.
+/// The finding of an examination that has run in a separate process: its answer is why it failed, or empty.
 Finding finding (std::string id, std::string promise, const ProcessResult&);
 
 }   // namespace tactus::check_plugin

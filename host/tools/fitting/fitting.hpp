@@ -88,7 +88,7 @@ struct RecordedPicture
     std::set<std::string> turned {};   ///< the roles whose sign is turned
 };
 
-/// What a fit with these settings would see. [any thread]
+/// The picture that a fit with these settings would see. [any thread]
 RecordedPicture pictureOf (FitKind, const Table&, const FitSettings&);
 
 /// "0.472 [0.468, 0.475]", with a unit and a prefix where they help.

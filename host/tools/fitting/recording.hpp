@@ -47,8 +47,8 @@ Table tableOf (const Signal&);
 /// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm, and "m/s" for speed_m_s; empty if there is none.
 std::string unitIn (const std::string& column);
 
-/// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N; a force in "g" is in
-/// gram-force. Empty if the text does not fit.
+/// The size of 1 in a column, in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N; a force in "g" is in gram-force. Empty if the text
+/// does not fit.
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit);
 
 /// The name of a column without its unit, in lower case: "x" for x_um, "normal" for "Normal [uN]".

@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// Reads a table, or the samples of a WAV. In a header, because the library of fits needs no reader of WAVs. [any thread]
+/// Reads a table, or the samples of a WAV. This is in a header, so that the library of fits needs no reader of WAVs. [any thread]
 /// Errors: those of readTable and readWav.
 inline Result<Table> readRecordingOrWav (const std::filesystem::path& file)
 {

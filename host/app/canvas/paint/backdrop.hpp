@@ -20,7 +20,7 @@ public:
     /// fewer wires, or pixels of the picture would not be pixels of the screen.
     bool paint (juce::Graphics&, juce::Rectangle<int> area, const Scene&, const View&, const Look&, const Highlights&);
 
-    /// How many squares of the picture have been painted so far, and how many it has. For tests.
+    /// The number of squares of the picture that have been painted so far, and the number that it has. For tests.
     std::size_t squaresPainted() const noexcept { return painted; }
     std::size_t squares() const noexcept { return is_old.size(); }
 

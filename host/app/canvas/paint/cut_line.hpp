@@ -15,7 +15,7 @@ struct CutLine
     juce::Line<float> whole;
     int parts = 1;
 
-    /// Where a part begins, or the end of the line.
+    /// The beginning of a part, or the end of the line.
     juce::Point<float> at (int part) const noexcept
     {
         return part == parts ? whole.getEnd() : whole.getPointAlongLineProportionally (static_cast<float> (part) / static_cast<float> (parts));

@@ -56,7 +56,7 @@ private:
         return node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
     }
 
-    /// Whether the node is selected, has a problem or breaks a limit is seen even if it has few pixels.
+    /// Paints a node that has few pixels. One still sees whether it is selected, has a problem or breaks a limit.
     void boxAlone (const SceneNode& node, bool selected) const
     {
         const float pixel = 1.0f / zoom;
@@ -167,7 +167,8 @@ private:
         if (s.port->role == Role::param) value (node, s, row, alpha);
     }
 
-    /// What a wire sets is dimmed, because the user cannot: its value while the graph runs, else where it comes from.
+    /// Paints the value of a param. A value that a wire sets is dimmed, because the user cannot set it. It shows the value while the graph runs, else
+    /// where it comes from.
     void value (const SceneNode& node, const Socket& s, juce::Rectangle<float> row, float alpha) const
     {
         g.setColour ((s.driver.empty() ? theme.text : theme.dim).withMultipliedAlpha (alpha));

@@ -69,7 +69,7 @@ struct Stroke
     float thickness;
 };
 
-/// What a wire that carries something has below it, so that the wire itself keeps its contrast at rest.
+/// The glow below a wire that carries something. The wire itself keeps its contrast at rest.
 Stroke glowOf (const SceneWire& w, const Theme& theme, int level)
 {
     const float strength = static_cast<float> (level) / static_cast<float> (LiveState::most_level);

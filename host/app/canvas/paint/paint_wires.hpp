@@ -30,7 +30,7 @@ private:
 /// Paints one wire. `level` is how much it carries, as in LiveState.
 void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered, int level = 0);
 
-/// How much a wire carries, as in LiveState; 0: nothing.
+/// The amount that a wire carries, as in LiveState; 0: nothing.
 int levelOf (const SceneWire&, const LiveState&);
 
 /// These paint in canvas units: the wires that are painted together, the other wires with what is on all of them, and the bends of selected

@@ -88,7 +88,7 @@ float FormulaBlock::widthOf (const Part& part) const
     return width;
 }
 
-/// Where the columns of the source begin: each to the right of all parts that end before it.
+/// The places where the columns of the source begin: each to the right of all parts that end before it.
 std::vector<std::pair<std::size_t, float>> FormulaBlock::columnsFor (float width) const
 {
     std::vector<std::pair<std::size_t, float>> columns;

@@ -25,7 +25,7 @@ public:
     /// because windows and components move. If direct stops do not work for a window, returns the reason, once per window.
     std::optional<Message> follow (juce::Component&, juce::Rectangle<int> part);
 
-    /// Whether Esc is a stop, as it is at first. If not, it closes something on the message thread. Shift+Esc always is one.
+    /// Sets whether Esc is a stop, as it is at first. If it is not, it closes something on the message thread. Shift+Esc always is one.
     void letEscStop (bool does) noexcept { esc_stops = does; }
 
 private:

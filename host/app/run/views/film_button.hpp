@@ -20,7 +20,7 @@ public:
     int wantedWidth() const;                                  ///< the same for every label, so that what is next to the button stays in place
     int leastWidth() const { return button.wantedWidth(); }   ///< for the label that it has now
 
-    /// How many seconds are kept and saved.
+    /// Sets how many seconds are kept and saved.
     void setLength (double seconds);
     double length() const noexcept { return length_s; }
     std::function<void()> onLength;   ///< called when the user has chosen another length

@@ -18,10 +18,11 @@ public:
 
     void refresh();   ///< call many times a second
 
-    /// What the user has chosen in the list to move the tool, whatever moves it now. It is meant for other graphs, too, unless it is their own device.
+    /// The choice of the user in the list of what moves the tool, whatever moves it now. It is meant for other graphs, too, unless it is their own
+    /// device.
     const LiveRun::Hand& chosen() const noexcept { return chosen_hand; }
 
-    /// What can move the tool, and which tool it can be, by name, and how to choose it.
+    /// The choices for what moves the tool, and for which tool it is: the name of each, and a function that chooses it.
     std::vector<std::pair<juce::String, std::function<void()>>> choices();
 
     /// From now on, the tool is moved by its own device. Returns a function that takes this back, and when it is called again, does it again; it does

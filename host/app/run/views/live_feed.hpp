@@ -23,7 +23,7 @@ public:
 
     void refresh();   ///< call many times a second
 
-    /// What a wire sets a param of the patch to, in SI, by component; such as "drag.mu". Empty unless it runs.
+    /// The value to which a wire sets a param of the patch, such as "drag.mu", in SI, by component. Empty unless it runs.
     std::vector<double> valuesOf (const std::string& param) const;
 
     bool shows_costs = false;

@@ -24,7 +24,7 @@ juce::String stiffnessText (double stiffness)
     return stiffness >= 1000.0 ? juce::String (stiffness / 1000.0, 1) + " N/mm" : juce::String (std::round (stiffness)) + " N/m";
 }
 
-/// Why a run ended.
+/// The reason why a run ended.
 juce::String reason (const RunStatus& s, LiveRun& run)
 {
     switch (s.end)

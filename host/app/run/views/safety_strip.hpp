@@ -26,7 +26,7 @@ public:
     /// The state of the run, as the strip shows it.
     const juce::String& text() const noexcept { return shown.state; }
 
-    /// What the guards have stopped or limited, and whether that is shown as an alarm.
+    /// The text about what the guards have stopped or limited, and whether it is shown as an alarm.
     const juce::String& guardText() const noexcept { return shown.guard; }
     bool isAlarmed() const noexcept { return shown.alarmed; }
 

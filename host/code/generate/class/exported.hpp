@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the parts of the generator share: the graph to export, read from a plan and a run.
+/// The data that the parts of the generator share: the graph to export, read from a plan and a run.
 
 #include "node_memory.hpp"
 #include "plan_names.hpp"

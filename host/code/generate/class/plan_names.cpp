@@ -88,7 +88,7 @@ void PlanNames::nameConsumers()
     }
 }
 
-/// What drives a parameter is named after the parameter.
+/// Names what drives a parameter after the parameter.
 void PlanNames::nameDriven (const plan::DrivenNode& driven)
 {
     const auto& node = *nodeOf (driven.node);

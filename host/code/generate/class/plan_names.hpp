@@ -67,7 +67,7 @@ public:
     /// The variable that holds a node's outputs.
     static std::string outputsOf (const ExportedNode& n) { return (n.is_inner ? "state." : "") + n.name + "_out"; }
 
-    /// What a record assigns its value to: "const double motor_force_x", or a member of `state`.
+    /// The left side of the assignment of a record's value: "const double motor_force_x", or a member of `state`.
     std::string target (const double* value, const std::string& type = "double") const;
 
     /// The member that is the rate converter or delay line at this address.

@@ -61,7 +61,7 @@ std::string lastName (const std::string& type)
     return at == type.npos ? type : type.substr (at + 2);
 }
 
-/// Where the struct or class of this name begins last before a place; empty if nowhere.
+/// The place where the struct or class of this name begins last before a given place; empty if nowhere.
 std::optional<std::size_t> structBefore (const std::string& text, const std::string& name, std::size_t place)
 {
     std::optional<std::size_t> last;
@@ -116,7 +116,7 @@ std::optional<Found> nodeIn (const fs::path& folder, const std::string& id, std:
     return {};
 }
 
-/// What the lines `#include "…"` and `#include <tactus/…>` of a text name.
+/// The files that the lines `#include "…"` and `#include <tactus/…>` of a text name.
 std::vector<std::string> includesOf (const std::string& text, char mark)
 {
     static const std::regex directive (R"(\s*#\s*include\s*([<"])([^>"]{1,400})[>"].*)");

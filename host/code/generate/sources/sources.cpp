@@ -24,7 +24,7 @@ std::string includedBy (std::string_view line, const std::string& from)
     return path.starts_with ("tactus/") ? path : std::string {};
 }
 
-/// What follows `key` in the text, up to `end`.
+/// The text between `key` and `end`.
 std::string_view valueAfter (std::string_view text, std::string_view key, std::string_view end)
 {
     const auto at = text.find (key);

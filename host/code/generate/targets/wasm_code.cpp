@@ -173,7 +173,7 @@ Json recordsOf (const Exported& e)
     return all;
 }
 
-/// What a program can ask the graph about itself.
+/// The text that a program can ask the graph for, about the graph itself.
 std::string aboutOf (const Exported& e)
 {
     auto feeds = Json::array(), hits = Json::array();

@@ -202,8 +202,8 @@ private:
                 }
     }
 
-    /// How a device may read a step as this report: if it begins with its id, or without ids, with its first byte, unless that varies. Systems leave out a
-    /// leading 0, and fill up a report that is too short.
+    /// The ways in which a device may read a step as this report: if it begins with its id, or without ids, with its first byte, unless that varies.
+    /// Systems leave out a leading 0, and fill up a report that is too short.
     static std::vector<Bytes> readings (const Step& step, const OutputReport& report)
     {
         std::vector<Bytes> all;

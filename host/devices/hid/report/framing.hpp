@@ -46,7 +46,7 @@ public:
 
     FrameReader (Framing, std::vector<Shape>);
 
-    /// Where the next bytes are to be put; never empty.
+    /// The room for the next bytes; never empty.
     std::span<std::uint8_t> room() noexcept;
 
     /// So many bytes have been put there.
@@ -94,7 +94,7 @@ private:
 /// The shapes of the input reports of a profile.
 std::vector<FrameReader::Shape> inputShapes (const Profile&);
 
-/// Those of its output reports, for the other end.
+/// The shapes of its output reports, for the other end.
 std::vector<FrameReader::Shape> outputShapes (const Profile&);
 
 }   // namespace tactus::host::hid
