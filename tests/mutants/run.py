@@ -189,7 +189,7 @@ class Bench:
 
 def test_of(found_by):
     """The name of a test file in the names of tests, as tests/parts.cmake makes it."""
-    return re.sub(r"^(framework|nodes|plugins|host/app|host)/|_test\.cpp$", "", found_by.removeprefix("tests/"))
+    return re.sub(r"^(framework|nodes|plugins|host/(?:app|cli|base|code|devices|drivers|tools))/|_test\.cpp$", "", found_by.removeprefix("tests/"))
 
 
 def examine(mutant, bench, remembered, everything, to_the_end):

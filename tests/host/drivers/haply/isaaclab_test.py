@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "support"))
 from fake import Fake, demand   # noqa: E402
 from waiting import eventually   # noqa: E402
 
