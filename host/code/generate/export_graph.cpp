@@ -262,40 +262,23 @@ void addFiles (ExportedFolder& folder, const Exported& e, const PluginSources& p
     addTarget (folder, e, target);
 }
 
-ExportedFolder knobFolder (const graph::Graph& graph, const ExportOptions& options, const std::vector<ExportedRole>& roles, ExportedFolder folder)
-{
-    folder.stem = stemOf (options.file);
-    const auto made = compile (graph, catalogue(), options.compile);   // as before, so it has the same messages
-    const auto fit = fitKnob (made.plan, options.knob, roles.empty() ? GuardLimits::none : roles.front().limits.max_torque);
-    if (fit)
-        folder.files = knobFiles (folder.stem, *fit, options.knob, folder.messages);
-    else
-        folder.messages.push_back (fit.error());
-    return folder;
-}
-
 constexpr const char* manifest = "tactus_export.txt";
 }   // namespace
 
 ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& options)
 {
     ExportedFolder folder;
-    Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices(), Run::Queries::within_tick, Run::Steps::one_each };
+    Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
     refuseSingle (options, folder.messages);
-    if (options.target == ExportTarget::smartknob)
-    {
-        if (! hasErrors (folder.messages)) tried.openDevices (graph, folder.messages);
-        return hasErrors (folder.messages) ? folder : knobFolder (graph, options, rolesOf (tried), std::move (folder));
-    }
     const auto plugins = pluginSources (tried.engine().plan(), folder.messages);
     if (options.target == ExportTarget::arduino && tried.engine().plan().roles().empty())
         folder.messages.push_back (Message::error ("export/role", "", "an Arduino library drives a device, but the graph has none", "write --to cpp"));
     tried.openDevices (graph, folder.messages);
     if (hasErrors (folder.messages)) return folder;
 
-    Run run { catalogue(), options.compile, repeatedDevices (tried), Run::Queries::within_tick, Run::Steps::one_each };
+    Run run { catalogue(), options.compile, repeatedDevices (tried) };
     (void)run.load (graph);   // as before, so it has the same messages
     Messages known;
     run.openDevices (graph, known);

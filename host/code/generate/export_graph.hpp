@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/code/generate/targets/smartknob.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/run.hpp>
 
@@ -20,8 +19,7 @@ enum class ExportTarget
     c_api,
     arduino,
     fmu,
-    wasm,
-    smartknob   ///< no code: a configuration
+    wasm
 };
 
 struct ExportOptions
@@ -31,7 +29,6 @@ struct ExportOptions
     CompileOptions compile;   ///< feeds become inputs, and records outputs
     ExportTarget target = ExportTarget::cpp;
     bool is_single = false;   ///< with float instead of double, and positions with more digits (kit/fine.hpp)
-    KnobOptions knob {};      ///< of the target smartknob
     Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
 };
 
@@ -39,12 +36,12 @@ struct ExportOptions
 struct ExportedFolder
 {
     std::vector<std::pair<std::string, std::string>> files;   ///< path and text; empty if there are errors
-    std::string stem, class_name;                             ///< the second is empty if there is no code
+    std::string stem, class_name;
     Messages messages;
 };
 
 /// Turns a graph into C++ code that computes the same bits, with a self-test. Its own ids: export/plugin (a node whose code is not part of
-/// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export), and those of fitKnob().
+/// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export).
 /// [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 

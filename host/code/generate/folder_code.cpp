@@ -52,7 +52,7 @@ std::string tables (const Exported& e)
             std::vector<std::string> names;
             for (const auto& to : c.to)
                 names.push_back ("`" + e.parameters[to.parameter].name + "`");
-            text += "| `" + c.enumerator + "` | " + numberText (c.value) + " | " + listed (names) + " |\n";
+            text += "| `" + c.enumerator + "` | " + numberText (c.value) + " | " + listText (names) + " |\n";
         }
         text += "\n";
     }
