@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # libtactus: framework, nodes, run and the C API as one shared library, made of the objects of the static ones.
 add_library (tactus_shared SHARED
-    $<TARGET_OBJECTS:tactus_framework> $<TARGET_OBJECTS:tactus_framework_cold> $<TARGET_OBJECTS:tactus_nodes> ${tactus_nodes_lane_objects}
+    $<TARGET_OBJECTS:tactus_framework> $<TARGET_OBJECTS:tactus_framework_cold> $<TARGET_OBJECTS:tactus_nodes>
     $<TARGET_OBJECTS:tactus_run> $<TARGET_OBJECTS:tactus_run_cold> $<TARGET_OBJECTS:tactus_c>)
 set_target_properties (tactus_shared PROPERTIES
     OUTPUT_NAME tactus EXPORT_NAME shared VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINKER_LANGUAGE CXX)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "curve.hpp"
-#include "lanes.hpp"
 #include "math/math.hpp"
 #include "vec3.hpp"
 
@@ -27,13 +26,11 @@ enum class BristleIntegrator
     euler
 };
 
-/// The bristle between a tool and its contact point: how it stretches, yields and slips when the tool moves. Time-free. Several bristles at
-/// once can only stick and slip.
+/// The bristle between a tool and its contact point: how it stretches, yields and slips when the tool moves. Time-free.
 ///
 /// All lengths are in m. The force is the stretch times a stiffness sigma. The caller sets sigma and handles its changes.
 /// The equations are those of Hayward, "Physically-Based Haptic Synthesis" (2007), section 2.
-template <typename V>
-struct BristleOf
+struct Bristle
 {
     using Adhesion = BristleAdhesion;
     using Integrator = BristleIntegrator;
@@ -41,58 +38,50 @@ struct BristleOf
     /// One step: the new stretch, the energy lost in the step divided by sigma (m²), and whether the contact point has moved.
     struct Step
     {
-        Vector<V> d;
-        V loss = 0.0;
-        MaskOf<V> slips {};
-
-        auto members() noexcept { return std::tie (d, loss, slips); }
-        auto members() const noexcept { return std::tie (d, loss, slips); }
+        Vec3 d;
+        double loss = 0.0;
+        bool slips = false;
     };
 
-    ChoiceOf<V, Adhesion> adhesion {};
-    ChoiceOf<V, Integrator> integrator {};
-    V d_max = 1e-4;                       ///< stretch while sliding; above 0
-    V d_stick = 1e-4;                     ///< stretch that function 1 holds before it slips; at least d_max
-    V d_ba = 0.7e-4;                      ///< stretch at which `dupont` begins to yield
-    OnlySingle<V, const Curve*> own {};   ///< zeta d_max over |d| / d_max, for `curve`
+    Adhesion adhesion {};
+    Integrator integrator {};
+    double d_max = 1e-4;          ///< stretch while sliding; above 0
+    double d_stick = 1e-4;        ///< stretch that function 1 holds before it slips; at least d_max
+    double d_ba = 0.7e-4;         ///< stretch at which `dupont` begins to yield
+    const Curve* own = nullptr;   ///< zeta d_max over |d| / d_max, for `curve`
 
     /// Fig. 2: how fast the bristle yields at a stretch of length r, in 1/m.
-    V zeta (V r) const noexcept;
+    double zeta (double r) const noexcept;
 
     /// Moves the tool by dp, in a straight line. If the lengths depend on the direction, they are those in the direction of d + dp, and
     /// `longer` is how many times as long they are as those in the direction of d.
-    Step stretch (const Vector<V>& d, const Vector<V>& dp, V longer = 1.0) const noexcept;
+    Step stretch (const Vec3& d, const Vec3& dp, double longer = 1.0) const noexcept;
 
     /// If d_max or d_stick has become too small for the stretch, shortens the stretch to the length at which the contact slides.
     /// Only the exponential form needs this: with eq. (3) and (4), the next call to `stretch` does it. Returns true if the stretch
     /// has changed.
-    MaskOf<V> letGo (Vector<V>& d) const noexcept;
+    bool letGo (Vec3& d) const noexcept;
 
 private:
     static constexpr double eps_slip = margin (1e-9);   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 
-    Step stick (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept;
-    Step euler (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept;
-    Step exponential (const Vector<V>& d, const Vector<V>& dp) const noexcept;
-    Step drag (V from, const Vector<V>& d, V r, V hold) const noexcept;
-    V afterSlip (V r) const noexcept;
+    Step stick (const Vec3& d, const Vec3& dp, double longer) const noexcept;
+    Step euler (const Vec3& d, const Vec3& dp, double longer) const noexcept;
+    Step exponential (const Vec3& d, const Vec3& dp) const noexcept;
+    Step drag (double from, const Vec3& d, double r, double hold) const noexcept;
+    double afterSlip (double r) const noexcept;
 };
-
-using Bristle = BristleOf<double>;
 
 //==============================================================================
 // Implementation below.
 
-template <typename V>
-inline auto BristleOf<V>::stretch (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
+inline auto Bristle::stretch (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
 {
-    if constexpr (is_single<V>)
-        if (adhesion != Adhesion::stick) return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp, longer);
-    return stick (d, dp, longer);
+    if (adhesion == Adhesion::stick) return stick (d, dp, longer);
+    return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp, longer);
 }
 
-template <typename V>
-inline V BristleOf<V>::zeta (V r) const noexcept
+inline double Bristle::zeta (double r) const noexcept
 {
     switch (adhesion)
     {
@@ -112,21 +101,17 @@ inline V BristleOf<V>::zeta (V r) const noexcept
     return 0.0;
 }
 
-/// Eq. (3).
-template <typename V>
-inline auto BristleOf<V>::stick (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
+/// Eq. (3): d = d~ min (1, d_max / |d~|), with d~ = d + dp. Slips only beyond d_stick.
+inline auto Bristle::stick (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
 {
-    const Vector<V> pulled = d + dp;
-    const V r = pulled.norm();
-    const auto slips = r > d_stick * (1.0 + eps_slip);
-    const Step stuck { .d = pulled };
-    if (none (slips)) return stuck;
-    return select (slips, drag (longer * d.norm(), pulled, r, d_stick), stuck);
+    const Vec3 pulled = d + dp;
+    const double r = pulled.norm();
+    if (r > d_stick * (1.0 + eps_slip)) return drag (longer * d.norm(), pulled, r, d_stick);
+    return { .d = pulled };
 }
 
-/// Eq. (4), clamped. For the loss, the bristle first stretches to d~ and then yields there.
-template <typename V>
-inline auto BristleOf<V>::euler (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
+/// Eq. (4): d = d~ - |dp| zeta (|d~|) d~, with |dp| zeta clamped at 1. For the loss, the bristle first stretches to d~ and then yields there.
+inline auto Bristle::euler (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
 {
     const Vec3 pulled = d + dp;
     const double r = pulled.norm(), z = zeta (r);
@@ -138,8 +123,7 @@ inline auto BristleOf<V>::euler (const Vector<V>& d, const Vector<V>& dp, V long
 
 /// Eq. (2), solved with zeta held over the step, x = zeta |dp|. The mean stretch over the step is phi d + psi dp; its product
 /// with dp is the work done in the step.
-template <typename V>
-inline auto BristleOf<V>::exponential (const Vector<V>& d, const Vector<V>& dp) const noexcept -> Step
+inline auto Bristle::exponential (const Vec3& d, const Vec3& dp) const noexcept -> Step
 {
     const double x = zeta ((d + dp).norm()) * dp.norm();
     if (! (x > 0.0)) return { .d = d + dp };
@@ -155,38 +139,30 @@ inline auto BristleOf<V>::exponential (const Vector<V>& d, const Vector<V>& dp) 
 /// stretch of `hold`, or up to `from` if that is longer because the bound has shrunk. At this stretch, the spring collapses for
 /// the first time. From then on, the contact slips against the mean of static and sliding friction; with stick-slip, this is one
 /// collapse after another.
-template <typename V>
-inline auto BristleOf<V>::drag (V from, const Vector<V>& d, V r, V hold) const noexcept -> Step
+inline auto Bristle::drag (double from, const Vec3& d, double r, double hold) const noexcept -> Step
 {
-    const V peak = clamped (from, hold, r), fallen = afterSlip (peak), after = afterSlip (r);
-    const V rest = (r - after) - (peak - fallen);
-    return { .d = d * (after / r), .loss = 0.5 * ((peak - fallen) * (peak + fallen) + (hold + d_max) * rest), .slips = ! MaskOf<V> {} };
+    const double peak = std::clamp (from, hold, r), fallen = afterSlip (peak), after = afterSlip (r);
+    const double rest = (r - after) - (peak - fallen);
+    return { .d = d * (after / r), .loss = 0.5 * ((peak - fallen) * (peak + fallen) + (hold + d_max) * rest), .slips = true };
 }
 
 /// The length to which a stretch slips back after a pull to r, beyond the bound. Function 1 with d_stick above d_max collapses
 /// to d_max each time the stretch reaches d_stick. A large step contains several collapses, and leaves the stretch that a slow
 /// hand would have built up since the last one.
-template <typename V>
-inline V BristleOf<V>::afterSlip (V r) const noexcept
+inline double Bristle::afterSlip (double r) const noexcept
 {
-    const V gap = d_stick - d_max;
-    const auto collapses = adhesion == Adhesion::stick && gap > d_max * eps_slip;
-    if (none (collapses)) return d_max;
-    return select (collapses, d_max + math::fmod (select (r > d_stick, r - d_stick, 0.0), gap), d_max);
+    const double gap = d_stick - d_max;
+    if (adhesion != Adhesion::stick || ! (gap > d_max * eps_slip)) return d_max;
+    return d_max + math::fmod (r > d_stick ? r - d_stick : 0.0, gap);
 }
 
-template <typename V>
-inline MaskOf<V> BristleOf<V>::letGo (Vector<V>& d) const noexcept
+inline bool Bristle::letGo (Vec3& d) const noexcept
 {
-    if constexpr (is_single<V>)
-    {
-        if (adhesion == Adhesion::stick || integrator == Integrator::euler) return false;
-        const double r = d.norm(), yield = zeta (r) * r;
-        if (! (yield > 1.0 + eps_slip)) return false;
-        d /= yield;
-        return true;
-    }
-    return {};
+    if (adhesion == Adhesion::stick || integrator == Integrator::euler) return false;
+    const double r = d.norm(), yield = zeta (r) * r;
+    if (! (yield > 1.0 + eps_slip)) return false;
+    d /= yield;
+    return true;
 }
 
 }   // namespace tactus

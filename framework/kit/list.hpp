@@ -14,16 +14,6 @@ namespace tactus
 /// The most entries an array port can have. Chain a second mixer to add more inputs.
 inline constexpr int list_capacity = 64;
 
-/// Reads a source: a double, or a pack (pack.hpp).
-template <typename V>
-V read (const double* source) noexcept
-{
-    if constexpr (std::same_as<V, double>)
-        return *source;
-    else
-        return V::load (source);
-}
-
 /// An array port among a node's Inputs: a view of what is wired to in[0], in[1], …
 /// It reads the sources in place and copies nothing. Its length is the node's setting `inputs`.
 template <typename T>
@@ -37,13 +27,10 @@ public:
 
     T operator[] (int i) const noexcept
     {
-        if constexpr (requires { typename T::Scalar; })
-        {
-            using V = typename T::Scalar;
-            return { read<V> (sources[3 * i]), read<V> (sources[3 * i + 1]), read<V> (sources[3 * i + 2]) };
-        }
+        if constexpr (std::same_as<T, double>)
+            return *sources[i];
         else
-            return read<T> (sources[i]);
+            return { *sources[3 * i], *sources[3 * i + 1], *sources[3 * i + 2] };
     }
 
 private:

@@ -3,7 +3,6 @@
 
 /// The catalogue: every node in nodes/, by id, type-erased. The build fills it (catalogue.cmake).
 
-#include "lane_form.hpp"
 #include "node.hpp"
 #include "setting.hpp"
 
@@ -69,7 +68,6 @@ struct NodeType
     std::function<std::string (const void* node, const DeviceLayout&)> missing;
     std::function<void (void* node, const DeviceMechanics&)> learn {};   ///< allocates nothing  [main or tick thread]
     std::function<Effort (const void* node)> effort;
-    NodeLanes lanes {};       ///< empty if the type cannot run in lanes
     bool stateless = false;   ///< its outputs depend on nothing but its inputs, params and settings
 
     /// True if a node of this type may adopt a node of another version of the same plugin.

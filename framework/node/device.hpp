@@ -146,10 +146,8 @@ struct DeviceState
     DeviceLayout layout {};
 };
 
-#ifndef TACTUS_ONLY_LANES   // code for one kind of processor must not run when a program starts
 /// The state that a device node is bound to before its role has one.
 inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };
-#endif
 
 /// A driver. On each tick the engine calls read, runs the graph, and calls write, in this order, on the tick thread. Neither
 /// may allocate, lock or wait.

@@ -7,6 +7,7 @@
 #include <tactus/tactus.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -51,6 +52,8 @@ int main (int argc, char** argv)
     using namespace tactus::host;
 
     giveUpBlockedOutputs();
+    if (std::getenv ("TACTUS_LANES") != nullptr)
+        std::fputs ("note: TACTUS_LANES has no effect: lanes are gone, and each node computes one instance at a time\n", stderr);
     const Command app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
     app.footer (examples);
     app.version (TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");

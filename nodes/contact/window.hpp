@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/lanes.hpp>
 #include <tactus/node/node.hpp>
+
+#include <algorithm>
 
 namespace tactus::nodes
 {
@@ -16,22 +17,21 @@ namespace tactus::nodes
 /// Beware: the gain times a force that depends on lateral position has no potential. A tool that goes in at one place and comes
 /// out at another can gain at most the work of the bare texture between the two places. A thin window keeps this small compared
 /// with the friction of any real contact.
-template <typename V>
-struct ContactWindowOf
+struct ContactWindow
 {
     struct Inputs
     {
-        V depth = 0.0;
+        double depth = 0.0;
     };
 
     struct Params
     {
-        V window = 5e-4;
+        double window = 5e-4;
     };
 
     struct Outputs
     {
-        V gain = 0.0;
+        double gain = 0.0;
     };
 
     static constexpr Info info {
@@ -54,13 +54,10 @@ struct ContactWindowOf
 
     Outputs tick (const Inputs& in) noexcept
     {
-        return { .gain = select (isFinite (in.depth), clamped<V> (in.depth / params.window, 0.0, 1.0), 0.0) };
+        return { .gain = isFinite (in.depth) ? std::clamp (in.depth / params.window, 0.0, 1.0) : 0.0 };
     }
 };
-
-using ContactWindow = ContactWindowOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::ContactWindow);
-TACTUS_LANES (tactus::nodes::ContactWindowOf);

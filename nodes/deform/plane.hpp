@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tactus/kit/free_impact.hpp>
-#include <tactus/kit/lanes.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/kit/signal/past_window.hpp>
 #include <tactus/node/node.hpp>
@@ -48,21 +47,20 @@ namespace tactus::nodes
 ///    ticks, and these grow with the tick rate. A `window` of 1 ms makes them as small at every rate as at 1 kHz. The damping then
 ///    acts half a window late, so use 0 if a contact is shorter than about ten windows.
 ///  - A wall that is moved by a wire or a knob does work, as a real moving wall does.
-template <typename V>
-struct PlaneOf
+struct Plane
 {
     struct Inputs
     {
-        PositionOf<V> position = PositionOf<V>::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params
     {
-        Vector<V> normal = Vector<V>::UnitZ();
-        V offset = 0.0;
-        V stiffness = 1000.0;
-        V damping = 0.0;
-        V dissipation = 0.0;
+        Vec3 normal = Vec3::UnitZ();
+        double offset = 0.0;
+        double stiffness = 1000.0;
+        double damping = 0.0;
+        double dissipation = 0.0;
     };
 
     struct Settings
@@ -73,13 +71,13 @@ struct PlaneOf
 
     struct Outputs
     {
-        Vector<V> force = Vector<V>::Zero();
-        V resistance = 0.0;
-        FineOf<V> depth = 0.0;
-        V hit = 0.0;
-        V stored_energy = 0.0;
-        V dissipated_energy = 0.0;
-        V state = 0.0;
+        Vec3 force = Vec3::Zero();
+        double resistance = 0.0;
+        Fine depth = 0.0;
+        double hit = 0.0;
+        double stored_energy = 0.0;
+        double dissipated_energy = 0.0;
+        double state = 0.0;
     };
 
     static constexpr Info info {
@@ -114,7 +112,7 @@ struct PlaneOf
     };
 
     Params params;
-    OnlySingle<V, Settings> settings;
+    Settings settings;
 
     void prepare (const Setup& setup)
     {
@@ -124,21 +122,17 @@ struct PlaneOf
 
     void update() noexcept
     {
-        n = directionOf (params.normal);
+        n = direction (params.normal);
     }
 
     void learn (const DeviceMechanics& device) noexcept { tool = { device.mass, device.damping }; }
 
-    void adopt (const PlaneOf& old) noexcept
+    void adopt (const Plane& old) noexcept
     {
         past.adopt (old.past);
         stored_before = old.stored_before;
         dissipated = old.dissipated;
     }
-
-    /// Several instances at once need the same stiffness at every depth, and a window of one tick.
-    bool fitsLanes() const noexcept { return ! settings.law && past.isOneTick(); }
-    auto state() noexcept { return std::tie (past, stored_before, dissipated); }
 
     std::string warning (const Setup&) const;
 
@@ -149,78 +143,59 @@ struct PlaneOf
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const FineOf<V> depth = params.offset - n.dot (in.position);
-        const V rate = rateAt (depth);
-        const auto inside = depth > 0.0, onset = inside && ! past.isEmpty() && past.last() <= 0.0;
+        const Fine depth = params.offset - n.dot (in.position);
+        const double rate = rateAt (depth);
+        const bool inside = depth > 0.0, onset = inside && ! past.isEmpty() && past.last() <= 0.0;
+        const double stored = inside ? energy (depth) : 0.0, N = inside ? push (std::max (0.0, law (depth)), rate) : 0.0;
+        const double total = dissipated + loss (depth, stored, rate);
 
-        V stored = 0.0, N = 0.0;
-        if (any (inside))
-        {
-            where (inside, stored) = energy (depth);
-            where (inside, N) = push (larger<V> (0.0, law (depth)), rate);
-        }
-        const V total = dissipated + loss (depth, stored, rate);
-
-        Outputs out {
+        const Outputs out {
             .force = N * n,
             .resistance = N,
             .depth = depth,
-            .hit = select (onset, rate, 0.0),
+            .hit = onset ? rate : 0.0,
             .stored_energy = stored,
-            .dissipated_energy = select (isFinite (total), total, dissipated),
-            .state = select (inside, 1.0, 0.0),
+            .dissipated_energy = isFinite (total) ? total : dissipated,
+            .state = inside ? 1.0 : 0.0,
         };
-        const auto is_fine = ! isZero (n) && isFinite (in.position, depth, rate, out.force, out.resistance, out.stored_energy);
-        where (! is_fine, out) = { .dissipated_energy = dissipated, .state = -1.0 };
-
-        past.remember (depth, is_fine);
-        where (is_fine, stored_before) = stored;
+        if (n.isZero (0.0) || ! isFinite (in.position, depth, rate, out.force, out.resistance, out.stored_energy))
+        {
+            past.clear();
+            return { .dissipated_energy = dissipated, .state = -1.0 };
+        }
+        past.remember (depth);
+        stored_before = stored;
         dissipated = out.dissipated_energy;
         return out;
     }
 
 private:
-    V law (V depth) const noexcept
-    {
-        if constexpr (is_single<V>)
-            if (settings.law) return settings.law (depth);
-        return params.stiffness * depth;
-    }
-
-    V energy (V depth) const noexcept
-    {
-        if constexpr (is_single<V>)
-            if (settings.law) return settings.law.energy (depth);
-        return 0.5 * params.stiffness * depth * depth;
-    }
+    double law (double depth) const noexcept { return settings.law ? settings.law (depth) : params.stiffness * depth; }
+    double energy (double depth) const noexcept { return settings.law ? settings.law.energy (depth) : 0.5 * params.stiffness * depth * depth; }
 
     /// The change of depth over the window, in m/s; 0 while the last step of the depth goes the other way.
-    V rateAt (V depth) const noexcept
+    double rateAt (double depth) const noexcept
     {
         const auto change = past.to (depth);
-        const auto turns = (depth - past.last()) * change.by < 0.0;
-        return select (change.time > 0.0 && ! turns, change.by / change.time, 0.0);
+        const bool turns = (depth - past.last()) * change.by < 0.0;
+        return change.time > 0.0 && ! turns ? change.by / change.time : 0.0;
     }
 
     /// The force N of a tool inside the wall: eq. (10), with `elastic` for K, plus viscous damping.
-    V push (V elastic, V rate) const noexcept
+    double push (double elastic, double rate) const noexcept
     {
-        return larger<V> (0.0, elastic * (1.0 + params.dissipation * rate) + params.damping * rate);
+        return std::max (0.0, elastic * (1.0 + params.dissipation * rate) + params.damping * rate);
     }
 
     /// The energy that the damping takes between the last sample and this one. While the tool leaves, this is at most what the spring
     /// gives, because the wall does not pull.
-    V loss (V depth, V stored, V rate) const noexcept
+    double loss (double depth, double stored, double rate) const noexcept
     {
-        const auto is_damped = ! past.isEmpty() && (params.dissipation != 0.0 || params.damping != 0.0);
-        if (none (is_damped)) return 0.0;
-        const V before = larger<V> (0.0, past.last()), now = larger<V> (0.0, depth);
-        V earlier = energy (before);   // a knob may have changed the stiffness since
-        if constexpr (is_single<V>)
-            if (settings.law) earlier = stored_before;
-        const V damped = rate * (params.dissipation * (stored - earlier) + params.damping * (now - before));
-        const V taken = select (rate < 0.0, smaller<V> (damped, earlier - stored), damped);
-        return select (is_damped, larger<V> (0.0, taken), 0.0);
+        if (past.isEmpty() || (params.dissipation == 0.0 && params.damping == 0.0)) return 0.0;
+        const double before = std::max (0.0, past.last()), now = std::max (0.0, depth);
+        const double earlier = settings.law ? stored_before : energy (before);   // a knob may have changed the stiffness since
+        const double damped = rate * (params.dissipation * (stored - earlier) + params.damping * (now - before));
+        return std::max (0.0, rate < 0.0 ? std::min (damped, earlier - stored) : damped);
     }
 
     double returned (double rate_hz, double phase) const;
@@ -233,22 +208,19 @@ private:
         double mass = 0.0, damping = 0.0;   // kg, N s/m; mass 0: unknown
     };
 
-    Vector<V> n = Vector<V>::UnitZ();
-    PastOf<V> past { Setup {}.dt_s() };   // depths, in m
-    V stored_before = 0.0;                // J, at the last sample
-    V dissipated = 0.0;                   // J
-    OnlySingle<V, Tool> tool;
+    Vec3 n = Vec3::UnitZ();
+    PastWindow<double> past { Setup {}.dt_s() };   // depths, in m
+    double stored_before = 0.0;                    // J, at the last sample
+    double dissipated = 0.0;                       // J
+    Tool tool;
 };
-
-using Plane = PlaneOf<double>;
 
 //==============================================================================
 // Implementation below.
 
 /// The fraction of its speed that the tool keeps after a hard hit, with the wall's force held between samples. `phase` is the time
 /// from the touch to the first sample inside, in samples.
-template <typename V>
-double PlaneOf<V>::returned (double rate_hz, double phase) const
+inline double Plane::returned (double rate_hz, double phase) const
 {
     constexpr int longest = 1000;   // in samples
     const double T = 1.0 / rate_hz, decay = tool.damping * T / tool.mass;
@@ -256,7 +228,7 @@ double PlaneOf<V>::returned (double rate_hz, double phase) const
     const double per_speed = decay > 0.0 ? per_force * tool.mass : T, rise = decay > 0.0 ? (T - per_speed) / tool.damping : 0.5 * T * T / tool.mass;
 
     double d = phase * hard_hit * T, v = hard_hit;
-    PlaneOf hit = *this;
+    Plane hit = *this;
     hit.past.prepare (settings.window, T);
     for (auto k = std::lround (settings.window / T) + 1; k > 0; --k)
         hit.past.remember (d - static_cast<double> (k) * hard_hit * T);
@@ -271,8 +243,7 @@ double PlaneOf<V>::returned (double rate_hz, double phase) const
 }
 
 /// Compares a sampled hard hit with the same hit on a continuous wall.
-template <typename V>
-std::string PlaneOf<V>::warning (const Setup& setup) const
+inline std::string Plane::warning (const Setup& setup) const
 {
     constexpr double tolerance = 0.2, many = 64.0;   // fraction of the impact speed; samples in a contact that is always accurate
     if (! (tool.mass > 0.0)) return {};
@@ -307,4 +278,3 @@ std::string PlaneOf<V>::warning (const Setup& setup) const
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::Plane);
-TACTUS_LANES (tactus::nodes::PlaneOf);

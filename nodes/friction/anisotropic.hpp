@@ -151,7 +151,7 @@ struct Anisotropic
     Outputs tick (const Inputs& in, const Params& stored) noexcept
     {
         const bool is_number = isFinite (in.position, in.normal, in.grain, in.normal_force), opens = is_number && in.normal_force <= 0.0;
-        const bool touches = is_number && ! opens && ! isZero (in.normal);
+        const bool touches = is_number && ! opens && ! in.normal.isZero (0.0);
         const double total = dissipated + contact.energy;
 
         Outputs out;
@@ -181,7 +181,7 @@ private:
         double operator() (const Vec3& d) const noexcept
         {
             const double length = d.norm(), side = reach[2];
-            const double x = d.dot (along), y = d.dot (across), line = isZero (along) ? side : reach[x < 0.0 ? 1 : 0];
+            const double x = d.dot (along), y = d.dot (across), line = along.isZero (0.0) ? side : reach[x < 0.0 ? 1 : 0];
             const bool is_long = line > side;
             const double ratio = is_long ? line / side : side / line, share = length > 0.0 ? (is_long ? y : x) / length : 0.0;
             return std::max (shortest, std::max (line, side) / std::sqrt (1.0 + (ratio * ratio - 1.0) * share * share));
@@ -193,7 +193,7 @@ private:
     {
         bool touching = false;
         Position p = Position::Zero();   // position of the tool
-        TangentPlaneOf<double> plane {};
+        TangentPlane plane {};
         Vec3 d = Vec3::Zero();   // stretch, in the plane's home
         double sigma = 0.0;      // N/m
         double energy = 0.0;     // in the stretch, in J

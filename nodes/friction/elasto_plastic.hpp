@@ -2,13 +2,11 @@
 #pragma once
 
 #include <tactus/kit/bristle.hpp>
-#include <tactus/kit/lanes.hpp>
 #include <tactus/kit/tangent_plane.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 
 namespace tactus::nodes
 {
@@ -102,8 +100,7 @@ namespace tactus::nodes
 ///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
 ///    while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
 ///  - With a table that never reaches 1, the bristle stretches beyond d_max; with one that ends in 0, without limit.
-template <typename V>
-struct ElastoPlasticOf
+struct ElastoPlastic
 {
     using Adhesion = BristleAdhesion;
     using Integrator = BristleIntegrator;
@@ -117,22 +114,22 @@ struct ElastoPlasticOf
 
     struct Inputs
     {
-        PositionOf<V> position = PositionOf<V>::Zero();
-        Vector<V> normal = Vector<V>::UnitZ();
-        V normal_force = 1.0;
+        Position position = Position::Zero();
+        Vec3 normal = Vec3::UnitZ();
+        double normal_force = 1.0;
     };
 
     struct Params
     {
-        V mu = 0.4;
-        V d_max = 1e-4;
-        V static_ratio = 1.0;
-        V break_away = 0.7;
-        V stiffness = 0.0;
-        ChoiceOf<V, Adhesion> adhesion = Adhesion::stick;
-        ChoiceOf<V, Integrator> integrator = Integrator::exponential;
-        ChoiceOf<V, Load> load = Load::bound;
-        V reference_load = 1.0;
+        double mu = 0.4;
+        double d_max = 1e-4;
+        double static_ratio = 1.0;
+        double break_away = 0.7;
+        double stiffness = 0.0;
+        Adhesion adhesion = Adhesion::stick;
+        Integrator integrator = Integrator::exponential;
+        Load load = Load::bound;
+        double reference_load = 1.0;
     };
 
     struct Settings
@@ -142,11 +139,11 @@ struct ElastoPlasticOf
 
     struct Outputs
     {
-        Vector<V> force = Vector<V>::Zero();
-        Vector<V> deflection = Vector<V>::Zero();
-        V stored_energy = 0.0;
-        V dissipated_energy = 0.0;
-        V state = 0.0;
+        Vec3 force = Vec3::Zero();
+        Vec3 deflection = Vec3::Zero();
+        double stored_energy = 0.0;
+        double dissipated_energy = 0.0;
+        double state = 0.0;
     };
 
     static constexpr Info info {
@@ -188,7 +185,7 @@ struct ElastoPlasticOf
     static constexpr Appearance appearance { .kind = Appearance::Kind::contact, .tool = "position", .normal = "normal", .stretch = "deflection" };
 
     Params params;
-    OnlySingle<V, Settings> settings;
+    Settings settings;
 
     std::string problem() const
     {
@@ -198,15 +195,11 @@ struct ElastoPlasticOf
         return {};
     }
 
-    void adopt (const ElastoPlasticOf& old) noexcept
+    void adopt (const ElastoPlastic& old) noexcept
     {
         contact = old.contact;
         dissipated = old.dissipated;
     }
-
-    /// Several contacts at once can only stick and slip.
-    bool fitsLanes() const noexcept { return params.adhesion == Adhesion::stick && (! contact.touching || contact.bristle.adhesion == Adhesion::stick); }
-    auto state() noexcept { return std::tuple_cat (contact.members(), std::tie (dissipated)); }
 
     /// Functions 2 to 4 are twice as stiff on a reversal. Unless `stiffness` is given, loads `scale` and `passive` make the contact
     /// stiffer with normal_force, without limit.
@@ -228,93 +221,71 @@ private:
     /// The state from one sample to the next. Only `touching` counts while the tool does not touch.
     struct Contact
     {
-        MaskOf<V> touching {};
-        PositionOf<V> p = PositionOf<V>::Zero();   // position of the tool
-        TangentPlaneOf<V> plane {};
-        Vector<V> d = Vector<V>::Zero();   // stretch, in the plane's home
-        V sigma = 0.0;
-        V energy = 0.0;   // in the stretch, in J
-        V d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
-        ChoiceOf<V, Load> load {};
-        BristleOf<V> bristle {};
+        bool touching = false;
+        Position p = Position::Zero();   // position of the tool
+        TangentPlane plane {};
+        Vec3 d = Vec3::Zero();   // stretch, in the plane's home
+        double sigma = 0.0;      // N/m
+        double energy = 0.0;     // in the stretch, in J
+        double d_max0 = 0.0;     // d_max in file and knobs at the touch, in m
+        Load load {};
+        Bristle bristle {};
 
-        V stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
-
-        auto members() noexcept { return membersOf (*this); }
-        auto members() const noexcept { return membersOf (*this); }
-
-        template <typename C>
-        static auto membersOf (C& c) noexcept
-        {
-            const auto bristle = [] (auto& b) { return std::tie (b.adhesion, b.integrator, b.d_max, b.d_stick, b.d_ba); };
-            return std::tuple_cat (std::tie (c.touching, c.p), c.plane.members(), std::tie (c.d, c.sigma, c.energy, c.d_max0, c.load),
-                                   bristle (c.bristle));
-        }
+        double stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
     };
 
-    V stiffnessAtTouch (const Params& stored) const noexcept;
-    Contact atRest (const PositionOf<V>&, const Params& stored) const noexcept;
-    void setBound (V normal_force) noexcept;
-    MaskOf<V> follow (Outputs&, MaskOf<V> touches, const Inputs&, const Params& stored) noexcept;
+    double stiffnessAtTouch (const Params& stored) const noexcept;
+    Contact atRest (const Position&, const Params& stored) const noexcept;
+    void setBound (double normal_force) noexcept;
+    bool follow (Outputs&, const Inputs&, const Params& stored) noexcept;
 
     Contact contact;
-    V dissipated = 0.0;   // J
+    double dissipated = 0.0;   // J
 };
-
-using ElastoPlastic = ElastoPlasticOf<double>;
 
 //==============================================================================
 // Implementation below.
 
-template <typename V>
-inline auto ElastoPlasticOf<V>::tick (const Inputs& in, const Params& stored) noexcept -> Outputs
+inline auto ElastoPlastic::tick (const Inputs& in, const Params& stored) noexcept -> Outputs
 {
-    const auto is_number = isFinite (in.position, in.normal, in.normal_force), opens = is_number && in.normal_force <= 0.0;
-    auto touches = is_number && in.normal_force > 0.0 && ! isZero (in.normal);
-    const auto touched = contact.touching;
-    const V total = dissipated + contact.energy;
+    const bool is_number = isFinite (in.position, in.normal, in.normal_force), opens = is_number && in.normal_force <= 0.0;
+    const bool touches = is_number && ! opens && ! in.normal.isZero (0.0);
+    const double total = dissipated + contact.energy;
 
     Outputs out;
-    if (any (touches)) touches = touches && follow (out, touches, in, stored);
-    if (! every (touches))
+    if (touches && follow (out, in, stored))
     {
-        where (touched && opens && isFinite (total), dissipated) = total;
-        where (! touches, out) = { .dissipated_energy = dissipated, .state = select (opens, 0.0, -1.0) };
+        contact.touching = true;
+        dissipated = out.dissipated_energy;
+        return out;
     }
-    contact.touching = touches;
-    dissipated = out.dissipated_energy;
-    return out;
+    if (contact.touching && opens && isFinite (total)) dissipated = total;
+    contact.touching = false;
+    return { .dissipated_energy = dissipated, .state = opens ? 0.0 : -1.0 };
 }
 
-/// The contact follows the tool where this touches. False if a result is not finite.
-template <typename V>
-inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, const Inputs& in, const Params& stored) noexcept
+/// The contact follows the tool. False if a result is not finite.
+inline bool ElastoPlastic::follow (Outputs& out, const Inputs& in, const Params& stored) noexcept
 {
     auto& c = contact;
-    const auto begins = touches && ! c.touching;
-    if (any (begins)) where (begins, c) = atRest (in.position, stored);
-    if (! every (touches))
-    {
-        where (! touches, c.p) = in.position;   // other lanes must not slip far, because long slips take time
-        where (! touches, c.d) = Vector<V>::Zero();
-    }
+    const bool begins = ! c.touching;
+    if (begins) c = atRest (in.position, stored);
     c.plane.turn (in.normal, begins);
 
     // Changes since the last sample take effect where the tool was, before it moves.
     const Contact before = c;
     setBound (in.normal_force);
-    const auto stiffens = c.sigma > before.sigma && (c.load == Load::passive || params.stiffness > 0.0);
-    if (any (stiffens)) where (stiffens, c.d) = c.d * (before.sigma / c.sigma);
-    MaskOf<V> slips {};
-    if (any (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick)) slips = c.bristle.letGo (c.d);
-    const V released = c.energy - c.stored();
+    if (c.sigma > before.sigma && (c.load == Load::passive || params.stiffness > 0.0)) c.d *= before.sigma / c.sigma;
+    bool slips = false;
+    if (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick) slips = c.bristle.letGo (c.d);
+    const double released = c.energy - c.stored();
 
-    const Vector<V> dp = c.plane.kept (in.position - c.p);
-    const auto step = c.bristle.stretch (c.d, dp);
+    const Vec3 dp = c.plane.kept (in.position - c.p);
+    const auto step = c.bristle.stretch (c.d, dp);   // eq. (3), (4)
     c.p = in.position;
     c.d = step.d;
 
-    const Vector<V> d = c.plane.shown (c.d);
+    const Vec3 d = c.plane.shown (c.d);
     c.plane.settle (c.d, d);
     c.energy = c.stored();
     out = {
@@ -322,21 +293,19 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, co
         .deflection = d,
         .stored_energy = c.energy,
         .dissipated_energy = dissipated + (released + c.sigma * step.loss),
-        .state = select (slips || step.slips, 2.0, 1.0),
+        .state = slips || step.slips ? 2.0 : 1.0,
     };
     return isFinite (c.sigma, c.bristle.d_max, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
 }
 
 /// The stiffness that a contact with load `bound` keeps until it opens.
-template <typename V>
-inline V ElastoPlasticOf<V>::stiffnessAtTouch (const Params& stored) const noexcept
+inline double ElastoPlastic::stiffnessAtTouch (const Params& stored) const noexcept
 {
-    return select (params.stiffness > 0.0, params.stiffness, stored.mu * params.reference_load / stored.d_max);
+    return params.stiffness > 0.0 ? params.stiffness : stored.mu * params.reference_load / stored.d_max;
 }
 
 /// A contact that begins. The tool has not pulled it yet.
-template <typename V>
-inline auto ElastoPlasticOf<V>::atRest (const PositionOf<V>& p, const Params& stored) const noexcept -> Contact
+inline auto ElastoPlastic::atRest (const Position& p, const Params& stored) const noexcept -> Contact
 {
     Contact c;
     c.p = p;
@@ -344,31 +313,29 @@ inline auto ElastoPlasticOf<V>::atRest (const PositionOf<V>& p, const Params& st
     c.bristle.adhesion = params.adhesion;
     c.bristle.integrator = params.integrator;
     c.d_max0 = stored.d_max;
-    c.sigma = select (c.load == Load::bound, stiffnessAtTouch (stored), 0.0);
+    c.sigma = c.load == Load::bound ? stiffnessAtTouch (stored) : 0.0;
     return c;
 }
 
 /// Sets the stiffness and the lengths of Fig. 2 for this load.
-template <typename V>
-inline void ElastoPlasticOf<V>::setBound (V normal_force) noexcept
+inline void ElastoPlastic::setBound (double normal_force) noexcept
 {
     auto& c = contact;
-    V d_max = params.d_max;
-    const auto is_bound = c.load == Load::bound;
-    if (any (is_bound))
+    double d_max = params.d_max;
+    if (c.load == Load::bound)
     {
-        const V slides = params.mu * normal_force / c.sigma * (params.d_max / c.d_max0);
-        where (is_bound, d_max) = select (c.sigma > 0.0, larger<V> (shortest, slides), shortest);
+        const double slides = params.mu * normal_force / c.sigma * (params.d_max / c.d_max0);
+        d_max = c.sigma > 0.0 ? std::max (shortest, slides) : shortest;
     }
-    if (! every (is_bound)) where (! is_bound, c.sigma) = select (params.stiffness > 0.0, params.stiffness, params.mu * normal_force / params.d_max);
+    else
+        c.sigma = params.stiffness > 0.0 ? params.stiffness : params.mu * normal_force / params.d_max;
 
     c.bristle.d_max = d_max;
     c.bristle.d_stick = params.static_ratio * d_max;
     c.bristle.d_ba = params.break_away * d_max;
-    if constexpr (is_single<V>) c.bristle.own = &settings.adhesion_curve;
+    c.bristle.own = &settings.adhesion_curve;
 }
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::ElastoPlastic);
-TACTUS_LANES (tactus::nodes::ElastoPlasticOf);

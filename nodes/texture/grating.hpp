@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/lanes.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
@@ -27,26 +26,25 @@ namespace tactus::nodes
 ///  - At speed v it sounds at k v Hz. Above the device's bandwidth it buzzes, and above half the sampling rate it aliases:
 ///    multiply by texture.antialias. Multiply by contact.window too, so that the force does not jump at a touch.
 ///  - Moving does no work over a closed path. Changing amplitude, frequency or angle in contact does work.
-template <typename V>
-struct GratingOf
+struct Grating
 {
     struct Inputs
     {
-        PositionOf<V> position = PositionOf<V>::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params
     {
-        V amplitude = 0.1;
-        V spatial_frequency = 200.0;
-        V angle = 0.0;
-        V phase = 0.0;
+        double amplitude = 0.1;
+        double spatial_frequency = 200.0;
+        double angle = 0.0;
+        double phase = 0.0;
     };
 
     struct Outputs
     {
-        Vector<V> force = Vector<V>::Zero();
-        V value = 0.0;
+        Vec3 force = Vec3::Zero();
+        double value = 0.0;
     };
 
     static constexpr Info info {
@@ -88,18 +86,16 @@ struct GratingOf
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const FineOf<V> s = along.dot (in.position);
-        const V value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
-        return select (isFinite (value, in.position.z()), Outputs { .force = value * along, .value = value }, Outputs {});
+        const Fine s = along.dot (in.position);
+        const double value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
+        if (! isFinite (value, in.position.z())) return {};
+        return { .force = value * along, .value = value };
     }
 
 private:
-    Vector<V> along = Vector<V>::UnitX();
+    Vec3 along = Vec3::UnitX();
 };
-
-using Grating = GratingOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::Grating);
-TACTUS_LANES (tactus::nodes::GratingOf);

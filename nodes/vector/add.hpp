@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/lanes.hpp>
 #include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// The sum of its vectors. An unwired input counts as 0.
-template <typename V>
-struct VectorAddOf
+struct VectorAdd
 {
-    using Inputs = In<InputList<Vector<V>>>;
+    using Inputs = In<InputList<Vec3>>;
     using Params = Empty;
     using Settings = InputCount;
-    using Outputs = Out<Vector<V>>;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.add",
@@ -35,21 +33,19 @@ struct VectorAddOf
 
     Outputs tick (const Inputs& in) const noexcept
     {
-        V x = 0.0, y = 0.0, z = 0.0;   // GCC keeps these in registers; a Vec3 would go through memory
+        double x = 0.0, y = 0.0, z = 0.0;   // GCC keeps these in registers; a Vec3 would go through memory
         for (int i = 0; i < in.in.size(); ++i)
         {
-            const Vector<V> v = in.in[i];
+            const Vec3 v = in.in[i];
             x += v.x();
             y += v.y();
             z += v.z();
         }
-        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
+        if (! isFinite (x, y, z)) return {};
+        return { .out = { x, y, z } };
     }
 };
-
-using VectorAdd = VectorAddOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::VectorAdd);
-TACTUS_LANES (tactus::nodes::VectorAddOf);

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/lanes.hpp>
 #include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// Scales a vector by a signal, units included: a normal times a resistance is a force.
-template <typename V>
-struct VectorScaleOf
+struct VectorScale
 {
     struct Inputs
     {
-        Vector<V> in = Vector<V>::Zero();
-        V gain = 1.0;
+        Vec3 in = Vec3::Zero();
+        double gain = 1.0;
     };
 
     using Params = Empty;
-    using Outputs = Out<Vector<V>>;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.scale",
@@ -38,14 +36,12 @@ struct VectorScaleOf
 
     Outputs tick (const Inputs& in) const noexcept
     {
-        const V x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
-        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
+        const double x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
+        if (! isFinite (x, y, z)) return {};
+        return { .out = { x, y, z } };
     }
 };
-
-using VectorScale = VectorScaleOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::VectorScale);
-TACTUS_LANES (tactus::nodes::VectorScaleOf);

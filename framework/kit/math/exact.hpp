@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lane.hpp"
 #include "log.hpp"
+#include "words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,9 @@ namespace tactus::math
 {
 
 /// The factor that scales numbers up to this size so that their squares neither overflow nor lose digits.
-template <typename T>
-T scaleForSquares (T largest) noexcept
+inline double scaleForSquares (double largest) noexcept
 {
-    return select (largest > 0x1p500, all<T> (0x1p-600), select (largest < 0x1p-450, all<T> (0x1p600), all<T> (1.0)));
+    return select (largest > 0x1p500, 0x1p-600, select (largest < 0x1p-450, 0x1p600, 1.0));
 }
 
 /// sqrt (x² + y²), also of the largest and smallest numbers; infinite if one is infinite. Error below 1.2 ulp.
@@ -33,9 +32,8 @@ inline double hypot (double x, double y, double z) noexcept
     return select ((a == infinity) | (b == infinity) | (c == infinity), infinity, std::sqrt ((u * u + v * v) + w * w) / scale);
 }
 
-/// The remainder for |x| >= |y|, or if one is not a number: a division of integers, 11 bits at a time. T as in reducedHuge().
-template <typename T>
-[[gnu::noinline]] double fmodDivided (double x, double y) noexcept
+/// The remainder for |x| >= |y|, or if one is not a number: a division of integers, 11 bits at a time.
+[[gnu::noinline]] inline double fmodDivided (double x, double y) noexcept
 {
     const double size = magnitude (x), by = magnitude (y);
     if (! (size < infinity) || ! (by > 0.0)) return not_a_number;
@@ -60,17 +58,7 @@ template <typename T>
 }
 
 /// The remainder of x / y towards zero, with the sign of x. It is exact.
-inline double fmod (double x, double y) noexcept { return magnitude (x) < magnitude (y) ? x : fmodDivided<double> (x, y); }
-
-template <typename T>
-T fmod (T x, T y) noexcept
-{
-    const auto is_divided = ! (magnitude (x) < magnitude (y));
-    if (any (is_divided))
-        for (std::size_t i = 0; i < lanes<T>; ++i)
-            if (isSet (is_divided, i)) setLane (x, i, fmodDivided<T> (laneOf (x, i), laneOf (y, i)));
-    return x;
-}
+inline double fmod (double x, double y) noexcept { return magnitude (x) < magnitude (y) ? x : fmodDivided (x, y); }
 
 /// x minus the multiple of y closest to x; if two are equally close, the even one. It is exact, and from -|y|/2 to |y|/2.
 inline double remainder (double x, double y) noexcept
@@ -82,7 +70,7 @@ inline double remainder (double x, double y) noexcept
     if (! (half (size) > 0.0)) return part;
     size -= by;
     if (half (size) >= 0.0) size -= by;
-    return fromWord<double> (wordOf (size) ^ (wordOf (x) & sign_bit));
+    return fromWord (wordOf (size) ^ (wordOf (x) & sign_bit));
 }
 
 }   // namespace tactus::math

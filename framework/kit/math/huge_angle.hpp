@@ -8,11 +8,11 @@
 namespace tactus::math
 {
 
-/// An angle as a number of quarter turns and a remainder of at most an eighth of a turn, value + rest, in rad.
-struct ScalarAngle
+/// An angle as a number of quarter turns and a remainder of at most an eighth of a turn, y + rest, in rad.
+struct ReducedAngle
 {
-    double value = 0.0, rest = 0.0;
-    std::uint64_t quarters = 0;
+    double y = 0.0, rest = 0.0;
+    std::uint64_t quarters = 0;   ///< only the two lowest bits count
 };
 
 /// The upper and lower half of a product.
@@ -46,11 +46,8 @@ inline std::uint64_t bitsOfTwoPerPi (int first) noexcept
 
 /// Reduces an angle of 2^15 rad or more with integers, so that no digit is lost (Payne & Hanek 1983). Not a number for infinity and NaN.
 ///
-/// T is the type of the angle that this is a part of: code for several lanes is compiled for another processor, and so has its own copy.
-///
 /// With x = m 2^e, those bits of 2/pi that add whole turns to the product are left out, and so are those below 2^-137 quarter turns.
-template <typename T>
-[[gnu::noinline]] ScalarAngle reducedHuge (double x) noexcept
+[[gnu::noinline]] inline ReducedAngle reducedHuge (double x) noexcept
 {
     if (! (x < infinity)) return { not_a_number, not_a_number, 0 };
     const auto word = wordOf (x);
@@ -78,7 +75,7 @@ template <typename T>
 
     // Times pi/2; the first product is exact, as its factors have 30 and 23 bits.
     constexpr double half_pi = 0x1.921fb40000000p+0, half_pi_rest = 0x1.4442d18469899p-24;
-    const double scale = powerOfTwo<double> (static_cast<std::uint64_t> (-zeros)) * (is_negative ? -0x1p-64 : 0x1p-64);
+    const double scale = powerOfTwo (static_cast<std::uint64_t> (-zeros)) * (is_negative ? -0x1p-64 : 0x1p-64);
     const double a = static_cast<double> (high >> 34) * 0x1p34 * scale;
     const double b = (static_cast<double> (high & 0x3ffffffff) + static_cast<double> (rest >> 11) * 0x1p-53) * scale;
     const auto sum = exactSum (a * half_pi, a * half_pi_rest + b * (half_pi + half_pi_rest));

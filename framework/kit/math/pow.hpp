@@ -4,24 +4,22 @@
 #include "log.hpp"
 
 #include <cmath>
-#include <type_traits>
 
 namespace tactus::math
 {
 
 /// x^y for positive finite x and finite y: exp (y ln x), where y ln x is a sum of two numbers.
-template <typename T>
-T powOfPositive (T x, T y) noexcept
+inline double powOfPositive (double x, double y) noexcept
 {
     const auto ln = preciseLog (x);
-    const T product = y * ln.value;
-    const T y_high = upperHalf (y), y_low = y - y_high, ln_high = upperHalf (ln.value), ln_low = ln.value - ln_high;
-    const T lost = (((y_high * ln_high - product) + y_high * ln_low) + y_low * ln_high) + y_low * ln_low;   // Dekker 1971
-    const auto is_usual = magnitude (product) < 1000.0;                                                     // beyond: infinity or 0
-    const T rest = select (is_usual, lost + y * ln.rest, all<T> (0.0));
+    const double product = y * ln.value;
+    const double y_high = upperHalf (y), y_low = y - y_high, ln_high = upperHalf (ln.value), ln_low = ln.value - ln_high;
+    const double lost = (((y_high * ln_high - product) + y_high * ln_low) + y_low * ln_high) + y_low * ln_low;   // Dekker 1971
+    const auto is_usual = magnitude (product) < 1000.0;                                                          // beyond: infinity or 0
+    const double rest = select (is_usual, lost + y * ln.rest, 0.0);
 
-    const HalvedRange<T> in { select (is_usual, product, select (product > 0.0, all<T> (1000.0), all<T> (-1000.0))) };
-    const auto r = exactSum<T> (in.r, in.rest + rest);
+    const HalvedRange in { select (is_usual, product, select (product > 0.0, 1000.0, -1000.0)) };
+    const auto r = exactSum (in.r, in.rest + rest);
     return scaled (1.0 + (r.value + (expBeyondLinear (r.value) + (r.rest + r.rest * r.value))), in.n);
 }
 
@@ -44,19 +42,10 @@ T powOfPositive (T x, T y) noexcept
 }
 
 /// x^y. Error below 1.2 ulp.
-template <typename T>
-T pow (T x, std::type_identity_t<T> y) noexcept
+inline double pow (double x, double y) noexcept
 {
-    const auto is_usual = (x > 0.0) & (x < infinity) & (magnitude (y) < infinity);
-    if constexpr (lanes<T> == 1)
-        return is_usual ? powOfPositive (x, y) : powOutside (x, y);
-    else
-    {
-        T result = powOfPositive (x, y);
-        for (std::size_t i = 0; i < lanes<T>; ++i)
-            if (! isSet (is_usual, i)) setLane (result, i, powOutside (laneOf (x, i), laneOf (y, i)));
-        return result;
-    }
+    const bool is_usual = (x > 0.0) & (x < infinity) & (magnitude (y) < infinity);
+    return is_usual ? powOfPositive (x, y) : powOutside (x, y);
 }
 
 }   // namespace tactus::math

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <tactus/kit/at.hpp>
-#include <tactus/kit/lanes.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 namespace tactus
@@ -76,26 +74,6 @@ public:
             remember (old.ago (i));
     }
 
-    /// True if the window is one tick long.
-    bool isOneTick() const noexcept { return capacity() == 1; }
-
-    /// The state of a window of one tick.
-    struct Tick
-    {
-        T newest;
-        bool known;
-        double dt;
-
-        auto members() noexcept { return std::tie (newest, known, dt); }
-    };
-    Tick tick() const noexcept { return { samples.front(), known > 0, dt }; }
-    void setTick (const Tick& t) noexcept
-    {
-        samples.front() = t.newest;
-        newest = 0;
-        known = t.known ? 1 : 0;
-    }
-
 private:
     int capacity() const noexcept { return static_cast<int> (samples.size()); }
 
@@ -109,39 +87,5 @@ private:
     int newest = 0, known = 0;
     double dt;   // s
 };
-
-/// The same for a window of one tick, without allocating. Also for several instances at once.
-template <typename V>
-class PastTick
-{
-public:
-    struct Change
-    {
-        V by, time;
-    };
-
-    explicit PastTick (double dt_s) : dt (dt_s) {}
-
-    Change to (V sample) const noexcept { return { select (known, sample - newest, 0.0), select (known, dt, 0.0) }; }
-    V last() const noexcept { return newest; }
-    MaskOf<V> isEmpty() const noexcept { return ! known; }
-
-    void remember (V sample, MaskOf<V> is_number) noexcept
-    {
-        newest = sample;
-        known = is_number;
-    }
-
-    auto members() noexcept { return std::tie (newest, known, dt); }
-
-private:
-    V newest {};
-    MaskOf<V> known {};
-    V dt;   // s
-};
-
-/// A window of any length for a single instance, and of one tick for several.
-template <typename V>
-using PastOf = std::conditional_t<is_single<V>, PastWindow<double>, PastTick<V>>;
 
 }   // namespace tactus

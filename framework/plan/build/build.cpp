@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
 #include "build_parts.hpp"
-#include "lane_wiring.hpp"
 #include "rate_conversions.hpp"
-#include "read_nodes.hpp"
 #include "slots.hpp"
 #include "storage.hpp"
 #include "taps.hpp"
@@ -24,11 +22,28 @@
 namespace tactus::plan
 {
 
+namespace
+{
+/// By node: whether a wire or a record reads any of its outputs. Always true in a section with its own rate: there, outputs may
+/// keep their values until the section runs again, and a later plan may read them.
+std::vector<bool> readNodes (const Flat& flat, const Outside& outside)
+{
+    std::vector<bool> all (flat.nodes.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = flat.nodes[i].section != 0;
+    for (const auto& w : flat.wires)
+        if (w.from) all[at (w.from->node)] = true;
+    for (const auto& read : outside.records)
+        if (read.port && read.port->role == Role::output) all[at (read.port->node)] = true;
+    return all;
+}
+}   // namespace
+
 class PlanBuilder
 {
 public:
-    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, const LaneGroups& l, Outside out, const Setup& s, const CompileOptions& options)
-        : flat (f), units (u), order (o), lanes (l), outside (std::move (out)), setup (s), kept (options.kept), settles (options.settles),
+    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, Outside out, const Setup& s, const CompileOptions& options)
+        : flat (f), units (u), order (o), outside (std::move (out)), setup (s), kept (options.kept), settles (options.settles),
           before (partsOf (options.before)), diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order),
           steps (f.sections.size())
     {
@@ -45,7 +60,7 @@ public:
         makeNodes();
         connectDrivers();
         is_read = readNodes (flat, outside);
-        is_settled = settles ? settledNodes (flat, outside, lanes) : std::vector<bool> (flat.nodes.size());
+        is_settled = settles ? settledNodes (flat, outside) : std::vector<bool> (flat.nodes.size());
         auto all = recordsOf (0);
         parts.records = std::move (all.records);
         parts.owners = std::move (all.owners);
@@ -70,7 +85,6 @@ private:
     Flat& flat;
     const PortUnits& units;
     const Order& order;
-    const LaneGroups& lanes;
     Outside outside;
     const Setup& setup;
     const std::vector<std::string>& kept;
@@ -100,7 +114,7 @@ private:
     void layOut()
     {
         std::size_t size = 0;
-        const auto output_at = outputOffsets (flat, lanes, in_order, size);
+        const auto output_at = outputOffsets (flat, in_order, size);
         storage = std::make_shared<Storage> (size);
         makeRoomForInputs();
         parts.instances.resize (flat.nodes.size());
@@ -109,7 +123,6 @@ private:
             auto& instance = parts.instances[at (i)];
             instance.outputs = storage->outputs.bytes + output_at[at (i)];
             instance.sources = sourcesOf (i);
-            if (const auto* group = lanes.find (i)) instance.stride = static_cast<std::uint32_t> (group->form->width);
         }
         layOutSections();
     }
@@ -144,12 +157,7 @@ private:
             else if (const auto& node = flat.node (step.node); ! node.muted)
             {
                 connectInputs (step.node);
-                if (const auto* group = lanes.find (step.node))
-                {
-                    if (step.node == group->nodes.back()) addLanes (*group);
-                }
-                else
-                    node.bypass ? addBypass (step.node) : addNode (step.node);
+                node.bypass ? addBypass (step.node) : addNode (step.node);
             }
         if (peeks.records.empty() && writes.records.empty()) return std::move (body);
         peeks.append (body);
@@ -180,7 +188,6 @@ private:
         for (int i = 0; i < flat.nodeCount(); ++i)
             begin (i);
         std::ranges::sort (parts.roles, {}, &RoleUse::name);
-        makeLaneGroups (lanes, flat, before, parts);
         parts.ramps.prepare (parts.instances, std::make_shared<KnobIndex> (parts.instances), setup.rate_hz);
     }
 
@@ -211,7 +218,7 @@ private:
             std::memset (outputsOf (i), 0, n.type->outputs_size);
             return;
         }
-        parts.instances[at (i)].initialiseOutputs (*n.type);
+        n.type->initialiseOutputs (outputsOf (i));
         if ((n.type->bind || n.type->learn) && n.runs()) parts.bound.push_back (static_cast<std::uint32_t> (i));
         if (n.type->bind && n.runs()) use (i, is_shared);
         if (! is_shared) prepare (i);
@@ -236,9 +243,7 @@ private:
     {
         const auto* old = diff.heldFrom (at (i));
         if (old == nullptr) return;
-        const auto size = flat.node (i).type->outputs_size, step = old->stride == 1 ? size : sizeof (double);
-        for (std::size_t offset = 0; offset < size; offset += step)
-            parts.takeover.held.push_back ({ parts.instances[at (i)].output (offset), old->output (offset), step });
+        parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
     }
 
     /// Keeps the previous values of the sums and strikes at the inputs of a node until the node runs; meanwhile, only a tap can
@@ -409,16 +414,6 @@ private:
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 
-    /// The inputs of all nodes of the group must be connected. The owner of the record is the first node.
-    void addLanes (const LaneGroups::Group& group)
-    {
-        const int first = group.nodes.front();
-        auto& step = storage->lanes.emplace_back();
-        step.group = parts.instances[at (first)].lanes;
-        connect (step, group, flat, slots, *storage, outputsOf (first));
-        stepsOf (first).body.add ({ &LaneStep::step, &step, sourcesOf (first), outputsOf (first) }, first);
-    }
-
     std::vector<DrivenNode::Drive> drivesOf (int i)
     {
         const auto& n = flat.node (i);
@@ -457,10 +452,10 @@ private:
     }
 };
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const LaneGroups& lanes, Outside outside, const Setup& setup,
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup,
                              const CompileOptions& options)
 {
-    return PlanBuilder { flat, units, order, lanes, std::move (outside), setup, options }.run();
+    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run();
 }
 
 }   // namespace tactus::plan

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lane_groups.hpp"
+#include "outside.hpp"
 #include <tactus/plan/plan.hpp>
 #include <tactus/plan/rules/unit_check.hpp>
 
@@ -20,6 +20,6 @@ namespace tactus::plan
 
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
 /// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, const LaneGroups&, Outside, const Setup&, const CompileOptions&);
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&);
 
 }   // namespace tactus::plan

@@ -23,32 +23,13 @@ std::vector<int> inOrder (const Flat& flat, const Order& order)
     return all;
 }
 
-namespace
-{
-/// The lanes of a pack lie side by side. Returns the end.
-std::size_t layOutLanes (const LaneGroups::Group& group, std::size_t begin, std::vector<std::size_t>& offsets)
-{
-    constexpr std::size_t alignment = 64;
-    const auto width = group.form->width, packs = (group.nodes.size() + width - 1) / width;
-    begin = (begin + alignment - 1) / alignment * alignment;
-    for (std::size_t k = 0; k < group.nodes.size(); ++k)
-        offsets[at (group.nodes[k])] = begin + k / width * group.form->outputs_size + k % width * sizeof (double);
-    return begin + packs * group.form->outputs_size;
-}
-}   // namespace
-
-std::vector<std::size_t> outputOffsets (const Flat& flat, const LaneGroups& lanes, const std::vector<int>& running, std::size_t& size)
+std::vector<std::size_t> outputOffsets (const Flat& flat, const std::vector<int>& running, std::size_t& size)
 {
     std::vector<std::size_t> offsets (flat.nodes.size());
     size = 0;
     for (const int i : running)
     {
         const auto& type = *flat.node (i).type;
-        if (const auto* group = lanes.find (i))
-        {
-            if (i == group->nodes.front()) size = layOutLanes (*group, size, offsets);
-            continue;
-        }
         size = (size + type.outputs_align - 1) / type.outputs_align * type.outputs_align;
         offsets[at (i)] = size;
         size += type.outputs_size;

@@ -3,7 +3,6 @@
 
 /// The parts of a plan under construction.
 
-#include "lane_groups.hpp"
 #include <tactus/plan/plan.hpp>
 #include <tactus/plan/steps/ops.hpp>
 #include <tactus/plan/swap/owned_records.hpp>
@@ -40,7 +39,7 @@ std::vector<int> inOrder (const Flat&, const Order&);
 
 /// Reserves room for the outputs of all nodes, side by side in this order. Returns the offset of each node's outputs; `size` is the
 /// size of all of them.
-std::vector<std::size_t> outputOffsets (const Flat&, const LaneGroups&, const std::vector<int>& running, std::size_t& size);
+std::vector<std::size_t> outputOffsets (const Flat&, const std::vector<int>& running, std::size_t& size);
 
 /// Keeps the flat graph for the next plan, without the parts that only messages need. Leaves its messages.
 void keepFlat (Flat&, PlanParts&);

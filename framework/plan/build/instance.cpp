@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "instance.hpp"
-#include <tactus/plan/steps/lane_group.hpp>
 
 #include <cstring>
 
@@ -64,21 +63,6 @@ void Instance::write (std::size_t knob, double value) const noexcept
         const int chosen = static_cast<int> (value);
         std::memcpy (place, &chosen, sizeof chosen);
     }
-}
-
-void Instance::initialiseOutputs (const NodeType& type) const
-{
-    if (stride == 1) return type.initialiseOutputs (outputs);
-    std::vector<double> single (type.outputs_size / sizeof (double));
-    type.initialiseOutputs (single.data());
-    for (std::size_t i = 0; i < single.size(); ++i)
-        *output (i * sizeof (double)) = single[i];
-}
-
-void Instance::update (const NodeType& type) const noexcept
-{
-    if (type.update) type.update (node.get());
-    if (lanes) lanes->refresh (lane);
 }
 
 std::uint64_t newSerial() noexcept

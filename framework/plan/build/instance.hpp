@@ -13,8 +13,6 @@
 namespace tactus::plan
 {
 
-class LaneGroup;
-
 /// A node in a plan; its entry in the flat graph has the same number.
 struct Instance
 {
@@ -26,17 +24,9 @@ struct Instance
     int delay = 1;                            ///< ticks from input to output, if the node peeks
     void* outputs = nullptr;                  ///< in the plan's storage, as the node's type lays them out
     const double* const* sources = nullptr;   ///< by input component, in the plan's storage
-    LaneGroup* lanes = nullptr;               ///< what runs the node together with others; null if it runs on its own
-    std::uint32_t lane = 0;                   ///< number of the node in its group
-    std::uint32_t stride = 1;                 ///< from one double of the outputs to the next; the lanes of a pack lie side by side
 
     /// The double of the outputs at this offset in bytes, as PortSheet::offset counts.
-    double* output (std::size_t offset) const noexcept { return reinterpret_cast<double*> (static_cast<std::byte*> (outputs) + offset * stride); }
-
-    void initialiseOutputs (const NodeType&) const;   // [main thread]
-
-    /// Call it when params have changed. [tick thread]
-    void update (const NodeType&) const noexcept;
+    double* output (std::size_t offset) const noexcept { return reinterpret_cast<double*> (static_cast<std::byte*> (outputs) + offset); }
 
     /// Address of a parameter in the node. Not for a choice, which is an int.
     double* param (std::size_t knob) const noexcept;

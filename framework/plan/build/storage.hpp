@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/plan/steps/lane_group.hpp>
 #include <tactus/plan/steps/ops.hpp>
 #include <tactus/plan/steps/running_section.hpp>
 
@@ -44,7 +43,6 @@ struct Storage
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
-    std::deque<LaneStep> lanes;
     std::vector<RunningSection> sections;   // by number in Flat::sections; entry 0, the graph itself, stays unused
     std::deque<std::vector<double>> samples;
 };

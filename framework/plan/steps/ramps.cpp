@@ -106,7 +106,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
         has_written = true;
         if (instance.isDriven (k)) return;
         instance.write (k, to);
-        instance.update (knobs.type);
+        if (knobs.type.update) knobs.type.update (instance.node.get());
         return;
     }
     knob.left = ticks;
@@ -133,7 +133,7 @@ void Ramps::move() noexcept
             instance.write (k, knob.value);
             moved = true;
         }
-        if (moved) instance.update (knobs.type);
+        if (moved && knobs.type.update) knobs.type.update (instance.node.get());
         if (more)
             ++m;
         else

@@ -17,11 +17,11 @@ bool mayBeSettled (const FlatNode& n)
 }
 }   // namespace
 
-std::vector<bool> settledNodes (const Flat& flat, const Outside& outside, const LaneGroups& lanes)
+std::vector<bool> settledNodes (const Flat& flat, const Outside& outside)
 {
     std::vector<bool> settled (flat.nodes.size());
     for (int i = 0; i < flat.nodeCount(); ++i)
-        settled[at (i)] = mayBeSettled (flat.node (i)) && lanes.find (i) == nullptr;
+        settled[at (i)] = mayBeSettled (flat.node (i));
     if (std::ranges::none_of (settled, [] (bool s) { return s; })) return settled;
 
     for (const auto& ports : outside.feeds)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/plan/build/lane_groups.hpp>
 #include <tactus/plan/build/outside.hpp>
 
 #include <vector>
@@ -14,6 +13,6 @@ namespace tactus::plan
 /// written; see Plan::tick.
 ///
 /// In a section with its own rate no node is settled, because there outputs must change only when the section runs.
-std::vector<bool> settledNodes (const Flat&, const Outside&, const LaneGroups&);
+std::vector<bool> settledNodes (const Flat&, const Outside&);
 
 }   // namespace tactus::plan

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "takeover.hpp"
-#include <tactus/plan/steps/lane_group.hpp>
 
 #include <cstring>
 
@@ -15,8 +14,6 @@ void Takeover::carryOut (const std::vector<Instance>& instances, Ramps& ramps, c
         converter->adopt (*old);
     for (const auto& [to, from, bytes] : held)
         std::memcpy (to, from, bytes);
-    for (auto* group : ended)
-        group->unload();
 
     for (const auto& [i, adopt, old] : successors)
     {
@@ -29,8 +26,6 @@ void Takeover::carryOut (const std::vector<Instance>& instances, Ramps& ramps, c
         }
         if (adopt) adopt (instance.node.get(), old);
     }
-    for (auto* group : begun)
-        group->load();
 
     ramps.goOn (before);
     for (const auto& [i, old] : rebuilt)

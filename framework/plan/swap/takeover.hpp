@@ -74,7 +74,6 @@ struct Takeover
     std::vector<Relay> relays;
     std::vector<Conversion> conversions;
     std::vector<HeldValue> held;
-    std::vector<LaneGroup*> ended, begun;   ///< groups of lanes that only the previous plan has, or only this one
 
     void carryOut (const std::vector<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "node_costs.hpp"
 
-#include <tactus/plan/steps/lane_group.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -20,28 +19,6 @@ const plan::Section* sectionAround (const plan::Flat& flat, const plan::FlatNode
     while (section > 0 && flat.section (section).around > 0)
         section = flat.section (section).around;
     return section > 0 ? &flat.sections[static_cast<std::size_t> (section)] : nullptr;
-}
-
-/// The node that owns the records in which a node runs, and the node's share of them. Nodes that run as lanes have one record in common,
-/// which belongs to the first.
-struct Share
-{
-    std::size_t owner;
-    double part;
-};
-
-std::vector<Share> sharesOf (const Plan& plan)
-{
-    std::map<const plan::LaneGroup*, std::size_t> first;
-    for (const auto owner : plan.owners())
-        if (const auto* lanes = plan.instances()[owner].lanes; lanes != nullptr && plan.instances()[owner].lane == 0) first.emplace (lanes, owner);
-    std::vector<Share> shares;
-    for (std::size_t i = 0; i < plan.instances().size(); ++i)
-    {
-        const auto* lanes = plan.instances()[i].lanes;
-        shares.push_back (lanes == nullptr ? Share { i, 1.0 } : Share { first.at (lanes), 1.0 / static_cast<double> (lanes->nodes().size()) });
-    }
-    return shares;
 }
 }   // namespace
 
@@ -136,25 +113,15 @@ std::vector<NodeCost> NodeCosts::of (const Plan& plan)
 
     std::vector<NodeCost> costs;
     std::map<std::uint64_t, Mean> still_there;
-    const auto shares = sharesOf (plan);
     double all = 0.0;
     for (std::size_t i = 0; i < records.size(); ++i)
     {
-        const auto [owner, share] = shares[i];
-        double cost_s = 0.0;
-        bool is_known = false;
-        const auto add = [&] (std::size_t node, double part_of_it) {
-            const auto mean = means.find (plan.instances()[node].serial);
-            if (mean == means.end()) return;
-            still_there.insert (*mean);
-            if (records[node] == 0) return;   // the node is muted
-            // Each sample times one of the node's records, and all its records are timed equally often.
-            cost_s += mean->second.value * records[node] * part_of_it;
-            is_known = true;
-        };
-        add (owner, share);
-        if (owner != i) add (i, 1.0);   // the sums and hits of a node that runs as a lane
-        if (! is_known) continue;
+        const auto mean = means.find (plan.instances()[i].serial);
+        if (mean == means.end()) continue;
+        still_there.insert (*mean);
+        if (records[i] == 0) continue;   // the node is muted
+        // Each sample times one of the node's records, and all its records are timed equally often.
+        const double cost_s = mean->second.value * records[i];
         const auto* section = sectionAround (plan.flat(), plan.flat().nodes[i]);
         costs.push_back ({ section ? section->path : plan.flat().nodes[i].path, section ? "subgraph" : std::string (plan.flat().nodes[i].type->info.id),
                            cost_s, 0.0 });

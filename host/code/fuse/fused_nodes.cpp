@@ -10,7 +10,7 @@ FusedNodes::FusedNodes (const Plan& plan, FusedCode::Classes classes, bool (*has
     {
         const auto& type = *plan.flat().nodes[i].type;
         const auto& instance = plan.instances()[i];
-        if (! instance.node || ! plan.flat().nodes[i].runs() || type.owner || ! type.origin.empty() || instance.lanes != nullptr) continue;
+        if (! instance.node || ! plan.flat().nodes[i].runs() || type.owner || ! type.origin.empty()) continue;
         if (type.peek && type.inputs.empty()) continue;   // if a wire is at fault, the plan resets the outputs of such a node where they are
         const auto [entry, is_new] = classes.try_emplace (std::string (type.info.id));
         if (is_new) entry->second = classOf (type.info.id);

@@ -14,9 +14,6 @@ FusedValues::FusedValues (const Plan& p) : plan (p), addresses (p)
     {
         const auto& instance = plan.instances()[i];
         if (instance.node) by_node.emplace (instance.node.get(), i);
-        if (instance.lanes == nullptr) continue;
-        for (std::size_t offset = 0; offset < plan.flat().nodes[i].type->outputs_size; offset += sizeof (double))
-            changing.insert (instance.output (offset));
     }
     findChanging (plan.records());
     findChanging (plan.settled());
@@ -113,17 +110,12 @@ void FusedValues::need (const Record& r)
             for (int k = 0; k < flat.slots (row); ++k, ++slot)
                 if (! flat.muted) need (r.sources[slot]);
     }
-    const auto lanes = [this] (const plan::LaneStep& step) {
-        for (const auto* sources : step.wiring.sources)
-            for (std::size_t i = 0; i < step.wiring.inputs; ++i)
-                need (sources[i]);
-    };
     const auto driven = [this] (const plan::DrivenNode& node) {
         for (const auto& drive : node.drives)
             for (const auto* from : { drive.replace, drive.add })
                 if (from != nullptr) need (from);
     };
-    visitRecord (r, Cases { [] (const auto&) {}, lanes, driven });
+    visitRecord (r, Cases { [] (const auto&) {}, driven });
 }
 
 bool FusedValues::settled()

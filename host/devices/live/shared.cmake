@@ -2,7 +2,7 @@
 # libtactus_live: all of libtactus, and live sessions on real devices (tactus_live.h). It needs hidapi.
 set (parts tactus_nodes tactus_c tactus_no_bitcode tactus_live)   # what nothing refers to; the rest comes from the static libraries
 list (TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
-add_library (tactus_live_shared SHARED ${parts} ${tactus_nodes_lane_objects})
+add_library (tactus_live_shared SHARED ${parts})
 set_target_properties (tactus_live_shared PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}   # next to the programs, as they find the same files
     OUTPUT_NAME tactus_live EXPORT_NAME live VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINKER_LANGUAGE CXX)

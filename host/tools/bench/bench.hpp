@@ -124,7 +124,6 @@ std::vector<Contest> lightContests();
 std::vector<Contest> dryWoodContests();
 std::vector<Contest> juceContests();
 std::vector<Contest> faustContests();
-std::vector<Contest> contactContests();
 
 /// All of these. Contests of plans follow once more with the plan fused (docs/fusion.md), compiled without optimisation if `quick`. Without a
 /// compiler, these are missing, and the reason is printed to stderr.

@@ -95,7 +95,7 @@ Contest fused (Contest contest, const std::string& key, bool quick)
 std::vector<Contest> contests (bool quick)
 {
     std::vector<Contest> all;
-    for (const auto& some : { handContests, lightContests, dryWoodContests, juceContests, faustContests, contactContests })
+    for (const auto& some : { handContests, lightContests, dryWoodContests, juceContests, faustContests })
         std::ranges::move (some(), std::back_inserter (all));
     const auto planned = all.size();
     try

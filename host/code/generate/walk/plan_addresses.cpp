@@ -17,7 +17,7 @@ PlanAddresses::PlanAddresses (const Plan& p) : plan (p)
     {
         const auto& type = *plan.flat().nodes[i].type;
         const auto& instance = plan.instances()[i];
-        if (instance.lanes == nullptr && type.outputs_size > 0) outputs.emplace (bytes (instance.outputs), i);
+        if (type.outputs_size > 0) outputs.emplace (bytes (instance.outputs), i);
         if (instance.node && type.params_size > 0) params.emplace (bytes (type.paramsOf (instance.node.get())), i);
     }
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tactus/plan/plan.hpp>
-#include <tactus/plan/steps/lane_group.hpp>
 #include <tactus/plan/steps/ops.hpp>
 #include <tactus/plan/steps/running_section.hpp>
 
@@ -31,8 +30,8 @@ struct Cases : F...
 template <typename... F>
 Cases (F...) -> Cases<F...>;
 
-/// Calls `cases` with what a record does: each plan::Sum, or a plan::Strike, DelayRead, DelayWrite, SectionStep, plan::DrivenNode, plan::Bypass
-/// or plan::LaneStep. Calls it with the record if this is a node or unknown.
+/// Calls `cases` with what a record does: each plan::Sum, or a plan::Strike, DelayRead, DelayWrite, SectionStep, plan::DrivenNode or
+/// plan::Bypass. Calls it with the record if this is a node or unknown.
 template <typename C>
 void visitRecord (const Record& r, C&& cases)
 {
@@ -56,8 +55,6 @@ void visitRecord (const Record& r, C&& cases)
         cases (*static_cast<const plan::DrivenNode*> (r.self));
     else if (r.step == &plan::Bypass::step)
         cases (*static_cast<const plan::Bypass*> (r.self));
-    else if (r.step == &plan::LaneStep::step)
-        cases (*static_cast<const plan::LaneStep*> (r.self));
     else
         cases (r);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/cli/program.hpp"
 
-#include <tactus/node/lane_form.hpp>
 #include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
@@ -26,7 +25,6 @@ TEST_CASE ("bench confirms that all variants agree, and reports every ratio", "[
     std::vector keys { "plan/hand", "light_plan/hand", "dry_wood_plan/hand", "export/hand", "export/faust_chain100", "juce/plan", "juce_tree100/plan",
                        "plan/faust_chain100", "juce_rebuild1000/compile1000", "compile10000/compile1000", "fused/hand", "juce/fused",
                        "juce_tree100/fused", "takeover10000/tick", "knob10000/tick" };
-    if (widestLanes() >= 4) keys.push_back ("simd64/scalar64");
     for (const auto* key : keys)
     {
         INFO (key);
