@@ -88,6 +88,7 @@ tactus_graph* tactus_graph_parse (const char* json, size_t length, const char* f
 tactus_result tactus_graph_set_file (tactus_graph* g, const char* path, const tactus_graph* file, tactus_messages* messages)
 {
     if (g == nullptr || path == nullptr || file == nullptr) return misuse ("a graph or the path is NULL");
+    if (g->history.isInBatch()) return misuse ("the graph is in a batch");
     return guarded (messages, TACTUS_FAILED, [&] {
         auto with = g->history.graph();
         with.files.insert_or_assign (path, std::make_shared<const graph::Graph> (file->history.graph()));
@@ -182,6 +183,19 @@ tactus_result tactus_graph_set_control (tactus_graph* g, const char* id, double 
         to.value = value;
         return graph::Command (graph::ChangeControl { text (id), std::move (to) });
     });
+}
+
+tactus_result tactus_graph_perform_all (tactus_graph* g, const char* name, tactus_graph_edits edits, void* user, tactus_messages* messages)
+{
+    if (g == nullptr || edits == nullptr) return misuse ("the graph or the function is NULL");
+    if (g->history.isInBatch()) return misuse ("the graph is in a batch already");
+    const auto result = guarded (messages, TACTUS_FAILED, [&] {
+        g->history.begin (text (name));
+        const auto done = edits (g, user);
+        return done == TACTUS_OK ? asResult (messages, g->history.finish()) : done;
+    });
+    if (g->history.isInBatch()) g->history.abandon();
+    return result;
 }
 
 size_t tactus_graph_control_count (const tactus_graph* g) { return g != nullptr ? g->history.graph().controls.size() : 0; }

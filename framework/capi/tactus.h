@@ -157,6 +157,14 @@ TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* pa
 TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
 /** Where a control of the graph stands, from 0 to 1. [main thread] */
 TACTUS_API tactus_result tactus_graph_set_control (tactus_graph*, const char* control, double value, tactus_messages*);
+/** Your function for tactus_graph_perform_all. `user` is what you gave there. */
+typedef tactus_result (*tactus_graph_edits) (tactus_graph*, void* user);
+
+/** Edits in a batch: calls `edits`, and takes what that does with the functions above as one undo step with this name. Only the result is
+ *  checked, so this takes much less time than many single edits, and an edit may leave an error that a later one removes. If an edit fails, if
+ *  `edits` does not return TACTUS_OK, or if the result has an error that the batch has added, the graph is as it was before. A batch cannot
+ *  contain undo, redo, tactus_graph_set_file or another batch. [main thread] */
+TACTUS_API tactus_result tactus_graph_perform_all (tactus_graph*, const char* name, tactus_graph_edits edits, void* user, tactus_messages*);
 TACTUS_API int32_t tactus_graph_undo (tactus_graph*); /**< 0 if there is nothing to undo [main thread] */
 TACTUS_API int32_t tactus_graph_redo (tactus_graph*); /**< 0 if there is nothing to redo [main thread] */
 

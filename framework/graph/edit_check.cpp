@@ -2,6 +2,7 @@
 #include "edit_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace tactus::graph
@@ -55,16 +56,29 @@ bool isWithin (std::string_view place, std::string_view outer)
 }
 }   // namespace
 
-std::vector<std::string> placesOf (const Command& command)
+bool mayAddError (const Command& command)
+{
+    constexpr std::array ruled { "type", "role", "roles", "bypass", "overrides", "count", "every", "times", "hold" };
+    if (const auto* c = std::get_if<SetNodeKey> (&command.edit)) return std::ranges::count (ruled, c->key) > 0;
+    if (const auto* c = std::get_if<SetHeader> (&command.edit)) return c->rate_hz.has_value();
+    if (const auto* c = std::get_if<Batch> (&command.edit)) return std::ranges::any_of (c->commands, mayAddError);
+    return ! (std::holds_alternative<RenameNode> (command.edit) || std::holds_alternative<RenameSubgraph> (command.edit)
+              || std::holds_alternative<RemoveControl> (command.edit) || std::holds_alternative<SetDevice> (command.edit)
+              || std::holds_alternative<ReplaceGraph> (command.edit));
+}
+
+std::string placeOf (const Command& command)
 {
     std::vector<std::string> places;
     std::visit (Written { places }, command.edit);
-    return places;
+    return places.empty() ? std::string() : places.front();
 }
 
-const Message* firstAdded (const std::vector<Problem>& before, const std::vector<Problem>& after, const Command& command)
+const Message* firstAdded (const std::vector<Problem>& before, const std::vector<Problem>& after, std::span<const Command> commands)
 {
-    const auto written = placesOf (command);
+    std::vector<std::string> written;
+    for (const auto& command : commands)
+        std::visit (Written { written }, command.edit);
     const auto isOld = [&] (const Problem& p) {
         const bool is_own = std::ranges::any_of (written, [&] (const auto& place) { return isWithin (p.place, place); });
         return std::ranges::any_of (before, [&] (const Problem& b) {

@@ -6,7 +6,7 @@
 #include <tactus/text/message.hpp>
 
 #include <functional>
-#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,34 +26,23 @@ struct Problem
     Message message;
 };
 
-/// Knows the errors of a graph against the catalogue. The History of the graph owns it. [main thread]
-class EditCheck
-{
-public:
-    virtual ~EditCheck() = default;
-
-    /// The graph has changed otherwise than by an edit that the functions below have seen.
-    virtual void forget() = 0;
-
-    /// False if a command that has just been carried out surely adds no error. This looks only at what the command touches. If it is true,
-    /// problems() comes next: with this graph, and if that has any, with the graph before.
-    virtual bool mayAddError (const Graph&, const Command&) = 0;
-
-    /// All errors of a graph.
-    virtual std::vector<Problem> problems (const Graph&) = 0;
-};
-
 /// Says whether a node type that is not in the catalogue is one that the program will add when it plays the graph.
 using KnownElsewhere = std::function<bool (const std::string& type)>;
 
-/// Checks against the types of this catalogue, which must outlive it. framework/plan/edit_check/edit_check.cpp defines it, because the checks are
-/// those of compiling.
-std::unique_ptr<EditCheck> makeEditCheck (const Catalogue&, KnownElsewhere);
+/// All errors of a graph. [main thread]
+using FindProblems = std::function<std::vector<Problem> (const Graph&)>;
 
-/// The places that an edit writes itself.
-std::vector<std::string> placesOf (const Command&);
+/// Compiles a graph, except for its files, against the types of this catalogue, which must outlive it. framework/plan/edit_problems.cpp
+/// defines it, because graphs know nothing of compiling.
+FindProblems problemsAgainst (const Catalogue&, KnownElsewhere);
 
-/// The first error after an edit that the edit has added: what is wrong was right before, or the edit itself has written it.
-const Message* firstAdded (const std::vector<Problem>& before, const std::vector<Problem>& after, const Command&);
+/// False if no rule of compiling is about what the command changes, or if the command loads a graph, which may have errors.
+bool mayAddError (const Command&);
+
+/// The place that an edit writes itself, or the first of them; empty if there is none.
+std::string placeOf (const Command&);
+
+/// The first error after edits that they have added: what is wrong was right before, or an edit itself has written it.
+const Message* firstAdded (const std::vector<Problem>& before, const std::vector<Problem>& after, std::span<const Command>);
 
 }   // namespace tactus::graph

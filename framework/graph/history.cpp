@@ -2,7 +2,9 @@
 #include "history.hpp"
 #include <tactus/graph/edit/find_wire.hpp>
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace tactus::graph
 {
@@ -31,32 +33,69 @@ void identify (const Graph& g, Command& command)
 Message located (Message refusal, const Command& command)
 {
     if (! refusal.where.empty()) return refusal;
-    const auto places = placesOf (command);
-    if (places.empty()) return refusal;
-    refusal.where = places.front();
+    refusal.where = placeOf (command);
     if (const auto id = refusal.where.find ("/wires/"); id != std::string::npos) refusal.where.resize (id + std::string_view ("/wires").size());
     return refusal;
+}
+
+void undoIn (Graph& g, std::span<const Command> inverses)
+{
+    for (auto i = inverses.size(); i-- > 0;)
+        (void)apply (g, inverses[i], Checks::none);
 }
 }   // namespace
 
 Result<> History::perform (Command command, Step step)
 {
+    if (batch && batch->failure) return *batch->failure;
     identify (edited, command);
     auto inverse = carryOut (command);
-    if (! inverse) return located (std::move (inverse).error(), command);
-
-    steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end());
-    if (step == Step::own || steps.empty())
+    if (! inverse)
     {
-        steps.push_back ({ nameOf (command), {}, {} });
-        ++done;
+        auto why = located (std::move (inverse).error(), command);
+        if (batch)
+        {
+            takeBack (std::exchange (batch->step, {}).inverses);
+            batch->failure = why;
+        }
+        return why;
     }
-    auto& last = steps.back();
+
+    if (! batch)
+    {
+        dropUndone();
+        if (step == Step::own || steps.empty())
+        {
+            steps.push_back ({ nameOf (command), {}, {} });
+            ++done;
+        }
+    }
+    auto& last = batch ? batch->step : steps.back();
     if (! last.commands.empty() && merge (last.commands.back(), command)) return {};
     last.commands.push_back (std::move (command));
     last.inverses.push_back (*std::move (inverse));
     return {};
 }
+
+void History::begin (std::string name) { batch = { { std::move (name), {}, {} }, {} }; }
+
+Result<> History::finish()
+{
+    auto [step, failure] = *std::exchange (batch, std::nullopt);
+    if (failure) return *std::move (failure);
+    if (step.commands.empty()) return {};
+    if (auto added = addedError (step.commands, step.inverses))
+    {
+        takeBack (step.inverses);
+        return *std::move (added);
+    }
+    dropUndone();
+    steps.push_back (std::move (step));
+    ++done;
+    return {};
+}
+
+void History::abandon() { takeBack (std::exchange (batch, std::nullopt)->step.inverses); }
 
 void History::insertStep (std::string name)
 {
@@ -73,40 +112,46 @@ bool History::removeEmptyStep (std::size_t step)
 
 bool History::undo()
 {
-    if (done == 0) return false;
+    if (batch || done == 0) return false;
     auto& [name, commands, inverses] = steps[--done];
     for (auto i = inverses.size(); i-- > 0;)
-        commands[i] = restore (inverses[i]);   // redoing it brings back the same ids
+        commands[i] = *apply (edited, inverses[i], Checks::none);   // redoing it brings back the same ids
     return true;
 }
 
 bool History::redo()
 {
-    if (done == steps.size()) return false;
+    if (batch || done == steps.size()) return false;
     for (const auto& command : steps[done++].commands)
-        restore (command);
+        (void)apply (edited, command, Checks::none);
     return true;
-}
-
-Command History::restore (const Command& command)
-{
-    if (check) check->forget();
-    return *apply (edited, command, Checks::none);
 }
 
 Result<Command> History::carryOut (const Command& command)
 {
     auto inverse = apply (edited, command, Checks::all);
-    if (! inverse || ! check || ! check->mayAddError (edited, command)) return inverse;
-    const auto after = check->problems (edited);
-    if (after.empty()) return inverse;
-    auto before = edited;
-    (void)apply (before, *inverse, Checks::none);
-    const auto* added = firstAdded (check->problems (before), after, command);
-    if (added == nullptr) return inverse;
-    edited = std::move (before);
-    return *added;
+    if (! inverse || batch) return inverse;
+    auto added = addedError ({ &command, 1 }, { &*inverse, 1 });
+    if (! added) return inverse;
+    takeBack ({ &*inverse, 1 });
+    return *std::move (added);
 }
+
+/// The first error that the latest edits have added to the graph.
+std::optional<Message> History::addedError (std::span<const Command> commands, std::span<const Command> inverses) const
+{
+    if (! problems || std::ranges::none_of (commands, mayAddError)) return {};
+    const auto after = problems (edited);
+    if (after.empty()) return {};
+    auto before = edited;
+    undoIn (before, inverses);
+    const auto* added = firstAdded (problems (before), after, commands);
+    return added != nullptr ? std::optional (*added) : std::nullopt;
+}
+
+void History::takeBack (std::span<const Command> inverses) { undoIn (edited, inverses); }
+
+void History::dropUndone() { steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end()); }
 
 std::vector<std::string> History::names() const
 {

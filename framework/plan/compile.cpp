@@ -131,7 +131,7 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     beginReading();
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     const Setup setup { .rate_hz = rate, .services = options.services };
-    auto [flattened, units, ordered, wires_decide] = examine (g, catalogue, setup, options.overrides, options.assets);
+    auto [flattened, units, ordered] = examine (g, catalogue, setup, options.overrides, options.assets);
     auto& flat = flattened.flat;
     auto& top = flattened.top;
     auto outside = findOutside (flat, *top, options);
@@ -140,8 +140,7 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     if (! canRun (messages)) return { nullptr, std::move (messages) };
 
     flat.messages.clear();
-    const auto lanes = groupLanes (flat, ordered, outside, options.lanes, rate);
-    auto made = build (flat, units, ordered, lanes, std::move (outside), setup, options);
+    auto made = build (flat, units, ordered, std::move (outside), setup, options);
     std::ranges::move (flat.messages, std::back_inserter (messages));
     return { std::move (made), std::move (messages) };
 }

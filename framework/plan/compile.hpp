@@ -7,10 +7,9 @@
 ///   settings/   reads the settings of nodes                                  node_settings.hpp
 ///   rules/      checks units and sums, finds the running order, loops and    examine.hpp, unit_check.hpp, fan_in.hpp, order.hpp,
 ///               delays, and warns of what will not work well                 aliasing.hpp, lateness.hpp
-///   build/      makes nodes, lays out storage, writes records                build.hpp, lane_groups.hpp, rate_conversions.hpp
+///   build/      makes nodes, lays out storage, writes records                build.hpp, rate_conversions.hpp
 ///   steps/      what a tick does besides the nodes: sums, delays, ramps      ops.hpp, sum_step.hpp, ramps.hpp
 ///   swap/       decides what continues from the plan before                  plan_diff.hpp, matching.hpp, takeover.hpp
-///   edit_check/ applies the rules to what an edit touches                    edit_check.cpp, surroundings.hpp
 
 #include "plan.hpp"
 #include <tactus/plan/flat/flatten.hpp>
@@ -29,7 +28,6 @@ struct CompileOptions
     std::vector<plan::Override> overrides {};   ///< values that take precedence over the file
     Assets* assets = nullptr;                   ///< loads the files that settings name
     Services services {};                       ///< services that nodes may use
-    std::size_t lanes = 1;                      ///< the most instances of a subgraph that are computed at once; 1: each node runs on its own. See usualLanes()
     bool settles = false;                       ///< computes nodes whose inputs never change only when a param was written, not on each tick
     const Plan* before = nullptr;               ///< the plan that the new one will take over from, with Plan::takeOver
     const Plan* withdrawn = nullptr;            ///< a plan compiled to follow `before` that never ran: nodes that it added keep their turned values

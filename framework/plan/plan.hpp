@@ -110,7 +110,6 @@ struct PlanParts
     std::shared_ptr<const std::map<std::string, std::vector<PortRef>>> exposed = std::make_shared<std::map<std::string, std::vector<PortRef>>>();
     Ramps ramps;
     Takeover takeover;
-    std::vector<std::shared_ptr<LaneGroup>> lanes;   ///< the nodes that run together
 };
 
 class PlanBuilder;

@@ -154,6 +154,18 @@ void EditedGraph::setDevice (Text role, Value description)
     edit ([&] (auto* g, auto* m) { tactus_graph_set_device (g, role.c_str(), orNull (description), m); });
 }
 
+void EditedGraph::beginBatch (Text name)
+{
+    if (handle.history.isInBatch())
+        fail (Message::error ("edit/in_batch", "", "this graph is in a batch already", "end the `with graph.edit ():` first; its edits are one batch"));
+    handle.history.begin (name);
+}
+
+void EditedGraph::finishBatch()
+{
+    if (auto done = handle.history.finish(); ! done) fail (std::move (done).error());
+}
+
 void bindGraph (py::module_& module)
 {
     module.def ("know_own_type", &EditedGraph::knowOwnType);
@@ -177,6 +189,9 @@ void bindGraph (py::module_& module)
         .def ("set_setting", &EditedGraph::setSetting)
         .def ("set_key", &EditedGraph::setKey)
         .def ("set_device", &EditedGraph::setDevice)
+        .def ("begin_batch", &EditedGraph::beginBatch)
+        .def ("finish_batch", &EditedGraph::finishBatch)
+        .def ("abandon_batch", &EditedGraph::abandonBatch)
         .def ("undo", &EditedGraph::undo)
         .def ("redo", &EditedGraph::redo);
 }

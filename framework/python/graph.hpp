@@ -42,6 +42,9 @@ public:
     void setSetting (const std::string& patch, const std::string& node, const std::string& setting, const std::optional<std::string>& value);
     void setKey (const std::string& patch, const std::string& node, const std::string& key, const std::optional<std::string>& value);
     void setDevice (const std::string& role, const std::optional<std::string>& description);
+    void beginBatch (const std::string& name);
+    void finishBatch();
+    void abandonBatch() { handle.history.abandon(); }
     bool undo() { return handle.history.undo(); }
     bool redo() { return handle.history.redo(); }
 

@@ -16,7 +16,7 @@
 namespace tactus
 {
 
-Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when, Steps steps)
+Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when)
     : catalogue (c), options (std::move (o)), assets (options.assets), open (std::move (opener))
 {
     if (when == Queries::on_thread)
@@ -25,7 +25,6 @@ Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when,
         options.services.answers = queries.get();
     }
     if (options.assets != nullptr) options.assets = &assets;
-    options.lanes = steps == Steps::in_lanes ? usualLanes() : 1;
     options.settles = true;
 }
 

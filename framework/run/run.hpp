@@ -85,15 +85,9 @@ public:
         on_thread      ///< live: they are answered on their own thread
     };
 
-    enum class Steps
-    {
-        in_lanes,   ///< instances of a subgraph may run together (docs/lanes.md)
-        one_each    ///< each node has its own step: for programs that read the plan, such as the export
-    };
-
-    /// The catalogue, and the assets and services in the options, must outlive the run. The run sets CompileOptions::lanes, before and
-    /// withdrawn itself.
-    Run (const Catalogue&, CompileOptions, OpenDevice = {}, Queries = Queries::within_tick, Steps = Steps::in_lanes);
+    /// The catalogue, and the assets and services in the options, must outlive the run. The run sets CompileOptions::before and withdrawn
+    /// itself.
+    Run (const Catalogue&, CompileOptions, OpenDevice = {}, Queries = Queries::within_tick);
     ~Run() override;
     Run (const Run&) = delete;
     Run& operator= (const Run&) = delete;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Graphs: reading, editing, undo, pickling, the catalogue."""
 
+import contextlib
 import json
 import pathlib
 import pickle
@@ -34,6 +35,44 @@ class Graphs(TestCase):
         self.assertEqual(graph.text, path.read_text(encoding="utf-8"))
         self.assertEqual(tactus.Graph.parse(graph.text).text, graph.text)
         self.assertEqual((graph.name, graph.rate), ("Dry wood", 4000))
+
+    def test_a_batch_is_one_step_and_fails_as_a_whole(self):
+        graph = wood()
+        before = graph.text
+        with graph.edit("swap") as same:
+            self.assertIs(same, graph)
+            graph.connect("drag.deflection", "board.position")   # the second wire into a position, for now
+            graph.disconnect("hand.position", "board.position")
+            self.assertFalse(graph.undo())
+        swapped = graph.text
+        self.assertNotEqual(swapped, before)
+        self.assertTrue(graph.undo())
+        self.assertEqual(graph.text, before)
+        self.assertTrue(graph.redo())
+        self.assertEqual(graph.text, swapped)
+
+        with self.assertRaises(tactus.Error) as raised, graph.edit():
+            graph.add_node("more", "signal.gain")
+            graph.connect("more.out", "more.in")   # only the end shows that the loop stays
+        self.assertEqual(raised.exception.id, "graph/loop")
+        self.assertEqual(graph.text, swapped)
+        with self.assertRaises(tactus.Error) as raised, graph.edit():
+            graph.add_node("more", "signal.gain")
+            with contextlib.suppress(tactus.Error):
+                graph.set_param("mroe", "gain", 2)
+            with self.assertRaises(tactus.Error):
+                graph.set_param("more", "gain", 2)
+        self.assertEqual(raised.exception.id, "edit/unknown_node")
+        self.assertEqual(graph.text, swapped)
+        with self.assertRaises(ZeroDivisionError), graph.edit():
+            graph.add_node("more", "signal.gain")
+            _ = 1 / 0
+        self.assertEqual(graph.text, swapped)
+        with graph.edit(), self.assertRaises(tactus.Error) as raised:
+            with graph.edit():
+                pass
+        self.assertEqual(raised.exception.id, "edit/in_batch")
+        graph.add_node("more", "signal.gain")
 
     def test_every_edit_can_be_undone_and_redone(self):
         graph = drag()

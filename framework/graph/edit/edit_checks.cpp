@@ -3,6 +3,7 @@
 
 #include "refusals.hpp"
 #include <tactus/graph/graph_parts.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 #include <set>
@@ -82,7 +83,7 @@ std::string usersOf (const Graph& graph, const std::string& subgraph)
     const auto search = [&] (const std::string& name, const Patch& patch) {
         if (name == subgraph) return;
         for (const auto& node : patch.nodes)
-            if (node.type == "graph:" + subgraph) users += (users.empty() ? "" : ", ") + (name.empty() ? "" : name + "/") + node.name;
+            if (node.type == "graph:" + subgraph) addToList (users, (name.empty() ? "" : name + "/") + node.name);
     };
     search ("", graph.root);
     for (const auto& [name, patch] : graph.graphs)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "regroup.hpp"
 
-#include "separate.hpp"
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/instances.hpp>

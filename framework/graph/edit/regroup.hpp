@@ -11,4 +11,10 @@ namespace tactus::graph
 Result<> collapse (Graph&, const CollapseNodes&);
 Result<> expand (Graph&, const ExpandNode&);
 
+/// Part of expand(), for a node with a `count`: replaces it by one node per instance.
+Result<> separate (Graph&, const ExpandNode&);
+
+/// The error for a node that cannot be expanded: "'hand' cannot be expanded: it is bypassed".
+Message cannotExpand (const std::string& node, const std::string& why);
+
 }   // namespace tactus::graph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "separate.hpp"
+#include "regroup.hpp"
 
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/instances.hpp>

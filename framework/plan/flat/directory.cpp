@@ -4,6 +4,7 @@
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/instances.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/list_text.hpp>
 
 namespace tactus::plan
 {
@@ -217,7 +218,7 @@ std::string listed (const std::vector<std::string>& names)
     constexpr std::size_t most = 24;
     std::string all;
     for (std::size_t i = 0; i < std::min (names.size(), most); ++i)
-        all += (all.empty() ? "" : ", ") + names[i];
+        addToList (all, names[i]);
     if (names.size() > most) all += " and " + std::to_string (names.size() - most) + " more";
     return all.empty() ? "none" : all;
 }

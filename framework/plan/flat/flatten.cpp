@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "flatten.hpp"
-#include "bypass_node.hpp"
 #include "roles.hpp"
 #include "sections.hpp"
 #include <tactus/plan/rules/wire_fit.hpp>
@@ -14,6 +13,7 @@
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::plan
@@ -25,6 +25,50 @@ constexpr int max_depth = 32;
 
 // Measured costs of compiling, in units of work (work_unit_s).
 constexpr double work_per_node = 800.0, work_of_a_search = 10'000.0;
+
+/// Adds the node that replaces an instance of a bypassed subgraph. It has the exposed ports of the subgraph, and its outputs pass on
+/// the inputs of the same name. `scope` is the patch of the subgraph node; `inside` is the expanded instance, which learns the
+/// number of the new node.
+void addBypassNode (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope& inside, int instance, Flat& flat)
+{
+    NodeType type {};
+    type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
+    std::size_t offset = 0;
+    int list_size = 0;
+    for (const auto& x : inside.exposed)
+    {
+        if (x.to.empty()) continue;
+        const auto& to = x.to.front();
+        auto row = flat.sheet (to);
+        row.role = x.role;
+        row.id = flat.made_names.emplace_back (x.name);
+        if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
+        row.width = flat.widthOf (to);
+        row.list = row.list && to.index < 0;
+        if (row.list) list_size = std::max (list_size, flat.node (to).list_size);
+        if (x.role == Role::output)
+        {
+            row.offset = offset;
+            offset += sizeof (double) * at (row.list ? list_capacity : row.width);
+        }
+        auto& params_or_outputs = x.role == Role::param ? type.params : type.outputs;
+        (x.role == Role::input ? type.inputs : params_or_outputs).push_back (row);
+    }
+    type.outputs_size = std::max (offset, sizeof (double));
+    type.outputs_align = alignof (double);
+    flat.made_types.push_back (std::move (type));
+
+    inside.stand_in = flat.nodeCount();
+    auto& made = flat.nodes.emplace_back (FlatNode { .path = inside.prefix.substr (0, inside.prefix.size() - 1),
+                                                     .identity = { scope.number, node.id, instance },
+                                                     .type = &flat.made_types.back(),
+                                                     .origin = here,
+                                                     .bypass = true,
+                                                     .muted = muted,
+                                                     .section = scope.section });
+    made.list_size = list_size;
+    addValues (made, flat);
+}
 
 class Flattener
 {

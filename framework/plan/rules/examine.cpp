@@ -70,7 +70,7 @@ Spent spentOn (const Flat& flat)
 void check (Flat& flat, const Setup& setup, const graph::Graph& graph, Examined& found)
 {
     found.units = checkUnits (flat);
-    found.wires_decide = checkFanIn (flat, found.units);
+    checkFanIn (flat, found.units);
     checkDelays (flat);
     findDevices (flat);
     askNodes (flat, setup, graph);

@@ -13,7 +13,6 @@ struct Examined
     Flattened flattened;   ///< the messages are in its `flat`
     PortUnits units {};
     Order order {};
-    bool wires_decide = false;   ///< as checkFanIn() returns it
 };
 
 /// Flattens a graph and applies all rules that do not involve feeds and records; also to subgraphs that no node uses.

@@ -26,22 +26,20 @@ void reportTwo (Flat& flat, const FlatWire& w, const FlatWire& other, Quantity q
                 w.to.role == Role::param ? "add the second wire with (+), or remove one of the two"
                                          : "join the two wires in a signal.add or vector.add node, or remove one of them");
 }
-}   // namespace
 
-std::optional<bool> sumsWires (const PortSheet& row) noexcept
+/// True if several values at a port are summed. Several wires into a generic input are summed if what they carry adds up.
+bool sumsWires (const PortSheet& row, Quantity carried) noexcept
 {
     if (row.role != Role::input) return false;
-    if (row.unit.adds_up) return true;
-    if (row.unit.kind != UnitRule::Kind::fixed) return std::nullopt;
-    return addsUp (row.unit.unit.quantity);
+    return row.unit.adds_up || addsUp (row.unit.kind == UnitRule::Kind::fixed ? row.unit.unit.quantity : carried);
 }
+}   // namespace
 
-bool checkFanIn (Flat& flat, const PortUnits& units)
+void checkFanIn (Flat& flat, const PortUnits& units)
 {
     const Slots slots (flat);
     std::vector<const FlatWire*> taken (slots.count(), nullptr);
     Identity wrong {};   // the wire reported last
-    bool wires_decide = false;
     for (const auto& w : flat.wires)
     {
         if (w.identity == wrong || w.add) continue;
@@ -54,13 +52,10 @@ bool checkFanIn (Flat& flat, const PortUnits& units)
                 other = &w;
                 continue;
             }
-            const auto sums = sumsWires (flat.sheet (w.to));
-            wires_decide = wires_decide || ! sums;
-            if (sums.value_or (addsUp (units (w.to).quantity))) break;
+            if (sumsWires (flat.sheet (w.to), units (w.to).quantity)) break;
             if (other->identity == w.identity)
             {
                 const auto quantity = w.from ? units (*w.from).quantity : Quantity::any;
-                wires_decide = true;
                 if (addsUp (quantity)) continue;
                 reportInstances (flat, w, other->from, quantity);
             }
@@ -70,7 +65,6 @@ bool checkFanIn (Flat& flat, const PortUnits& units)
             break;
         }
     }
-    return wires_decide;
 }
 
 }   // namespace tactus::plan

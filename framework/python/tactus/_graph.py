@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
-from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Sequence, Tuple, Type
+from typing import TYPE_CHECKING, Any, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Type
 
 from . import _checks, _drawing, _tactus
 from ._assets import Assets
@@ -160,6 +161,22 @@ class Graph:
         """Describes the device of a role, as in a graph file: {"driver": "sim", "mass": "50 g"}; None removes it."""
         known = None if description is None else dict(_checks.mapping("description", description, "{'driver': 'sim', 'mass': '50 g'}"))
         self._graph.set_device(_name("role", role), to_optional_json(known, "description"))
+
+    @_checks.arguments
+    @contextlib.contextmanager
+    def edit(self, name: str = "edits") -> Iterator[Graph]:
+        """Edits in a batch, which takes much less time than single edits: with graph.edit(): …
+
+        The edits are one undo step, named `name`. Only their result is checked, so an edit may leave an error that a later one removes. If an edit
+        fails, if the result has an error that the batch has added, or if another exception leaves the `with` statement, the graph is as it was
+        before. An edit that has failed fails the batch, even if its exception is caught. Edits of other threads meanwhile join the batch."""
+        self._graph.begin_batch(_checks.text("name", name, "give a name for the undo step"))
+        try:
+            yield self
+        except BaseException:
+            self._graph.abandon_batch()
+            raise
+        self._graph.finish_batch()
 
     def undo(self) -> bool:
         """False if there is nothing to undo."""

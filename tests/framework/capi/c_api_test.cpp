@@ -226,6 +226,50 @@ TEST_CASE ("C API: a graph that is built by edits is the same as its text, and e
     CHECK (steps == 9);
 }
 
+TEST_CASE ("C API: a batch of edits is one step, and one that fails changes nothing", "[c_api]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto g = spring (m.get());
+    const Text text { tactus_graph_text (g.get()) };
+    const auto isUnchanged = [&] { return std::string (Text { tactus_graph_text (g.get()) }.get()) == text.get(); };
+
+    const auto rewire = [] (tactus_graph* graph, void*) {
+        CHECK (tactus_graph_perform_all (
+                   graph, "inner", [] (tactus_graph*, void*) { return TACTUS_OK; }, nullptr, nullptr)
+               == TACTUS_MISUSE);
+        CHECK (tactus_graph_undo (graph) == 0);
+        const auto removed = tactus_graph_remove_wire (graph, "", "wall.force -> motor.force", nullptr);
+        return removed == TACTUS_OK ? tactus_graph_add_node (graph, "", "more", "signal.gain", nullptr) : removed;
+    };
+    REQUIRE (tactus_graph_perform_all (g.get(), "rewire", rewire, nullptr, m.get()) == TACTUS_OK);
+    CHECK_FALSE (isUnchanged());
+    CHECK (tactus_graph_undo (g.get()) == 1);
+    CHECK (isUnchanged());
+
+    const auto fails = [] (tactus_graph* graph, void* own) {
+        CHECK (tactus_graph_add_node (graph, "", "more", "signal.gain", nullptr) == TACTUS_OK);
+        (void)tactus_graph_set_param (graph, "", "nobody", "gain", "2", nullptr);   // ignores that it fails
+        *static_cast<int*> (own) += 1;
+        return TACTUS_OK;
+    };
+    int calls = 0;
+    CHECK (tactus_graph_perform_all (g.get(), "fails", fails, &calls, m.get()) == TACTUS_FAILED);
+    CHECK (calls == 1);
+    tactus_message why = TACTUS_MESSAGE;
+    REQUIRE (tactus_messages_get (m.get(), tactus_messages_count (m.get()) - 1, &why) == TACTUS_OK);
+    CHECK (std::string (why.id) == "edit/unknown_node");
+    CHECK (isUnchanged());
+
+    const auto stops = [] (tactus_graph* graph, void*) {
+        CHECK (tactus_graph_add_node (graph, "", "more", "signal.gain", nullptr) == TACTUS_OK);
+        return TACTUS_MISUSE;
+    };
+    CHECK (tactus_graph_perform_all (g.get(), "stops", stops, nullptr, m.get()) == TACTUS_MISUSE);
+    CHECK (isUnchanged());
+    CHECK (tactus_graph_perform_all (g.get(), "none", nullptr, nullptr, m.get()) == TACTUS_MISUSE);
+    CHECK (tactus_graph_add_node (g.get(), "", "more", "signal.gain", m.get()) == TACTUS_OK);   // the graph is in no batch
+}
+
 TEST_CASE ("C API: a problem is reported with its id, place and remedy", "[c_api]")
 {
     const MessageList m { tactus_messages_create() };

@@ -314,6 +314,66 @@ TEST_CASE ("a wire is removed by its text, in every spelling that means the same
     }
 }
 
+TEST_CASE ("a batch is one step that is judged by its result, and an edit that fails takes all of it back", "[edit_check]")
+{
+    History history (wood());
+    const auto before = test::fingerprint (history.graph());
+
+    history.begin ("rewire");   // two wires into one input, until the first is removed
+    CHECK (history.perform (wireTo ("drag.deflection -> board.position")));
+    CHECK_FALSE (history.undo());
+    CHECK (history.perform (RemoveWire { "", 0, "hand.position -> board.position" }));
+    CHECK (history.finish());
+    CHECK_FALSE (history.isInBatch());
+    CHECK (history.names() == std::vector<std::string> { "rewire" });
+    const auto rewired = test::fingerprint (history.graph());
+    CHECK (history.undo());
+    CHECK (test::fingerprint (history.graph()) == before);
+    CHECK (history.redo());
+    CHECK (test::fingerprint (history.graph()) == rewired);
+    CHECK (history.undo());
+
+    for (const auto& mistake : mistakes())
+    {
+        INFO (mistake.what);
+        history.begin ("a mistake among others");
+        CHECK (history.perform (AddNode { "", nodeOf ("first", "signal.gain") }));
+        const auto done = history.perform (mistake.edit);
+        const bool goes_on = static_cast<bool> (history.perform (AddNode { "", nodeOf ("last", "signal.gain") }));
+        CHECK (goes_on == static_cast<bool> (done));
+        const auto finished = history.finish();
+        CHECK_FALSE (finished);
+        if (finished) break;
+        CHECK (finished.error().id == mistake.id);
+        CHECK_FALSE (finished.error().where.empty());
+        CHECK_FALSE (finished.error().remedy.empty());
+        CHECK (test::fingerprint (history.graph()) == before);
+    }
+    CHECK (history.redo());   // what failed has not dropped the step that was undone
+    CHECK (test::fingerprint (history.graph()) == rewired);
+
+    history.begin ("left");
+    CHECK (history.perform (AddNode { "", nodeOf ("first", "signal.gain") }));
+    history.abandon();
+    CHECK (test::fingerprint (history.graph()) == rewired);
+    history.begin ("nothing");
+    CHECK (history.finish());
+    CHECK (history.size() == 1);
+}
+
+TEST_CASE ("a batch is checked once, and not at each of its edits", "[edit_check]")
+{
+    int checked = 0;
+    const auto counts = [&] (const std::string&) { return ++checked > 0; };   // asked about each node of an unknown type
+    History history (Graph {}, &catalogue(), counts);
+    history.begin ("many");
+    for (int i = 0; i < 10; ++i)
+        CHECK (history.perform (AddNode { "", nodeOf (("a" + std::to_string (i)).c_str(), "someone.else") }));
+    CHECK (checked == 0);
+    CHECK (history.finish());
+    CHECK (checked == 10);
+}
+
 TEST_CASE ("a wire between nodes that have no params at all is checked like any other", "[edit_check]")
 {
     auto sketch = test::Sketch {}.node ("a", "signal.abs").node ("b", "signal.abs").node ("c", "signal.abs").wire ("a.out -> b.in");

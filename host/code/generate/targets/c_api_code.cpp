@@ -130,7 +130,7 @@ std::string cEnumOf (const Exported& e, const std::string& kind, const std::vect
     std::vector<std::string> all;
     for (const auto& name : names)
         all.push_back (capitals (e.stem + "_" + kind) + "_" + name);
-    return "typedef enum " + e.stem + "_" + kind + "\n{\n    " + listed (all, ",\n    ") + "\n} " + e.stem + "_" + kind + ";\n\n";
+    return "typedef enum " + e.stem + "_" + kind + "\n{\n    " + listText (all, ",\n    ") + "\n} " + e.stem + "_" + kind + ";\n\n";
 }
 
 /// Text for each limit that can be tightened.
