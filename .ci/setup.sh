@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=(build-essential cmake ninja-build pkg-config clang-14
           juce-modules-source libjack-jackd2-dev libxcb1-dev libeigen3-dev libhidapi-dev libevdev-dev catch2
           libcli11-dev librapidcheck-dev libmpfr-dev
-          libembree-dev libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
+          libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
           fonts-inter fonts-dejavu-core
           libboost-dev python3-dev pybind11-dev python3-numpy)
 

@@ -4,6 +4,8 @@
 #include "judge.hpp"
 #include "sampled_loop.hpp"
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,11 +22,7 @@ namespace tactus::check::judging
 {
 
 /// Three digits are enough: the numbers of a device are seldom known better.
-inline std::string text (double v)
-{
-    char buffer[32];
-    return { buffer, static_cast<std::size_t> (std::snprintf (buffer, sizeof buffer, "%.3g", v)) };
-}
+inline std::string text (double v) { return roundedText (v, 3); }
 
 inline std::string text (double v, std::string_view unit) { return text (v) + " " + std::string (unit); }
 

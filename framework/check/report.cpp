@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
 
+#include <tactus/text/list_text.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -120,7 +122,7 @@ std::string describe (const DeviceNumbers& numbers)
         {
             char value[32];
             std::snprintf (value, sizeof value, "%.3g", s.factor * n->value);
-            text += (text.empty() ? "" : ", ") + std::string (s.name) + " " + value + s.unit + (n->guess ? " (guess)" : "");
+            addToList (text, std::string (s.name) + " " + value + s.unit + (n->guess ? " (guess)" : ""));
         }
     return text.empty() ? "nothing is known" : text;
 }

@@ -3,8 +3,9 @@
 #include "sampled_loop.hpp"
 #include "spring_and_damper.hpp"
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -38,11 +39,7 @@ std::vector<double> predicted (const std::vector<double>& response)
     return all;
 }
 
-std::string withUnit (double v)
-{
-    char buffer[48];
-    return { buffer, static_cast<std::size_t> (std::snprintf (buffer, sizeof buffer, "%.3g N*s/m", v)) };
-}
+std::string withUnit (double v) { return roundedText (v, 3) + " N*s/m"; }
 }   // namespace
 
 std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s, bool drags)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fit_report.hpp"
 
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ void judge (FitReport& report, const std::string& record_more, double most)
             "the model predicts a part that was left out much worse than it fits the rest: the recording is too short, or the object changed");
     std::string unsure;
     for (const auto& v : report.values)
-        if (v.is_main && ! (v.high - v.low <= 2.0 * wide * std::abs (v.value))) unsure += (unsure.empty() ? "" : ", ") + v.name;
+        if (v.is_main && ! (v.high - v.low <= 2.0 * wide * std::abs (v.value))) addToList (unsure, v.name);
     if (! unsure.empty()) report.lacking.push_back ("the recording does not contain enough information about: " + unsure);
     report.is_good = report.lacking.empty();
     if (! report.is_good) report.lacking.push_back (record_more);

@@ -3,20 +3,15 @@
 #include "guard.hpp"
 
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
 
-#include <charconv>
 #include <cmath>
 
 namespace tactus
 {
 namespace
 {
-/// Writes four digits, independent of the locale.
-std::string inWords (double value)
-{
-    char text[32];
-    return { text, std::to_chars (text, text + sizeof text, value, std::chars_format::general, 4).ptr };
-}
+std::string inWords (double value) { return roundedText (value, 4); }
 
 std::string inWords (const std::array<double, 3>& v) { return "(" + inWords (v[0]) + ", " + inWords (v[1]) + ", " + inWords (v[2]) + ")"; }
 std::string inMilliseconds (double seconds) { return inWords (seconds * 1e3) + " ms"; }

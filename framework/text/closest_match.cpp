@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "closest_match.hpp"
+#include "list_text.hpp"
 
 #include "quote.hpp"
 
@@ -83,7 +84,7 @@ std::string suggestion (std::string_view word, std::span<const std::string> know
     if (! meant.empty()) return "did you mean " + quote (meant) + "?";
     std::string all;
     for (const auto& name : known)
-        all += (all.empty() ? "" : ", ") + name;
+        addToList (all, name);
     return "the known names are: " + all;
 }
 

@@ -5,10 +5,11 @@
 #include "run_options.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/files/stretch_files.hpp>
 #include <host/tools/fitting/surface_preset.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/log/run_test.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void writeTest (const CaptureOptions& options, const Stretch& stretch)
     std::cout << "wrote " << printableName (options.test) << ": a test of " << stretch.ticks() << " ticks and " << stretch.names.size() << " values each";
     if (stretch.from > 0)
         std::cout << "; it replays the run from its start, because the state of the nodes is known only there, and compares from "
-                  << shortNumber (static_cast<double> (stretch.from) / stretch.rate_hz) << " s on";
+                  << roundedText (static_cast<double> (stretch.from) / stretch.rate_hz, 3) << " s on";
     std::cout << "\n";
 }
 
@@ -87,7 +88,7 @@ void run (const CaptureOptions& options)
     StretchReader::Options how { .from_s = options.from_s,
                                  .records = options.records,
                                  .assets = &assets,
-                                 .services = { .nearest_triangle = nearestByEmbree },
+                                 .services = { .nearest_triangle = nearestByBoxes },
                                  .program = TACTUS_VERSION };
     if (options.until_s > 0.0) how.until_s = options.until_s;
     how.role = roleIn (options, how);

@@ -9,6 +9,7 @@
 #include <tactus/check/report.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -33,12 +34,7 @@ struct CheckOptions
 
 std::string padded (std::string_view text, std::size_t width) { return std::string (text) + std::string (width > text.size() ? width - text.size() : 1, ' '); }
 
-std::string number (double v)
-{
-    char buffer[32];
-    std::snprintf (buffer, sizeof buffer, "%.3g", v);
-    return buffer;
-}
+std::string number (double v) { return roundedText (v, 3); }
 
 std::string describe (const check::Condition& c)
 {
@@ -64,7 +60,7 @@ std::string ableDevices (const check::Demand& demand, const std::string& role, c
         const std::vector<check::RoleDevice> devices { { role, numbers, profile->id } };
         auto all = check::judge (demand, devices, options);
         std::erase_if (all, [&] (const check::Condition& c) { return c.role != role; });
-        if (! check::isBroken (all)) names += (names.empty() ? "" : ", ") + profile->id;
+        if (! check::isBroken (all)) addToList (names, profile->id);
     }
     return names;
 }

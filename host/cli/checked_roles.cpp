@@ -3,13 +3,13 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/devices/device_plugins/open_plugin_device.hpp>
 #include <host/devices/hid/physics.hpp>
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/sessions/numbers_device.hpp>
 #include <host/devices/sessions/role_fits.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -145,7 +145,7 @@ CheckedGraph::CheckedGraph (const std::string& f, const std::vector<std::string>
     : file (f), loaded (loadGraph (file)), profiles (hid::loadProfileLibrary()),
       subject { loaded.graph,
                 catalogue(),
-                { .rate_hz = rate_hz, .overrides = readSets (sets), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } } },
+                { .rate_hz = rate_hz, .overrides = readSets (sets), .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } } },
       plan ([this] {
           refuseErrors (loaded.messages);
           auto compiled = compile (subject.graph, subject.catalogue, subject.options);

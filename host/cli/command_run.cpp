@@ -3,13 +3,14 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/home_folder.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/sessions/numbers_device.hpp>
 #include <tactus/graph/reconcile.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -120,7 +121,7 @@ LiveSession::Options CommandRun::sessionOptions (Pace pace, StopSwitch* stops)
                    .records = options.records,
                    .overrides = readSets (options.sets),
                    .assets = &assets,
-                   .services = { .nearest_triangle = nearestByEmbree } };
+                   .services = { .nearest_triangle = nearestByBoxes } };
     if (feed)
     {
         to.compile.feeds = feed->drives();
@@ -153,7 +154,7 @@ void CommandRun::checkRoles() const
         if (std::ranges::count (roles, role) > 0) continue;
         std::string all;
         for (const auto& r : roles)
-            all += (all.empty() ? "" : ", ") + r;
+            addToList (all, r);
         fail (Message::error ("device/unknown_role", "--device " + options.devices[i], "the graph has no role '" + role + "'" + didYouMean (role, roles),
                               roles.empty() ? "remove the option: the graph has no device nodes" : "name one of its roles: " + all));
     }

@@ -10,6 +10,7 @@
 #include <host/base/files/evemu.hpp>
 #include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <filesystem>
@@ -81,7 +82,7 @@ void writeSamples (const ConvertOptions& options, const Clip& clip)
     }
     orFail (file.commit());
     wrote (options.out);
-    std::cout << "  loss: samples at " << shortNumber (options.rate_hz) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
+    std::cout << "  loss: samples at " << roundedText (options.rate_hz, 3) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
 }
 
 void writeFile (const std::string& out, const Clip& clip, double rate_hz)
@@ -125,7 +126,7 @@ void convertPen (const ConvertOptions& options)
     for (const auto& row : trace.rows)
         orFail (file.row (std::vector { row.t, row.position.x(), row.position.y(), row.position.z(), row.pressure }));
     orFail (file.commit());
-    std::cout << printableName (options.in) << ": " << trace.rows.size() << " rows, " << shortNumber (trace.duration()) << " s\n";
+    std::cout << printableName (options.in) << ": " << trace.rows.size() << " rows, " << roundedText (trace.duration(), 3) << " s\n";
     wrote (options.out);
 }
 
@@ -144,7 +145,7 @@ void run (const ConvertOptions& options)
     auto& clip = read.clip;
     if (! options.calibration.empty()) sayAll (orFail (readers::readCalibration (bytesOf (options.calibration), options.calibration, clip.voice)));
     std::cout << printableName (options.in) << ": " << clip.tracks.size() << (clip.tracks.size() == 1 ? " track, " : " tracks, ") << clip.events()
-              << " points and transients, " << shortNumber (clip.lastEvent()) << " s\n";
+              << " points and transients, " << roundedText (clip.lastEvent(), 3) << " s\n";
     if (extension == ".csv" && options.rate_hz > 0.0)
         writeSamples (options, clip);
     else if (options.split)

@@ -8,6 +8,7 @@
 #include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/half_space.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <cmath>
@@ -71,22 +72,22 @@ void compute (const Shape& shape, const CurveOptions& options)
     const HalfSpace body { .young = young, .poisson = options.poisson };
     const Law law = shape.law (body, size);
     if (const double deepest = law (depth); ! (deepest > 0.0 && std::isfinite (deepest)))
-        fail ("curve/out_of_range", "the force at a depth of " + shortNumber (depth) + " m would be " + shortNumber (deepest) + " N",
+        fail ("curve/out_of_range", "the force at a depth of " + roundedText (depth, 3) + " m would be " + roundedText (deepest, 3) + " N",
               "correct the sizes and their units");
     const UniformBody even { .along = options.points > 0 ? tableOf (law, depth, options.points) : law,
                              .mu = options.mu,
                              .ratio = body.ratio (options.mu > 0.0 ? options.mu : 1.0) };
 
     const auto curves = curvesOf (even);
-    std::cout << shape.formula << ", E* = " << shortNumber (body.modulus(), 6) << " Pa: " << shortNumber (law (depth), 6) << " N at "
-              << shortNumber (1e3 * depth) << " mm\n"
+    std::cout << shape.formula << ", E* = " << roundedText (body.modulus(), 6) << " Pa: " << roundedText (law (depth), 6) << " N at "
+              << roundedText (1e3 * depth, 3) << " mm\n"
               << "  for deform.plane    \"law\": " << toJson (even.along).dump() << "\n"
               << "  for deform.surface  \"curves\": " << curves.at ("curves").dump() << ", \"mu\": " << curves.at ("mu").dump() << "\n";
     if (! options.preset.empty())
     {
         const auto name = std::filesystem::path (options.preset).stem().string();
         const auto source = "`tactus curve " + std::string (shape.name) + "`: " + shape.formula + ", E = " + options.young + ", nu = "
-                            + shortNumber (options.poisson)
+                            + roundedText (options.poisson, 3)
                             + ", " + options.tool;
         const auto about = "A flat, homogeneous body, computed: " + std::string (shape.formula) + ".";
         orFail (saveGraph (surfacePreset (even, name, about, source), options.preset));

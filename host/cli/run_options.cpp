@@ -5,6 +5,7 @@
 
 #include <tactus/run/turn.hpp>
 #include <tactus/text/budget.hpp>
+#include <tactus/text/list_text.hpp>
 
 namespace tactus::host
 {
@@ -28,7 +29,7 @@ void addLimits (const Command& app)
 {
     std::string names;
     for (const auto& sheet : budget_sheets)
-        names += (names.empty() ? "" : ", ") + std::string (sheet.name);
+        addToList (names, sheet.name);
     app.addOption (
            "--limits",
            [] (const std::string& text) {

@@ -4,8 +4,8 @@
 #include "run_options.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/tools/fitting/surface_preset.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -26,7 +26,7 @@ struct TestOptions
     std::string graph;
 };
 
-std::string secondsAt (std::uint64_t tick, double rate_hz) { return shortNumber (static_cast<double> (tick) / rate_hz, 6) + " s"; }
+std::string secondsAt (std::uint64_t tick, double rate_hz) { return roundedText (static_cast<double> (tick) / rate_hz, 6) + " s"; }
 
 /// Prints each port that differs, with its first difference.
 void printDifferences (const RunTestResult& result)
@@ -66,7 +66,7 @@ void run (const TestOptions& options)
 {
     std::optional<LoadedGraph> own;
     FileAssets assets;
-    RunTestOptions how { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree }, .program = TACTUS_VERSION };
+    RunTestOptions how { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes }, .program = TACTUS_VERSION };
     if (! options.graph.empty())
     {
         own = loadGraph (options.graph);

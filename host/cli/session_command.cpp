@@ -5,7 +5,6 @@
 #include "run_options.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/home_folder.hpp>
 #include <host/devices/device_plugins/open_plugin_device.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
@@ -13,6 +12,7 @@
 #include <host/devices/sessions/numbers_device.hpp>
 #include <host/devices/sessions/role_fits.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/number_text.hpp>
@@ -190,7 +190,7 @@ std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, 
                              std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
     FileAssets assets;
-    const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
     if (report (compiled.messages, graph, file) > 0 || ! compiled.plan) throw Stop {};
     auto fits = host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
     for (auto& fit : fits)

@@ -5,7 +5,7 @@
 #include "run_options.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/plan/rules/unheard.hpp>
@@ -116,7 +116,7 @@ bool check (const std::string& file)
     if (errors > 0 && loaded.graph.root.nodes.empty()) return false;   // a file that could not be read has no further problems to report
 
     FileAssets assets;
-    const auto compiled = compile (loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    const auto compiled = compile (loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
     auto messages = compiled.messages;
     std::ranges::move (plan::unheardNodes (loaded.graph, catalogue()), std::back_inserter (messages));
     if (compiled.plan) std::ranges::move (undescribedRoles (loaded.graph, *compiled.plan), std::back_inserter (messages));

@@ -5,13 +5,13 @@
 #include "support/sketch.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/devices/hid/physics.hpp>
 #include <host/devices/hid/profile_reader.hpp>
 #include <host/devices/sessions/needs.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -48,7 +48,7 @@ std::string textOf (const fs::path& path)
 Compiled compiled (const graph::Graph& g)
 {
     static host::FileAssets assets;
-    return compile (g, catalogue(), { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } });
+    return compile (g, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
 }
 
 /// Presets that break a condition of docs/check.md on the simulated device that they describe: which one, and why the preset stays as
@@ -64,7 +64,7 @@ const std::map<std::string, std::pair<std::string, std::string>> breaks {
 check::Demand demandOf (const graph::Graph& g, check::Thoroughness thoroughness)
 {
     static host::FileAssets assets;
-    const check::Subject subject { g, catalogue(), { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } } };
+    const check::Subject subject { g, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } } };
     return check::measure (subject, check::recordMotion (subject, {}, folder).motion, thoroughness);
 }
 

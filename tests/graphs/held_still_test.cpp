@@ -4,8 +4,8 @@
 #include "support/sketch.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
@@ -39,7 +39,7 @@ public:
 std::shared_ptr<Plan> compiled (const graph::Graph& g, std::vector<std::string> feeds = {})
 {
     static host::FileAssets assets;
-    const CompileOptions options { .feeds = std::move (feeds), .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
+    const CompileOptions options { .feeds = std::move (feeds), .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
     auto [plan, messages] = compile (g, catalogue(), options);
     INFO (test::text (messages));
     REQUIRE (plan);

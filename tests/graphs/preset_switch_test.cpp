@@ -5,8 +5,8 @@
 
 #include "support/live.hpp"
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -36,7 +36,7 @@ TEST_CASE ("switching presets as fast as possible under a trembling hand never c
 {
     const auto graphs = presets();
     host::FileAssets assets;
-    CompileOptions options { .rate_hz = 4000.0, .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
+    CompileOptions options { .rate_hz = 4000.0, .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
     const auto first = std::ranges::find (graphs, std::string ("Dry wood"), [] (const auto& g) { return g->name; });
     REQUIRE (first != graphs.end());
     test::Live live { **first, catalogue(), options, compile (**first, catalogue(), options).plan };

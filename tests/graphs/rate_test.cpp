@@ -4,8 +4,8 @@
 #include "support/sketch.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
 
@@ -52,7 +52,7 @@ Played play (graph::Graph g, double rate_hz, const std::string& record = {})
 {
     static host::FileAssets assets;
     g.rate_hz = rate_hz;
-    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
+    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
     if (! record.empty()) options.records = { record };
     const auto [plan, messages] = compile (g, catalogue(), options);
     INFO (test::text (messages));

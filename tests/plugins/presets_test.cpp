@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const fs::path folder = fs::path (TACTUS_SOURCE_DIR) / "graphs";
 std::vector<double> forcesOf (const graph::Graph& g, const Catalogue& types)
 {
     host::FileAssets assets;
-    auto [plan, messages] = compile (g, types, { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } });
+    auto [plan, messages] = compile (g, types, { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
     INFO (test::text (messages));
     REQUIRE (plan);
     std::vector<MadeDevice> devices;   // outlives the engine

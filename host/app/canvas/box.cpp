@@ -4,6 +4,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/read_number.hpp>
 
@@ -55,7 +56,7 @@ std::string valueText (const Json& value, const FacePort& port)
     };
     std::string text;
     for (const auto& part : value)
-        text += (text.empty() ? "" : ", ") + partText (part);
+        addToList (text, partText (part));
     return '(' + text + ')';
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sound_text.hpp"
 
+#include <tactus/text/list_text.hpp>
+
 #include <host/devices/sessions/audio_settings.hpp>
 
 #include <charconv>
@@ -64,7 +66,7 @@ std::string textOfChannels (const Json& list)
     if (! list.is_array()) return list.dump();
     std::string text;
     for (const auto& use : list)
-        text += (text.empty() ? "" : ", ") + textOfChannel (use);
+        addToList (text, textOfChannel (use));
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <tactus/text/list_text.hpp>
 
 namespace tactus::host::mixing
 {
@@ -10,10 +11,7 @@ std::string joined (std::vector<std::string> names)
 {
     while (! names.empty() && names.back().empty())
         names.pop_back();
-    std::string all;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        all += (i == 0 ? "" : ", ") + names[i];
-    return all;
+    return listText (names);
 }
 
 std::string namesWith (const graph::Node& mixer, int layers, const std::string& last)

@@ -4,17 +4,17 @@
 
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/devices/hid/physics.hpp>
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/sessions/binding.hpp>
 #include <host/devices/sessions/choose_clock.hpp>
 #include <host/devices/sessions/role_fits.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
 namespace tactus::host
 {
@@ -66,9 +66,7 @@ bool hasHand (const Json& description)
 std::string number (double v, std::string_view unit)
 {
     if (unit == "m" || unit == "N" || unit == "s") return withPrefix (v, std::string (unit));
-    char buffer[32];
-    std::snprintf (buffer, sizeof buffer, "%.3g", v);
-    return unit == "1" ? std::string (buffer) : std::string (buffer) + ' ' + std::string (unit);
+    return unit == "1" ? roundedText (v, 3) : roundedText (v, 3) + ' ' + std::string (unit);
 }
 
 std::string detailsOf (const check::Condition& c, const std::string& device, bool is_broken)
@@ -218,7 +216,7 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
 {
     const check::Subject subject { job.graph,
                                    catalogue,
-                                   { .rate_hz = job.rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } },
+                                   { .rate_hz = job.rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } },
                                    std::move (stop) };
     const auto compiled = compile (subject.graph, subject.catalogue, subject.options);
     if (hasErrors (compiled.messages) || ! compiled.plan) return {};

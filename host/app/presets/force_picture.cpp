@@ -3,8 +3,8 @@
 
 #include <host/app/text/filled.hpp>
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
@@ -72,7 +72,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return refuse (firstError (loaded.messages));
     FileAssets assets;
-    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
+    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
     auto compiled = compile (loaded.graph, catalogue, options);
     if (! compiled.plan) return refuse (firstError (compiled.messages));
     auto bodies = scene::bodiesOf (*compiled.plan);

@@ -3,9 +3,9 @@
 #include "device_setup.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/signals.hpp>
 #include <tactus/check/factors.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/guard/included_guards.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
@@ -226,7 +226,7 @@ LiveSession::Options LiveRun::sessionOptions()
         adopt (role, opened, in, messages);
     };
     to.devices.remedy.clear();   // a role without a device is usual while a graph is being built
-    to.compile = { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
+    to.compile = { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
     to.listeners = { &probes, &scene_feed, &port_feed, this };
     to.stops = stops;
     to.kept_limits = kept_limits;

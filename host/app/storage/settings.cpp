@@ -4,6 +4,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 
@@ -27,7 +28,7 @@ public:
     {
         const auto found = json.find (key);
         if (found == json.end()) return;
-        if (! ((*found).*is)() || ! use (*found)) wrong += (wrong.empty() ? "" : ", ") + std::string (key);
+        if (! ((*found).*is)() || ! use (*found)) addToList (wrong, key);
         json.erase (key);
     }
 

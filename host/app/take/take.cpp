@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "take.hpp"
 
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/private_folder.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/log/run_test.hpp>
 
 #include <chrono>
@@ -125,7 +125,7 @@ Result<graph::Graph> Take::open (const std::filesystem::path& log, bool copies)
 StretchReader::Options Take::optionsFor (StretchReader::Options options)
 {
     options.assets = &assets;
-    options.services.nearest_triangle = nearestByEmbree;
+    options.services.nearest_triangle = nearestByBoxes;
     options.program = program;
     return options;
 }

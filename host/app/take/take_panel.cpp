@@ -4,8 +4,8 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/scopes/scope_ports.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/files/stretch_files.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/read_number.hpp>
@@ -388,7 +388,7 @@ void TakePanel::saveAs (const std::shared_ptr<Take::Recording>& take, const std:
 void TakePanel::runTest (const std::filesystem::path& file)
 {
     FileAssets assets;
-    const auto played = playRunTest (file.string(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree }, .program = recording.program });
+    const auto played = playRunTest (file.string(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes }, .program = recording.program });
     if (! played) return refuse (played.error());
     const auto name = juce::String (printableName (file.filename().string()));
     if (onSaid)

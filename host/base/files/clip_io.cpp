@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 namespace tactus::host
@@ -29,9 +28,7 @@ constexpr double usual_rate_hz = 8000.0;
 std::string threeDigits (double v)
 {
     constexpr double rounding = 1e-9;
-    char text[32];
-    std::snprintf (text, sizeof text, "%.3g", v < rounding ? 0.0 : v);
-    return text;
+    return roundedText (v < rounding ? 0.0 : v, 3);
 }
 
 /// The rate of the recording that a clip came from, or the usual one.

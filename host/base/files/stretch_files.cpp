@@ -3,6 +3,7 @@
 
 #include <tactus/file/clips/clip_signal.hpp>
 #include <tactus/file/csv.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 
@@ -22,7 +23,7 @@ Clip clipOfStretch (const Stretch& stretch, Messages& notes)
     auto clip = readers::clipOfSignal (signal, notes);
     std::string names;
     for (const auto& name : stretch.names)
-        names += (names.empty() ? "" : ", ") + name;
+        addToList (names, name);
     clip.notes.emplace_back ("description", names);
     return clip;
 }

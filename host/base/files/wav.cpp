@@ -6,6 +6,7 @@
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
@@ -14,9 +15,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -30,13 +29,6 @@ constexpr std::size_t largest_frame_bytes = 480 * 3 * 4;
 constexpr std::size_t most_channels = largest_frame_bytes / sizeof (float);
 
 constexpr std::size_t frames_per_block = 1024;
-
-std::string rateInWords (double number)
-{
-    std::ostringstream text;
-    text << std::setprecision (12) << number;
-    return text.str();
-}
 
 bool isKnown (const juce::AudioFormatReader& reader)
 {
@@ -150,7 +142,7 @@ Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double s
     // The header stores the sample rate and the bytes per second as 32-bit integers.
     const auto highest = std::floor (std::numeric_limits<int>::max() / static_cast<double> (channels * sizeof (float)));
     if (! (sample_rate_hz >= 1.0 && sample_rate_hz <= highest) || std::floor (sample_rate_hz) != sample_rate_hz)
-        return Message::error ("wav/sample_rate", path.string(), "a WAV file cannot have a sample rate of " + rateInWords (sample_rate_hz) + " Hz",
+        return Message::error ("wav/sample_rate", path.string(), "a WAV file cannot have a sample rate of " + roundedText (sample_rate_hz, 12) + " Hz",
                                "choose a rate in whole Hz, or write a CSV");
 
     auto file = AtomicFile::create (path, if_killed);

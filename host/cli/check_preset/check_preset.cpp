@@ -9,9 +9,9 @@
 #include <host/cli/run_options.hpp>
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/rules/unheard.hpp>
 #include <tactus/run/asset_list.hpp>
@@ -82,7 +82,7 @@ bool checkPreset (const std::string& file, bool format)
 
     FileAssets files;
     AssetList assets { &files };
-    const check::Subject subject { loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } } };
+    const check::Subject subject { loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } } };
     auto messages = examineText (loaded, format ? writeGraph (loaded.graph) : *text, folder);
     const auto compiled = compile (subject.graph, subject.catalogue, subject.options);
     std::ranges::move (asErrors (compiled.messages), std::back_inserter (messages));

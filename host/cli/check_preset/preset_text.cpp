@@ -3,6 +3,7 @@
 
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/json_text.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -58,7 +59,7 @@ void examineLicence (const Json& ui, Messages& messages)
     if (licence != nullptr && licence->is_string() && std::ranges::count (licences, std::string_view (licence->asString())) > 0) return;
     std::string known;
     for (const auto id : licences)
-        known += (known.empty() ? "" : ", ") + std::string (id);
+        addToList (known, id);
     const auto given = licence == nullptr     ? std::string ("the preset does not say under which licence it is")
                        : licence->is_string() ? "a preset with the licence " + quote (licence->asString()) + " cannot be shared with Tactus"
                                               : std::string ("the licence is not a text");

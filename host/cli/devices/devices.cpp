@@ -15,6 +15,7 @@
 #include <host/devices/hid_link/serial_ports.hpp>
 #include <host/devices/hid_link/udev_rule.hpp>
 #include <tactus/text/json.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -156,7 +157,7 @@ std::string inARow (const Numbers& numbers)
 {
     std::string text;
     for (const auto n : numbers)
-        text += (text.empty() ? "" : ", ") + numberText (static_cast<double> (n));
+        addToList (text, numberText (static_cast<double> (n)));
     return text.empty() ? "unknown" : text;
 }
 
@@ -192,7 +193,7 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     const auto fitting = profilesFor (p, profiles.profiles);
     std::string ids;
     for (const auto& profile : fitting)
-        ids += (ids.empty() ? "" : ", ") + printableName (profile->id) + " (" + printableName (profile->name) + ")";
+        addToList (ids, printableName (profile->id) + " (" + printableName (profile->name) + ")");
     if (fitting.empty()) return text + "no profile names a serial line: docs/devices.md says how to write one\n";
     const auto device = "serial:" + (isOf (p, *fitting.front()) ? printableName (fitting.front()->id) : "PROFILE") + "@" + printableName (p.path);
     return text + "nothing on the line says which device it is. With a serial line: " + ids + "\n    to see and count its reports, without driving it: "

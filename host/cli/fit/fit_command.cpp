@@ -10,6 +10,7 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ std::pair<std::string, std::string> roleAndText (const std::string& option, cons
     for (const auto& column : info.columns)
     {
         if (equals != std::string::npos && given.substr (0, equals) == column.role) return { column.role, given.substr (equals + 1) };
-        roles += (roles.empty() ? "" : ", ") + column.role;
+        addToList (roles, column.role);
     }
     throw UsageError (option, quote (given) + " does not fit; write ROLE=… with one of the roles " + roles);
 }
@@ -141,7 +142,7 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
     {
         columns +=
             (columns.empty() ? "" : ", ") + column.role + (column.unit.empty() ? "" : " (" + column.unit + ")") + (column.required ? "" : " if recorded");
-        roles += (roles.empty() ? "" : ", ") + column.role;
+        addToList (roles, column.role);
     }
     made.command.addOption ("recording", options->recording, "CSV file with the columns " + columns + ", in order of time; or a WAV with the columns t and \"channel 1\", \"channel 2\" …").required();
     made.command.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();

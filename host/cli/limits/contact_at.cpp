@@ -6,6 +6,7 @@
 #include <tactus/check/measure.hpp>
 #include <tactus/check/sampled_loop.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -99,7 +100,7 @@ const check::SpringAndDamper& Contact::measured (double rate_hz, const std::vect
     for (std::size_t i = 0; i < params.size(); ++i)
     {
         changed.options.overrides.push_back ({ varied[i], Json (params[i]) });
-        where += (where.empty() ? "" : ", ") + varied[i] + "=" + numberText (params[i]);
+        addToList (where, varied[i] + "=" + numberText (params[i]));
     }
     for (const auto& message : compile (changed.graph, changed.catalogue, changed.options).messages)
         if (message.severity == Message::Severity::error)

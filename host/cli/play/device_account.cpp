@@ -2,6 +2,7 @@
 #include "device_account.hpp"
 
 #include <host/devices/hid_link/hid_device.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -32,7 +33,7 @@ std::string clockOf (const DeviceHealth& h)
         std::snprintf (text, sizeof text, "%.2f reports/s", *h.rate_hz);
         line = text;
     }
-    if (h.ticks) line += (line.empty() ? "" : ", ") + std::string ("which tick the run ") + (h.read_by_tick ? "directly" : "through a reading thread");
+    if (h.ticks) addToList (line, std::string ("which tick the run ") + (h.read_by_tick ? "directly" : "through a reading thread"));
     if (h.drift_ppm)
     {
         const auto* way = *h.drift_ppm < 0.0 ? "slower" : "faster";

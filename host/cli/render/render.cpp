@@ -3,7 +3,6 @@
 #include "plotter.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/signals.hpp>
 #include <host/cli/command_run.hpp>
 #include <host/cli/commands.hpp>
@@ -13,6 +12,7 @@
 #include <host/cli/report.hpp>
 #include <host/devices/audio/listening.hpp>
 #include <tactus/file/atomic_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/replay.hpp>
 
 #include <algorithm>
@@ -124,7 +124,7 @@ void replay (const RenderOptions& options)
     Replay::Options how { .records = options.records,
                           .overrides = readSets (options.sets),
                           .assets = &assets,
-                          .services = { .nearest_triangle = nearestByEmbree },
+                          .services = { .nearest_triangle = nearestByBoxes },
                           .duration_s = options.duration_s,
                           .program = TACTUS_VERSION };
     std::optional<LoadedGraph> own;

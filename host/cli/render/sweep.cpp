@@ -3,7 +3,6 @@
 #include "stroke.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/base/platform/signals.hpp>
 #include <host/cli/amount.hpp>
 #include <host/cli/commands.hpp>
@@ -15,6 +14,7 @@
 #include <host/devices/sessions/audio_settings.hpp>
 #include <host/tools/fitting/surface_preset.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -80,7 +80,7 @@ public:
                                  .records = options.picture.records(),
                                  .overrides = readSets (options.sets),
                                  .assets = &assets,
-                                 .services = { .nearest_triangle = nearestByEmbree } };
+                                 .services = { .nearest_triangle = nearestByBoxes } };
         Run run { catalogue(), std::move (compile), [&] (const std::string& role, const graph::Graph&, const Plan&, Messages&) {
                      return role == moved ? Run::RoleDevice { std::make_unique<StrokeDevice> (stroke) } : Run::RoleDevice {};
                  } };
@@ -155,8 +155,8 @@ void drawSpectra (const SweepOptions& options, const std::string& name, double l
     }
     options.picture.write (name + ": " + strokes.front().name(), { "speed", "m/s" }, spectra, strokes.front().unit());
     if (const double period = periodOf (spectra, length); period > 0.0)
-        std::cout << "the strongest frequency is the speed divided by " << shortNumber (1e3 * period) << " mm: " << shortNumber (speeds.front() / period)
-                  << " to " << shortNumber (speeds.back() / period) << " Hz\n";
+        std::cout << "the strongest frequency is the speed divided by " << roundedText (1e3 * period, 3) << " mm: " << roundedText (speeds.front() / period, 3)
+                  << " to " << roundedText (speeds.back() / period, 3) << " Hz\n";
 }
 
 /// Draws the force, or the quantity of the port, against position and speed.
@@ -208,7 +208,7 @@ void checkSlowest (double seconds, double rate_hz, int steps)
     constexpr double most_ticks = 1 << 18;
     const double ticks = seconds * rate_hz;
     if (! (ticks <= most_ticks))
-        throw UsageError ("--speed", "the slowest stroke would take " + shortNumber (seconds) + " s, which is " + std::to_string (std::llround (ticks))
+        throw UsageError ("--speed", "the slowest stroke would take " + roundedText (seconds, 3) + " s, which is " + std::to_string (std::llround (ticks))
                                          + " ticks; at most " + std::to_string (std::llround (most_ticks)) + " are analysed");
     if (const double numbers = ticks * steps; numbers > budgets().numbers)
         fail (overBudget ("sweep/too_long", &Budgets::numbers, "the strokes", numbers, "make fewer --steps, or faster or shorter strokes"));

@@ -118,13 +118,13 @@ std::string WiringWriter::result (const std::string& instruction)
 std::string WiringWriter::valueOf (const std::string& type, const std::string& function, const std::vector<std::string>& arguments)
 {
     declare (type, function, arguments);
-    return result ("call " + type + " @" + function + " (" + listed (arguments) + ")");
+    return result ("call " + type + " @" + function + " (" + listText (arguments) + ")");
 }
 
 void WiringWriter::run (const std::string& function, const std::vector<std::string>& arguments, const std::string& how)
 {
     declare ("void", function, arguments);
-    line ("call void @" + function + " (" + listed (arguments) + ")" + how);
+    line ("call void @" + function + " (" + listText (arguments) + ")" + how);
 }
 
 /// Calls a function of the bitcode of a node. It is inlined, however large it is, unless it would be repeated too often.
@@ -138,7 +138,7 @@ void WiringWriter::declare (const std::string& type, const std::string& function
     std::vector<std::string> types;
     for (const auto& a : arguments)
         types.push_back (typeOf (a));
-    declarations[function] = "declare " + type + " @" + function + " (" + listed (types) + ") nounwind\n";
+    declarations[function] = "declare " + type + " @" + function + " (" + listText (types) + ") nounwind\n";
 }
 
 /// Runs one of two blocks. The second one may be empty.

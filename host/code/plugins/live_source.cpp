@@ -2,6 +2,7 @@
 #include "live_source.hpp"
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -108,7 +109,7 @@ Result<std::string> sourceFor (const fs::path& header)
     std::istringstream lines (text.value_or (""));
     std::string types;
     for (std::string line; std::getline (lines, line);)
-        if (std::smatch parts; line.size() < 400 && std::regex_match (line, parts, node)) types += (types.empty() ? "" : ", ") + parts[1].str();
+        if (std::smatch parts; line.size() < 400 && std::regex_match (line, parts, node)) addToList (types, parts[1].str());
     if (types.empty())
         return Message::error ("live/no_node", header.string(), "the header has no line TACTUS_NODE (my::Node);", "end the header with the line");
     return "#include <tactus/plugin/node_plugin.hpp>\n#include \"" + header.string() + "\"\nTACTUS_PLUGIN (" + types + ")\n";

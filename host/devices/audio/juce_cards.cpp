@@ -2,6 +2,7 @@
 #include "card.hpp"
 #include "jack_messages.hpp"
 
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/object_reader.hpp>
@@ -151,7 +152,7 @@ std::string listOf (const Numbers& numbers)
 {
     std::string text;
     for (const auto n : numbers)
-        text += (text.empty() ? "" : ", ") + numberText (static_cast<double> (n));
+        addToList (text, numberText (static_cast<double> (n)));
     return text;
 }
 
@@ -164,7 +165,7 @@ std::string cardsThere (const std::vector<std::unique_ptr<Type>>& types)
         names.addArray (type->getDeviceNames (true));
         names.removeDuplicates (false);
         for (const auto& name : names)
-            text += (text.empty() ? "" : ", ") + textOf (type->getTypeName()) + ":" + textOf (name);
+            addToList (text, textOf (type->getTypeName()) + ":" + textOf (name));
     }
     return text.empty() ? "no sound card was found; plug one in, or start a JACK or PipeWire server" : "available: " + text;
 }

@@ -9,6 +9,7 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/json_text.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
@@ -146,7 +147,7 @@ std::vector<Alarm> readAlarms (ProfileFields& profile)
         {
             const auto fault = static_cast<ReadingFault> (i);
             if (! isAlarm (fault)) continue;
-            known += (known.empty() ? "" : ", ") + std::string (reading_faults[i].id);
+            addToList (known, reading_faults[i].id);
             if (means != reading_faults[i].id) continue;
             alarm.means = fault;
             is_known = true;

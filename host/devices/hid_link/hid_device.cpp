@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hid_device.hpp"
 
+#include <tactus/text/list_text.hpp>
+
 #include <host/devices/hid/physics.hpp>
 
 #include <algorithm>
@@ -24,7 +26,7 @@ std::string describe (const ReadingCounts& read, const PortCounts& port)
                 + number (std::accumulate (read.refused.begin(), read.refused.end(), std::uint64_t { 0 })) + " refused";
     std::string reasons;
     for (std::size_t i = 0; i < read.refused.size(); ++i)
-        if (read.refused[i] > 0) reasons += (reasons.empty() ? "" : ", ") + number (read.refused[i]) + " " + std::string (describe (static_cast<Refusal> (i)));
+        if (read.refused[i] > 0) addToList (reasons, number (read.refused[i]) + " " + std::string (describe (static_cast<Refusal> (i))));
     if (! reasons.empty()) text += " (" + reasons + ")";
     if (read.restarts > 0) text += ", " + number (read.restarts) + " out of order";
     if (read.skipped > 0) text += ", " + number (read.skipped) + " skipped for newer ones";

@@ -7,6 +7,7 @@
 #include "wires.hpp"
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/object_reader.hpp>
 
@@ -114,8 +115,7 @@ std::string namesOf (const std::vector<ConnectedDevice>& devices)
 {
     std::string names;
     for (const auto& d : devices)
-        names += (names.empty() ? "" : ", ") + (d.product.empty() ? "a device without a name" : d.product)
-                 + (d.serial.empty() ? "" : " (serial " + d.serial + ")") + " at " + d.path;
+        addToList (names, (d.product.empty() ? "a device without a name" : d.product) + (d.serial.empty() ? "" : " (serial " + d.serial + ")") + " at " + d.path);
     return names;
 }
 

@@ -3,6 +3,7 @@
 #include <host/base/platform/device_file.hpp>
 #include <host/base/platform/preset_folder.hpp>
 #include <host/devices/hid/profile_difference.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -72,7 +73,7 @@ std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<cons
     {
         if (other->id == own->replaces || ! canFitOneDevice (*own, *other)) continue;
         limited.limits = tightest (limited.limits, other->limits);
-        others += (others.empty() ? "" : ", ") + quote (other->id);
+        addToList (others, quote (other->id));
     }
     return others.empty() ? own : std::make_shared<const Profile> (std::move (limited));
 }

@@ -7,6 +7,7 @@
 #include <host/devices/sessions/audio_settings.hpp>
 #include <tactus/node/device_parts.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -186,7 +187,7 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
 std::string describe (const DeviceParts& p)
 {
     std::string text;
-    const auto say = [&] (const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+    const auto say = [&] (const std::string& what) { addToList (text, what); };
     const auto named = [&] (const char* kind, const std::vector<std::string>& names) {
         for (const auto& n : names)
             if (! n.empty()) say (std::string (kind) + " " + quote (n));

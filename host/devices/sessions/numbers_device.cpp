@@ -5,6 +5,7 @@
 #include <host/devices/hid/physics.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/run/device/guard_limits.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 
 namespace tactus::host
@@ -13,7 +14,7 @@ std::string guessesOf (const DeviceNumbers& numbers)
 {
     std::string all;
     for (const auto& row : deviceNumberRows())
-        if (const auto& number = numbers.*row.member; number && number->guess) all += (all.empty() ? "" : ", ") + std::string (row.id);
+        if (const auto& number = numbers.*row.member; number && number->guess) addToList (all, row.id);
     return all;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "axis.hpp"
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -89,9 +91,7 @@ std::string withTrueMinus (std::string text)
 
 std::string inWords (double number)
 {
-    std::array<char, 64> text;
-    const auto end = std::to_chars (text.data(), text.data() + text.size(), number, std::chars_format::general, 12).ptr;
-    return withTrueMinus ({ text.data(), end });
+    return withTrueMinus (roundedText (number, 12));
 }
 
 double magnitude (const Extent& extent) noexcept

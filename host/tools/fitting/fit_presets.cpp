@@ -130,8 +130,8 @@ graph::Graph frictionPreset (const FrictionFit& fit, const std::string& load_sou
                { "adhesion", names[static_cast<std::size_t> (fit.adhesion)] },
                { "reference_load", tidy (fit.reference_load, 4) } };
     if (fit.adhesion == BristleAdhesion::dupont) params["break_away"] = tidy (fit.break_away, 4);
-    graph.about = "Friction fitted to a recording: it slides at " + shortNumber (fit.mu) + " times the load. The contact stretches "
-                  + shortNumber (1e3 * fit.d_max) + " mm before it slides at a load of " + shortNumber (fit.reference_load) + " N.";
+    graph.about = "Friction fitted to a recording: it slides at " + roundedText (fit.mu, 3) + " times the load. The contact stretches "
+                  + roundedText (1e3 * fit.d_max, 3) + " mm before it slides at a load of " + roundedText (fit.reference_load, 3) + " N.";
     setSources (graph, { { "drag.mu", source },
                          { "drag.d_max", source },
                          { "drag.adhesion", source },
@@ -180,7 +180,7 @@ graph::Graph texturePreset (const TextureFit& fit, double mass, const std::strin
     nodeIn (graph, "grain").settings["models"] = models;
     graph.about = "A texture fitted to recorded vibrations, at " + std::to_string (fit.models.size())
                   + (fit.models.size() == 1 ? " speed and force." : " combinations of speed and force.");
-    setSources (graph, { { "grain.models", source + "; force is acceleration times " + shortNumber (1e3 * mass) + " g, " + mass_source },
+    setSources (graph, { { "grain.models", source + "; force is acceleration times " + roundedText (1e3 * mass, 3) + " g, " + mass_source },
                          { "drag.mu", "guess: not fitted" },
                          { "board.stiffness", board_guess } });
     return graph;
@@ -208,10 +208,10 @@ graph::Graph gratingPreset (const GratingFit& fit, double load, const std::strin
             { "phase", tidy (math::remainder (h.phase - 0.5 * std::numbers::pi, 2.0 * std::numbers::pi)) }
         };
     }
-    graph.about = "Ridges fitted to a scanned profile, one every " + shortNumber (1e3 * fit.period) + " mm, as felt by a tool that presses with "
-                  + shortNumber (load) + " N.";
+    graph.about = "Ridges fitted to a scanned profile, one every " + roundedText (1e3 * fit.period, 3) + " mm, as felt by a tool that presses with "
+                  + roundedText (load, 3) + " N.";
     setSources (graph, { { "ridges1.spatial_frequency", source },
-                         { "ridges1.amplitude", "slope of the fitted height times a load of " + shortNumber (load) + " N, without friction" },
+                         { "ridges1.amplitude", "slope of the fitted height times a load of " + roundedText (load, 3) + " N, without friction" },
                          { "board.stiffness", board_guess } });
     return graph;
 }
@@ -226,11 +226,11 @@ graph::Graph bladePreset (const BladeFit& fit, const std::string& source)
     node.settings["law"] = toJson (fit.law);
     if (fit.cracked_law) node.settings["cracked_law"] = toJson (fit.cracked_law);
     graph.about =
-        "A fitted cut: the sample bursts at " + shortNumber (fit.rupture_force) + " N and is cut at " + shortNumber (fit.toughness * fit.width) + " N.";
+        "A fitted cut: the sample bursts at " + roundedText (fit.rupture_force, 3) + " N and is cut at " + roundedText (fit.toughness * fit.width, 3) + " N.";
     if (! fit.bursts)
         graph.about = "The start of a recorded cut. The recording ended before the sample burst, so the forces of bursting and cutting are guesses.";
     setSources (graph, { { "blade.law", source },
-                         { "blade.toughness", fit.bursts ? source + ", for a width of " + shortNumber (1e3 * fit.width) + " mm" : "guess" },
+                         { "blade.toughness", fit.bursts ? source + ", for a width of " + roundedText (1e3 * fit.width, 3) + " mm" : "guess" },
                          { "blade.rupture_force", fit.bursts ? source : "guess" } });
     return graph;
 }
@@ -239,7 +239,7 @@ graph::Graph shockPreset (const ShockFit& fit, const std::string& source)
 {
     auto graph = graphOf (shockSketch());
     graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: " + energyText (fit.recorded_area) + " at "
-                  + shortNumber (fit.speed) + " m/s.";
+                  + roundedText (fit.speed, 3) + " m/s.";
     auto& blow = nodeIn (graph, "blow");
     blow.params["mass"] = tidy (fit.mass);
     blow.settings["stiffness"] = toJson (fit.stiffness);

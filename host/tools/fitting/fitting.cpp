@@ -5,6 +5,7 @@
 #include "surface_preset.hpp"
 
 #include <tactus/fit/curve_fit.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ Result<FittedGraph> friction (const Columns& c, const std::string& file, const F
     FittedGraph made { .kind = FitKind::friction, .preset = frictionPreset (*fit, load, sourceOf (FitKind::friction, file, fit->report)), .nodes = { "drag" } };
     constexpr const char* functions[] { "stick", "dupont", "ramp", "dahl", "curve" };
     made.details.push_back (std::string ("adhesion  ") + functions[static_cast<std::size_t> (fit->adhesion)] + ", d_max at a load of "
-                            + shortNumber (fit->reference_load) + " N");
+                            + roundedText (fit->reference_load, 3) + " N");
     made.report = std::move (fit->report);
     return made;
 }
@@ -79,7 +80,7 @@ Result<FittedGraph> modes (const Columns& c, const std::string& file, const FitS
         largest = std::max (largest, tone.amplitude);
     const bool is_known = s.speed > 0.0 && s.mass > 0.0;
     const double scale = is_known ? s.mass / s.speed : 2.0 / largest;
-    const auto how = is_known ? "recorded, in m/s2, times " + shortNumber (1e3 * s.mass) + " g, for a blow of " + shortNumber (s.speed) + " m/s"
+    const auto how = is_known ? "recorded, in m/s2, times " + roundedText (1e3 * s.mass, 3) + " g, for a blow of " + roundedText (s.speed, 3) + " m/s"
                               : std::string ("only their ratios are fitted; the largest is a guess");
     FittedGraph made { .kind = FitKind::modes, .preset = modesPreset (*fit, scale, how, sourceOf (FitKind::modes, file, fit->report)), .nodes = { "ring" } };
     made.report = std::move (fit->report);
@@ -95,18 +96,18 @@ Result<FittedGraph> texture (const Columns& c, const std::string& file, const Fi
     auto fit = fitTexture (recorded, course);
     if (! fit) return fit.error();
     std::string from = s.mass > 0.0 ? "the given mass" : "a guess of the mass of the tip";
-    if (recorded.speed.empty()) from += "; speed: " + shortNumber (recorded.assumed_speed) + (s.speed > 0.0 ? " m/s, as given" : " m/s, a guess");
-    if (recorded.force.empty()) from += "; normal force: " + shortNumber (recorded.assumed_force) + (s.force > 0.0 ? " N, as given" : " N, a guess");
+    if (recorded.speed.empty()) from += "; speed: " + roundedText (recorded.assumed_speed, 3) + (s.speed > 0.0 ? " m/s, as given" : " m/s, a guess");
+    if (recorded.force.empty()) from += "; normal force: " + roundedText (recorded.assumed_force, 3) + (s.force > 0.0 ? " N, as given" : " N, a guess");
     FittedGraph made { .kind = FitKind::texture,
                        .preset = texturePreset (*fit, orElse (s.mass, 0.01), from, sourceOf (FitKind::texture, file, fit->report)),
                        .nodes = { "grain" } };
     for (std::size_t i = 0; i < fit->models.size(); ++i)
-        made.details.push_back ("model " + std::to_string (i + 1) + "   " + shortNumber (fit->models[i].speed) + " m/s, " + shortNumber (fit->models[i].force)
-                                + " N, " + std::to_string (fit->models[i].rows) + " rows at " + shortNumber (fit->rate) + " Hz");
+        made.details.push_back ("model " + std::to_string (i + 1) + "   " + roundedText (fit->models[i].speed, 3) + " m/s, " + roundedText (fit->models[i].force, 3)
+                                + " N, " + std::to_string (fit->models[i].rows) + " rows at " + roundedText (fit->rate, 3) + " Hz");
     made.report = std::move (fit->report);
     if (fit->rate > made.preset.rate_hz)
-        made.report.notes.push_back ("the preset runs at " + shortNumber (1e-3 * made.preset.rate_hz) + " kHz, so it lacks frequencies above "
-                                     + shortNumber (0.5e-3 * made.preset.rate_hz) + " kHz");
+        made.report.notes.push_back ("the preset runs at " + roundedText (1e-3 * made.preset.rate_hz, 3) + " kHz, so it lacks frequencies above "
+                                     + roundedText (0.5e-3 * made.preset.rate_hz, 3) + " kHz");
     return made;
 }
 
@@ -129,7 +130,7 @@ Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitS
     if (! fit) return fit.error();
     FittedGraph made { .kind = FitKind::blade, .preset = bladePreset (*fit, sourceOf (FitKind::blade, file, fit->report)), .nodes = { "blade" } };
     made.snippets.push_back ("law       " + toJson (fit->law).dump() + (fit->cracked_law ? ", with a crack " + toJson (fit->cracked_law).dump() : ""));
-    made.details.push_back ("width     " + shortNumber (1e3 * fit->width) + " mm"
+    made.details.push_back ("width     " + roundedText (1e3 * fit->width, 3) + " mm"
                             + (s.width > 0.0 ? "" : ", a guess: toughness is the force of cutting divided by it"));
     made.report = std::move (fit->report);
     return made;
@@ -150,7 +151,7 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
                                 + " of the work on the way in; the curve is the mean of both ways and loses nothing");
     if (fit->clicks())
         made.warnings.push_back (Message::warning (
-            "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",
+            "fit/falls", file, "the recorded force falls by up to " + roundedText (fit->drop, 3) + " N as the depth grows; the curve is flat there",
             "for a key that clicks, use tactus fit switch; for a sample that bursts, use tactus fit blade"));
     const auto curves = curvesOf (body);
     made.snippets.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
@@ -190,7 +191,7 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
     }
     FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
     made.snippets = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump() };
-    made.details = { "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
+    made.details = { "mass       " + roundedText (fit->mass, 3) + " kg, at " + roundedText (fit->speed, 3) + " m/s",
                      "area       " + energyText (fit->recorded_area, 6) + " recorded, " + energyText (fit->fitted_area, 6) + " fitted, "
                          + energyText (fit->played_area, 6) + " when the shock is played at this speed" };
     if (! is_free) made.warnings.push_back (not_free);

@@ -4,6 +4,8 @@
 #include "surface_preset.hpp"
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/list_text.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -172,7 +174,7 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
     {
         std::string columns;
         for (const auto& column : table.columns)
-            columns += (columns.empty() ? "" : ", ") + column;
+            addToList (columns, column);
         return Message::error ("fit/column", file,
                                "there is no column " + quote (is_named ? chosen->second : wanted.role) + "; there are " + columns,
                                "name the column " + quote (wanted.role) + " (" + wanted.about + "), or say which one it is: --column " + wanted.role + "=NAME");
@@ -197,7 +199,7 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
         const auto value = table.at (r, *found), scaled = factor * value;
         if (std::isfinite (value) && ! (std::abs (scaled) <= largest))
             return Message::error ("fit/range", file,
-                                   "row " + std::to_string (r + 1) + " of the column " + quote (name) + " is " + shortNumber (value)
+                                   "row " + std::to_string (r + 1) + " of the column " + quote (name) + " is " + roundedText (value, 3)
                                        + ", which no sensor measures",
                                    "correct the row, or check the unit of the column");
         values.push_back (scaled);

@@ -3,6 +3,7 @@
 #include "surface_preset.hpp"
 
 #include <tactus/text/json.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ Prefix prefixFor (double value, const std::string& unit)
 std::string fixedText (double v, double wide)
 {
     if (! std::isfinite (v)) return "unknown";
-    if (! (wide > 0.0) || ! std::isfinite (wide) || std::abs (v) >= 1e7) return shortNumber (v, 4);
+    if (! (wide > 0.0) || ! std::isfinite (wide) || std::abs (v) >= 1e7) return roundedText (v, 4);
     const auto twoDigitsOf = [] (double number) { return 1 - static_cast<int> (std::floor (std::log10 (number))); };
     const int decimals = std::min (9, twoDigitsOf (wide));
     std::ostringstream out;
@@ -58,7 +59,7 @@ std::string energyText (double joules, int digits)
     constexpr double least = 1e-12;
     const double shown = std::abs (joules) < least ? 0.0 : joules;
     const auto prefix = prefixFor (shown, "J");
-    return shortNumber (prefix.factor * shown, digits) + " " + prefix.text + "J";
+    return roundedText (prefix.factor * shown, digits) + " " + prefix.text + "J";
 }
 
 std::string textOf (const FitValue& v)
@@ -85,8 +86,8 @@ std::string textOf (const FitReport& report)
     std::string text;
     for (const auto& v : report.values)
         text += line (v.name, textOf (v));
-    text += line ("residual", shortNumber (report.residual) + unit + " rms, " + percentText (report.residual / report.size) + " of the recording; "
-                                  + shortNumber (report.left_out_residual) + unit + " on a part that was left out");
+    text += line ("residual", roundedText (report.residual, 3) + unit + " rms, " + percentText (report.residual / report.size) + " of the recording; "
+                                  + roundedText (report.left_out_residual, 3) + unit + " on a part that was left out");
     text += line ("verdict", verdictOf (report));
     for (const auto& lack : report.lacking)
         text += "    - " + lack + "\n";

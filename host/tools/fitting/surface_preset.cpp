@@ -3,10 +3,9 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/half_space.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/read_number.hpp>
 
-#include <iomanip>
-#include <sstream>
 #include <vector>
 
 namespace tactus::host
@@ -41,7 +40,7 @@ constexpr const char* pressed_preset = R"({
 })";
 }   // namespace
 
-double tidy (double value, int digits) { return readNumber (shortNumber (value, digits)).value; }
+double tidy (double value, int digits) { return readNumber (roundedText (value, digits)).value; }
 
 Json toJson (const Law& law)
 {
@@ -84,15 +83,8 @@ graph::Graph surfacePreset (const UniformBody& body, const std::string& name, co
     for (auto& node : graph.root.nodes)
         if (node.name == "body") node.settings["surface"].update (curvesOf (body));
     graph.extra["ui"]["sources"] = { { "body.curves.z", source },
-                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + shortNumber (body.mu) + " at every depth: guess" } };
+                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + roundedText (body.mu, 3) + " at every depth: guess" } };
     return graph;
-}
-
-std::string shortNumber (double value, int digits)
-{
-    std::ostringstream out;
-    out << std::setprecision (digits) << value;
-    return out.str();
 }
 
 }   // namespace tactus::host

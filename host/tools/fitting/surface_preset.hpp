@@ -27,9 +27,6 @@ Json curvesOf (const UniformBody&);
 /// A graph in which a finger presses and strokes a square pad of this body. `source` says where its curve comes from. [main thread]
 graph::Graph surfacePreset (const UniformBody&, const std::string& name, const std::string& about, const std::string& source);
 
-/// The number with this many significant digits.
-std::string shortNumber (double value, int digits = 3);
-
 /// "2.48 mJ"; less than a picojoule is 0.
 std::string energyText (double joules, int digits = 3);
 

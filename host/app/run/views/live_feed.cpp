@@ -10,6 +10,7 @@
 #include <host/app/text/filled.hpp>
 #include <host/tools/figures/axis.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -217,7 +218,7 @@ void LiveFeed::showDriven (LiveState& live)
         const bool is_vector = reading.values.size() > 1;
         std::string text;
         for (const double v : reading.values)
-            text += (text.empty() ? "" : ", ") + shownQuantity (rounded (v), is_vector ? "1" : reading.unit);   // as in the inspector
+            addToList (text, shownQuantity (rounded (v), is_vector ? "1" : reading.unit));   // as in the inspector
         live.driven[{ node->id, param.substr (dot + 1) }] = is_vector ? '(' + text + ')' : text;
     }
 }

@@ -31,7 +31,7 @@ std::string rangeOf (const ExportedParameter& p)
         std::vector<std::string> all;
         for (std::size_t i = 0; i < s.choices.size(); ++i)
             all.push_back (std::to_string (i) + " " + std::string (s.choices[i]));
-        return listed (all);
+        return listText (all);
     }
     const auto unit = s.unit.kind == UnitRule::Kind::fixed && ! s.unit.unit.symbol.empty() ? std::string (s.unit.unit.symbol) + "; " : std::string {};
     return unit + std::string (s.about);
@@ -93,7 +93,7 @@ std::string limitsOf (const GuardLimits& l)
     for (const auto& [key, limit] : guard_fields)
         if (l.*limit != none.*limit) all.push_back ("." + std::string (key) + " = " + literal (l.*limit));
     if (l.dead_man_buttons != 0) all.push_back ("." + std::string (dead_man_buttons) + " = " + std::to_string (l.dead_man_buttons) + "u");
-    return all.empty() ? "{}" : "{ " + listed (all) + " }";
+    return all.empty() ? "{}" : "{ " + listText (all) + " }";
 }
 
 std::string layoutOf (const DeviceLayout& l)
@@ -103,7 +103,7 @@ std::string layoutOf (const DeviceLayout& l)
         std::vector<std::string> quotes;
         for (const auto& n : names)
             quotes.push_back (textLiteral (n));
-        if (! names.empty()) all.push_back ("." + std::string (name) + " = { " + listed (quotes) + " }");
+        if (! names.empty()) all.push_back ("." + std::string (name) + " = { " + listText (quotes) + " }");
     };
     add ("axes", l.axes);
     add ("efforts", l.efforts);
@@ -113,7 +113,7 @@ std::string layoutOf (const DeviceLayout& l)
     if (l.mechanics != DeviceMechanics {})
         all.push_back (".mechanics = { .mass = " + literal (l.mechanics.mass) + ", .damping = " + literal (l.mechanics.damping) + " }");
     if (l.brake != 0.0) all.push_back (".brake = " + literal (l.brake));
-    return all.empty() ? "{}" : "{ " + listed (all) + " }";
+    return all.empty() ? "{}" : "{ " + listText (all) + " }";
 }
 
 std::string functions (const Exported& e)
@@ -362,7 +362,7 @@ std::string tick (const Exported& e, const std::string& body)
         std::vector<std::string> sinks;
         for (const auto& sink : e.wiring.plan.roles()[i].sinks)
             sinks.push_back (e.wiring.nodeOf (sink.node)->name + ".effort()");
-        const auto effort = sinks.empty() ? "{}" : "tactus::exported::total<" + std::to_string (sinks.size()) + "> ({ " + listed (sinks) + " })";
+        const auto effort = sinks.empty() ? "{}" : "tactus::exported::total<" + std::to_string (sinks.size()) + "> ({ " + listText (sinks) + " })";
         text += "    out." + e.wiring.role_ports[i] + " = " + e.wiring.role_names[i] + ".write (" + effort + ", lost_s);\n";
     }
     if (! e.roles.empty()) text += "    lost_s = 0.0;\n";

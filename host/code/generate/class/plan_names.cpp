@@ -250,7 +250,7 @@ std::string PlanNames::valueAt (const double* const* three, const std::string& t
         valueAt (three[0]);
         return outputsOf (nodes[by_instance.at (output->instance)]) + "." + std::string (output->sheet->id);
     }
-    return type + (type.empty() ? "{ " : " { ") + listed ({ valueAt (three[0]), valueAt (three[1]), valueAt (three[2]) }) + " }";
+    return type + (type.empty() ? "{ " : " { ") + listText ({ valueAt (three[0]), valueAt (three[1]), valueAt (three[2]) }) + " }";
 }
 
 std::string PlanNames::target (const double* value, const std::string& type) const

@@ -10,7 +10,7 @@ namespace
 {
 using SettingKind = SettingSheet::Kind;
 
-std::string braced (const std::vector<std::string>& parts) { return parts.empty() ? "{}" : "{ " + listed (parts) + " }"; }
+std::string braced (const std::vector<std::string>& parts) { return parts.empty() ? "{}" : "{ " + listText (parts) + " }"; }
 
 const std::string groups = "tactus::exported::groupsOver";
 constexpr const char* vector_of_numbers = "tactus::exported::Vector<double>";
@@ -35,7 +35,7 @@ std::string SettingCode::of (const SettingSheet& sheet, const SettingValue& valu
     case SettingKind::vector:
     {
         const auto& v = std::get<Vec3> (value);
-        return "tactus::Vec3 { " + listed ({ literal (v.x()), literal (v.y()), literal (v.z()) }) + " }";
+        return "tactus::Vec3 { " + listText ({ literal (v.x()), literal (v.y()), literal (v.z()) }) + " }";
     }
     case SettingKind::numbers:
         return numbers (std::get<std::vector<double>> (value), name);

@@ -53,7 +53,7 @@ void TickCode::bypass (const plan::Bypass& b, const Record& r)
         for (const auto slot : copy.slots)
             all.push_back (read (r.sources[slot]));
         const auto value = all.size() == 1 ? all.front() : all.empty() ? "0.0"
-                                                                       : "sumOf (" + listed (all) + ")";
+                                                                       : "sumOf (" + listText (all) + ")";
         line (wiring.target (copy.to) + " = " + value + ";   // bypassed");
     }
 }

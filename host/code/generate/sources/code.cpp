@@ -93,14 +93,6 @@ std::string className (std::string_view name)
     return all;
 }
 
-std::string listed (const std::vector<std::string>& parts, std::string_view between)
-{
-    std::string all;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        all.append (i > 0 ? between : "").append (parts[i]);
-    return all;
-}
-
 std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string>> members)
 {
     std::ranges::sort (members);
@@ -114,7 +106,7 @@ std::string wrapped (std::string_view indent, const std::string& head, const std
 {
     constexpr std::size_t most_columns = 130;
     auto all = std::string (indent) + head;
-    if (const auto one = listed (parts); all.size() + one.size() + end.size() + 2 <= most_columns)
+    if (const auto one = listText (parts); all.size() + one.size() + end.size() + 2 <= most_columns)
         return all.append (parts.empty() ? "" : " " + one + " ").append (end) + "\n";
     for (std::size_t i = 0; i < parts.size(); ++i)
         all.append (i > 0 ? ",\n" : "\n").append (indent).append ("    ").append (parts[i]);

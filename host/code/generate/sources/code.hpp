@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/text/list_text.hpp>
+
 /// Pieces of C++ text.
 
 #include <cstddef>
@@ -27,9 +29,6 @@ std::string identifier (std::string_view);
 
 /// "DryWood" for "dry_wood".
 std::string className (std::string_view identifier);
-
-/// "a, b, c"
-std::string listed (const std::vector<std::string>&, std::string_view between = ", ");
 
 /// Members of a struct, which come with their offsets, in the order in which an initializer lists them.
 std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string>> members);

@@ -3,6 +3,7 @@
 #include "code.hpp"
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -178,7 +179,7 @@ Result<> PluginSources::add (const NodeType& type)
     std::string looked, why;
     for (const auto& folder : headerFoldersOf (type.origin))
     {
-        looked += (looked.empty() ? "" : ", ") + quotePath (folder.string());
+        addToList (looked, quotePath (folder.string()));
         const auto found = nodeIn (folder, id, why);
         if (! found) continue;
         const auto into = "plugins/" + identifier (fs::path (type.origin).stem().string()) + "/", name = found->header.filename().string();

@@ -219,7 +219,7 @@ std::string oneOf (const std::vector<std::string>& all)
     std::vector<std::string> quoted;
     for (const auto& name : all)
         quoted.push_back (Json (name).dump());
-    return quoted.empty() ? "never" : listed (quoted, " | ");
+    return quoted.empty() ? "never" : listText (quoted, " | ");
 }
 
 std::string types (const Exported& e)

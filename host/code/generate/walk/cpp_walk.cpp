@@ -25,7 +25,7 @@ CppWalk::Text CppWalk::sumOf (const plan::Sum& sum)
     Texts terms;
     for (const auto& term : sum.terms)
         terms.push_back ((term.gain == 1.0 ? "" : literal (term.gain) + " * ") + read (term.from));
-    return "sumOf (" + listed (terms) + ")";
+    return "sumOf (" + listText (terms) + ")";
 }
 
 /// An array port gets its values and their addresses as arrays.
@@ -88,7 +88,7 @@ CppWalk::Text CppWalk::stored (const PlanNode& n, const plan::DrivenNode& d)
     for (const auto& one : d.drives)
         statements.push_back (store (n, d, one));
     line ("auto " + name + " = " + self (n) + ".params;");
-    line (listed (statements, " "));
+    line (listText (statements, " "));
     return name;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consistency.hpp"
 
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include <algorithm>
 #include <map>
@@ -75,7 +75,7 @@ std::string disagreement (MainView& view)
 std::string disagreementWithCompile (MainView& view, FileAssets& assets)
 {
     const auto& graph = view.document().graph();
-    const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
     const auto expected = errorsOf (compiled.messages), reported = errorsOf (view.run().messages());
     const auto key = [](const auto& e) -> const auto& { return e.first; };   // clang 14 does not compile std::views::keys
     if (std::ranges::equal (expected, reported, {}, key, key)) return {};

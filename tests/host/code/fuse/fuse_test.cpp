@@ -5,12 +5,12 @@
 #include "fused_plans.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/code/fuse/bitcode.hpp>
 #include <support/interpreter.hpp>
 #include <support/random_graph.hpp>
 #include <support/sketch.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 
@@ -141,8 +141,8 @@ std::unique_ptr<Twins> randomTwins (unsigned seed, bool records_all)
     return std::make_unique<Twins> (graph, options, test::randomHands (seed));
 }
 
-/// Contacts that run as lanes. Their gains lie side by side, as lanes do, but are two outputs of one node. Fused code keeps these in registers
-/// unless something else reads them.
+/// Contacts as instances of a subgraph. Their gains are two outputs of one node, which fused code keeps in registers unless something else reads
+/// them.
 std::unique_ptr<Twins> contactTwins()
 {
     test::Sketch s;
@@ -178,7 +178,7 @@ public:
             auto made = makeDevice (*graph.device (role), folder);
             return { std::move (made.device), made.limits };
         };
-        const CompileOptions options { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
+        const CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
         return *all.emplace_back (std::make_unique<Twins> (loadGraph (folder / (name + ".json")).graph, options, open));
     }
 
@@ -224,10 +224,6 @@ TEST_CASE ("fused code gives the bits of the plan while they take turns and para
         all.emplace_back ("random graph " + std::to_string (seed), random.back().get());
     }
     const auto contacts = contactTwins();
-    std::size_t in_lanes = 0;
-    for (std::size_t i = 0; i < contacts->plan().instances().size(); ++i)
-        in_lanes += contacts->plan().instances()[i].lanes != nullptr;
-    REQUIRE ((in_lanes > 0) == (usualLanes() > 1));
     all.emplace_back ("contacts", contacts.get());
     PresetTwins presets;
     for (const auto* name : { "dry_wood", "vibraphone_bar" })

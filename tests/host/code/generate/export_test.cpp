@@ -76,7 +76,7 @@ void checkMemory (const std::string& said, const std::string& stem, const std::s
     CHECK (std::max<std::size_t> (bytesIn (readme, "`" + class_name + "::Outputs`"), 1) == outputs);
 }
 
-/// Two contacts that the plan of a run computes together, as lanes.
+/// Two contacts, as instances of a subgraph.
 host::ExportedFolder exportedContacts()
 {
     test::Sketch s;

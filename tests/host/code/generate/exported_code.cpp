@@ -2,11 +2,11 @@
 #include "exported_code.hpp"
 
 #include <host/base/assets/file_assets.hpp>
-#include <host/base/assets/nearest_by_embree.hpp>
 #include <host/code/generate/sources/code.hpp>
 #include <support/interpreter.hpp>
 #include <support/random_graph.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,7 @@ host::ExportedFolder exportedPreset (const std::string& name, bool is_single)
     return host::exportGraph (loaded.graph,
                               { .file = file.filename().string(),
                                 .program = "tactus",
-                                .compile = { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } },
+                                .compile = { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } },
                                 .is_single = is_single,
                                 .open = {} });
 }
