@@ -66,13 +66,8 @@ double periodOf (const Profile& profile, const std::string& effort)
 
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
     : link (std::move (port)), values (link->profile()), longest_pause (std::chrono::nanoseconds (link->watchdog()).count()),
-      expected_rate (values.hasSequence() || sendsOnlyChanges (values.profile()) || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
+      judge (values)
 {
-    const auto places = placingReports (values.profile());
-    if (std::ranges::all_of (places, [] (const auto* report) { return report->id.has_value(); }))
-        for (const auto* report : places)
-            heard.push_back ({ .id = *report->id });
-    if (heard.empty()) heard.emplace_back();
     std::size_t channel = 0;
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (const auto& stream = values.profile().outputs[i].stream)
@@ -93,8 +88,7 @@ void HidDevice::prepare (double dt_s)
         s.feed.prepare (dt);
     for (auto& m : motors)
         m.tracker.prepare (dt, m.hold);
-    for (auto& each : heard)
-        each = { .id = each.id };
+    judge.prepare();
     has_to_rest = true;
     driven_for = 0.0;
     written = 0;
@@ -102,125 +96,31 @@ void HidDevice::prepare (double dt_s)
 
 void HidDevice::take (const ArrivedReport& report) noexcept
 {
-    if (report.connection != connection)
-    {
-        values.reset();   // the device's clocks and counters start again
-        if (connection != 0) owed = 0;
-        connection = report.connection;
-        has_one = false;
-        record = {};
-        restarted = false;
-        arrived_last = 0;
-    }
-
-    const auto before = values.counts();
-    const auto refusal = values.decode (report.bytes).refusal;
-    const auto& after = values.counts();
-    const auto gap = after.lost - before.lost, without_room = std::min (gap, owed);
-    owed -= without_room;
-    tally.lost += gap - without_room;
-    tally.restarts += after.restarts - before.restarts;
-
-    if (refusal != Refusal::none)
-    {
-        ++tally.refused[static_cast<std::size_t> (refusal)];
-        refused = refused || refusal != Refusal::unknown_id;
-        return;
-    }
-    ++tally.taken;
-    refused = false;
-    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
-    has_one = has_one || std::ranges::any_of (heard, [id] (const auto& each) { return ! each.id || *each.id == id; });
-    latest = report.at;
-    judge (report, gap - without_room);
-    if (standing != ReadingFault::none) return;
-    if (came_now.test (id)) ++tally.skipped;
-    came_now.set (id);
-}
-
-void HidDevice::judge (const ArrivedReport& report, std::uint64_t lost) noexcept
-{
-    standing = ReadingFault::none;
-    switch (values.sample().report_order)
-    {
-    case ReportOrder::repeated:
-        standing = ReadingFault::repeated;
-        break;
-    case ReportOrder::clock_stopped:
-        standing = ReadingFault::clock_stopped;
-        break;
-    case ReportOrder::back:
-        record.restart();
-        restarted = true;
-        break;
-    case ReportOrder::next:
-        if (expected_rate > 0.0 && arrived_last != 0)
-            lost = ReportRecord::missingAfter (1e-9 * static_cast<double> (report.at - arrived_last), expected_rate);
-        record.arrived (lost);
-        restarted = restarted && ! record.isTrusted();
-        break;
-    }
-    arrived_last = report.at;
-}
-
-/// The fault that keeps the reading from being valid, other than its content.
-ReadingFault HidDevice::fault (bool is_connected) const noexcept
-{
-    if (! is_connected) return ReadingFault::unplugged;
-    if (refused) return ReadingFault::malformed;
-    if (! has_one) return ReadingFault::no_report;
-    if (restarted) return ReadingFault::restarted;
-    return record.isTrusted() ? ReadingFault::none : ReadingFault::lost;
-}
-
-/// By the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one that ticks too fast makes an old report
-/// seem new.
-double HidDevice::ReportArrival::age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept
-{
-    ticks_without = comes ? 0 : ticks_without + 1;
-    if (comes) at = arrival;
-    if (comes) return 0.0;
-    return std::max (static_cast<double> (ticks_without) * dt_s, at == 0 ? 0.0 : static_cast<double> (now - at) / 1e9);
+    if (report.connection != connection) judge.reconnect();
+    connection = report.connection;
+    judge.take (report.bytes, report.at);
 }
 
 Reading HidDevice::read() noexcept
 {
     const auto no_room = link->overflown();
-    owed += no_room - overflown;
-    latest = 0;
-    came_now.reset();
+    judge.dropped (no_room - overflown);
+    judge.begin();
     link->drain ([this] (const ArrivedReport& report) { take (report); });
 
     // If some reports did not fit, the ones in the ring are old, whatever they contain.
     const bool usable = no_room == overflown && ! link->mayLackNewest();
     overflown = no_room;
-    double age = 0.0;
-    for (auto& each : heard)
-        age = std::max (age, each.age (usable && (each.id ? came_now.test (*each.id) : came_now.any()), latest, dt, link->now()));
-
     if (const auto now = link->episode(); now != episode)
     {
         episode = now;
         has_to_rest = true;
     }
 
-    const bool connected = link->isConnected();
-    auto reading = values.reading (driven_for);
-    if (const auto why = fault (connected); why != ReadingFault::none)
-    {
-        reading.fault = why;
-        reading.valid = false;
-    }
-    for (std::size_t i = 0; i < values.axisNames().size(); ++i)
-        reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
-    reading.age = age;
-    if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
+    auto reading = judge.reading ({ dt, link->now(), driven_for, link->isConnected(), usable });
     reading.valid = reading.valid && ! has_to_rest;
     reading.unrendered_force = unrendered_force;
     reading.unrendered_torque = unrendered_torque;
-
-    tally.age = reading.age;
-    if (has_one) tally.oldest = std::max (tally.oldest, reading.age);
     publish();
     return reading;
 }
@@ -301,16 +201,16 @@ void HidDevice::write (const Effort& guarded) noexcept
     unrendered_torque = guarded.torque - values.renderedTorque();
     const auto says = board_stop (latched(), rests, values.isStopped(), dt);
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        if (values.channelNames (i).empty()) link->offer (i, bytesOf (i, says), episode, latest, has_to_rest || values.rests (i, driven));
+        if (values.channelNames (i).empty()) link->offer (i, bytesOf (i, says), episode, judge.latest(), has_to_rest || values.rests (i, driven));
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
             const auto& bytes = has_to_rest ? values.neutral (i) : values.encodeValues (i, driven, samples);
             const bool is_silent = values.rests (i, driven) && std::ranges::all_of (samples, [] (float s) { return s == 0.0f; });
-            link->offer (i, bytes, episode, latest, has_to_rest || is_silent);
+            link->offer (i, bytes, episode, judge.latest(), has_to_rest || is_silent);
         });
     link->sendNow();
 }
 
-void HidDevice::publish() noexcept { published.store (tally); }
+void HidDevice::publish() noexcept { published.store (judge.counts()); }
 
 }   // namespace tactus::host::hid

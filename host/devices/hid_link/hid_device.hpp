@@ -6,34 +6,20 @@
 
 #include <host/devices/hid/board_stop.hpp>
 #include <host/devices/hid/hid_model.hpp>
-#include <host/devices/hid/report_record.hpp>
+#include <host/devices/hid/reading_judge.hpp>
 #include <host/devices/hid/vibration_tracker.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/run/guard/falling_limit.hpp>
 
-#include <array>
 #include <atomic>
-#include <bitset>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace tactus::host::hid
 {
-
-/// The readings of a device during a run.
-struct ReadingCounts
-{
-    std::uint64_t taken = 0;                          ///< reports that were decoded
-    std::uint64_t lost = 0;                           ///< missing sequence numbers, not counting reports that the port had no room for
-    std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards
-    std::uint64_t skipped = 0;                        ///< reports that a newer one with the same id replaced within the same tick
-    std::array<std::uint64_t, refusals> refused {};   ///< refused reports, indexed by Refusal
-    double age = 0.0, oldest = 0.0;                   ///< age of the reading, in s: now, and the maximum since the first reading
-};
 
 /// Describes the counts, as in "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped, 40 stray bytes".
 std::string describe (const ReadingCounts&, const PortCounts&);
@@ -100,23 +86,11 @@ public:
 
 private:
     void take (const ArrivedReport&) noexcept;
-    void judge (const ArrivedReport&, std::uint64_t lost) noexcept;
-    ReadingFault fault (bool is_connected) const noexcept;
     void publish() noexcept;
     double limitOfVibration() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
     std::span<const std::uint8_t> bytesOf (std::size_t report, BoardStop::Says) noexcept;
     BoardStop::Cause latched() const noexcept;
-
-    /// The last arrival of a report.
-    struct ReportArrival
-    {
-        double age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept;   // in s; call once per tick
-
-        std::optional<std::size_t> id {};   // empty: any report
-        std::uint64_t ticks_without = 0;
-        Nanoseconds at = 0;   // 0: never
-    };
 
     /// An output report that carries samples.
     struct SampleOutput
@@ -136,26 +110,14 @@ private:
     std::unique_ptr<HidPort> link;
     HidModel values;
     const Nanoseconds longest_pause;
-    const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be detected
     double dt = 1e-3;
 
     // [tick thread]
-    ReadingCounts tally;
+    ReadingJudge judge;
     std::uint64_t episode = 0, connection = 0, overflown = 0;
-    std::vector<ReportArrival> heard;   // of the reports that say where the tool is, if they have ids; else one entry for all reports
-    std::bitset<256> came_now;          // ids of the reports decoded on this tick
-    std::uint64_t owed = 0;             // reports that did not fit and have not shown up as a gap in the sequence numbers yet
-    Nanoseconds latest = 0;             // arrival of the report that this tick answers; 0: none
-    Nanoseconds written = 0;            // time of the last write(); 0: none
-    bool has_one = false;               // true once a report that says where the tool is has been decoded since the device was connected
-    bool refused = false;               // true if the newest report was refused
-    bool has_to_rest = true;            // true until the guard has been at zero once
-
-    ReportRecord record;
-    bool restarted = false;         // a report's number or time went backwards; true until enough new reports have arrived to trust the record again
-    ReadingFault standing {};       // why the newest report is not a new reading: repeated or clock_stopped
-    Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
-    double driven_for = 0.0;        // how long the motors have been driven, in s
+    Nanoseconds written = 0;   // time of the last write(); 0: none
+    bool has_to_rest = true;   // true until the guard has been at zero once
+    double driven_for = 0.0;   // how long the motors have been driven, in s
 
     // The part of the last effort that the limits of the motors removed, in N and N m.
     Vec3 unrendered_force = Vec3::Zero(), unrendered_torque = Vec3::Zero();

@@ -5,6 +5,7 @@
 
 #include <host/base/platform/doorbell.hpp>
 #include <host/devices/hid/hid_model.hpp>
+#include <host/devices/hid/reading_judge.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/text/result.hpp>
@@ -25,9 +26,7 @@
 namespace tactus::host::hid
 {
 
-/// A time on the steady clock, in ns.
-using Nanoseconds = std::int64_t;
-
+/// A time on the steady clock.
 inline Nanoseconds nanosecondsOf (std::chrono::steady_clock::time_point t)
 {
     return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count();
