@@ -6,7 +6,7 @@ Usage: build_playground.py TACTUS OUT [--modules FOLDER] [PRESET...]
 
 Exports each preset (default: all in graphs/) to WebAssembly, and copies the page. FOLDER (default: build/site/modules) keeps what was compiled: a preset
 whose exported code is the same is not compiled again. presets.json has what the page needs of each preset: its texts, and for each role the box in which its own
-gesture moves. Needs clang-22, lld-22, libc++-22-dev-wasm32, libclang-rt-22-dev-wasm32 and wasi-libc."""
+gesture moves. reports.wasm is the program's own reader of profiles and reports. Needs clang-22, lld-22, libc++-22-dev-wasm32, libclang-rt-22-dev-wasm32 and wasi-libc."""
 
 import argparse
 import concurrent.futures
@@ -56,6 +56,13 @@ def make_module(tactus, preset, modules):
             shutil.copy(folder / name, kept)
         (kept / "hash").write_text(digest)
     return kept
+
+
+def make_reports(tactus, modules):
+    """Compiles what reads and writes the reports of devices, from the sources of the program. Returns the module."""
+    folder = modules.resolve() / "reports"
+    run("make", "-s", "-C", ROOT, "-f", "docs/site/reports/Makefile", f"-j{os.cpu_count()}", f"OUT={folder}", f"INCLUDE={tactus.parent.parent / 'include'}")
+    return folder / "reports.wasm"
 
 
 def position_nodes(graph):
@@ -149,6 +156,7 @@ def main():
         for path in (given.modules / preset).iterdir():
             if path.suffix in (".wasm", ".js"):
                 shutil.copy(path, graphs)
+    shutil.copy(make_reports(tactus, given.modules), given.out)
     profiles = [json.loads((ROOT / "host/devices/profiles" / f"{name}.json").read_text()) for name in PROFILES]
     (given.out / "profiles.json").write_text(json.dumps({"profiles": profiles}))
     (given.out / "presets.json").write_text(json.dumps({"presets": sorted(entries, key=lambda one: one["title"])}, indent=1) + "\n")
