@@ -24,7 +24,8 @@ globalThis.currentTime = 0;
 globalThis.AudioWorkletProcessor = class { port = { sent: [], postMessage: data => this.port.sent.push (structuredClone (data)) }; };
 globalThis.registerProcessor = (name, type) => { Engine = type; };
 await load ('engine.js');
-const { HidDevice } = await load ('hid.js');
+const { HidDevice } = await load ('hid.js'), { Reports } = await load ('reports.js');
+const reports = new WebAssembly.Module (readFileSync (`${site}/reports.wasm`));
 const profiles = JSON.parse (readFileSync (`${site}/profiles.json`, 'utf8')).profiles;
 const boards = profiles.find (one => one.id === 'tactus_board'), pads = profiles.find (one => one.id === 'dualsense_usb');
 
@@ -33,6 +34,7 @@ class Device extends EventTarget
 {
     sent = [];
     refused = 0;
+    number = 0;
 
     async sendReport (id, bytes)
     {
@@ -53,14 +55,29 @@ class Device extends EventTarget
 
     async close() { this.is_closed = true; }
 
-    report (position, is_homed = true)
+    /** A board reports where the tool is. `flags`: homed, driven, timed out, too hot. */
+    report (position, { flags = 0b11, number = ++this.number, at_ms = monotonic, size = 64 } = {})
     {
         const data = new DataView (new ArrayBuffer (64));
         data.setUint8 (0, 0x54);
         data.setUint8 (1, 1);
-        data.setUint16 (2, is_homed ? 1 : 0, true);
+        data.setUint16 (2, flags, true);
+        data.setUint32 (4, number, true);
+        data.setUint32 (8, 1000 * at_ms, true);
         position.forEach ((value, i) => data.setInt32 (12 + 4 * i, Math.round (value * 1e9), true));
-        this.dispatchEvent (Object.assign (new Event ('inputreport'), { reportId: 0, data }));
+        this.dispatchEvent (Object.assign (new Event ('inputreport'), { reportId: 0, data: new DataView (data.buffer, 0, size) }));
+    }
+
+    /** A DualSense reports that nobody touches it. */
+    reportPad()
+    {
+        const data = new DataView (new ArrayBuffer (63));
+        for (const stick of [0, 1, 2, 3])
+            data.setUint8 (stick, 0x80);
+        data.setUint8 (6, ++this.number);
+        data.setUint8 (7, 8);
+        data.setUint32 (27, 3000 * monotonic, true);
+        this.dispatchEvent (Object.assign (new Event ('inputreport'), { reportId: 1, data }));
     }
 }
 
@@ -90,12 +107,12 @@ class Page
     connect (profile)
     {
         this.device = new Device();
-        this.hid = new HidDevice (this.device, profile);
+        this.hid = new HidDevice (this.device, new Reports (new WebAssembly.Instance (reports), profile));
         this.hid.onreading = reading => this.post ({ reading });
         this.use();
     }
 
-    use() { this.hid.use (message => this.post (message), this.chosen, this.about.limits); }
+    use() { this.hid.use (message => this.post (message), this.chosen); }
 
     post (message) { this.to_engine.push (structuredClone (message)); }
 
@@ -128,7 +145,7 @@ class Page
     {
         ++this.ticks;
         this.place = this.place.map ((x, i) => x + Math.max (-speed, Math.min (speed, 1e3 * (towards[i] - x) / quantum_ms)) * quantum_ms / 1e3);
-        this.device.report (this.place.map ((x, i) => x + 2e-5 * Math.sin (0.15 * this.ticks + i)));
+        this.device.report (this.place.map ((x, i) => x + 2e-5 * Math.sin (0.15 * this.ticks + i)), this.says?.());
     }
 
     /** Lets time pass. Returns what the device has got meanwhile. `position`: the board reports it each 2.7 ms. */
@@ -138,6 +155,7 @@ class Page
         for (let i = 0; i < Math.round (seconds * rate / quantum); ++i)
         {
             if (position && ! this.stalls) this.report (position, speed);
+            if (this.hid && ! this.hid.hasForce) this.device.reportPad();
             if (! is_silent)
             {
                 this.engine.process ([], [[new Float32Array (quantum)]]);
@@ -195,7 +213,7 @@ const tests = {
         assert (most (sent) > 1.9 && most (sent) <= force_limit, `${most (sent)} ${JSON.stringify (page.state)}`);
         page.device.sent = [];
         await page.run (0.1, { position: pressed });
-        page.device.report (pressed, false);   // it has lost its home
+        page.device.report (pressed, { flags: 0b10 });   // it has lost its home
         assert.equal ((await page.run (0.05)).at (-1).size, 0);
     },
 
@@ -490,6 +508,51 @@ const tests = {
         assert.equal (most (sent.filter (one => one.at > at + 15)), 0);   // the fade of 5 ms, a quantum and two reports
         await page.run (0.2);
         assert.equal (page.state.latched, 'emergency');
+    },
+
+    async 'what a board says of itself is heard: alarms, numbers, clock, malformed and lost reports'()
+    {
+        const said = {
+            'the device reports that a motor is too hot': () => ({ flags: 0b1011 }),
+            'the device reports that its watchdog has released the motors': () => ({ flags: 0b111 }),
+            'the device reports that its motors are not driven': () => ({ flags: 0b01 }),
+            'the device reports that it does not know its position': () => ({ flags: 0b10 }),
+            'the device repeats the same report': page => ({ number: page.device.number }),
+            'the clock of the device has stopped': page => ({ at_ms: page.stopped_at ??= monotonic }),
+            'the report number or the clock of the device went back, as after a restart': page => ({ number: page.device.number + (++page.old % 2 ? 0 : 5) }),
+            "more than half of the device's reports are missing": page => ({ number: page.device.number += 15 }),
+            'the latest report of the device is malformed': () => ({ size: 20 }),
+        };
+        for (const [why, says] of Object.entries (said))
+        {
+            const page = await pressing();
+            page.old = 0;
+            page.says = () => says (page);
+            let sent = await page.run (0.3, { position: pressed });
+            assert.equal (page.hid.reading.fault, why);
+            assert.deepEqual (page.state.stops, ['stale'], why);
+            const late = sent.filter (one => one.at > sent[0].at + 120);   // the board's own 50 ms, or 32 reports, and the fade
+            assert (late.length > 0 && most (late) === 0, `${why}: ${most (late)} N`);
+            page.says = undefined;
+            page.device.number += 5;
+            sent = await page.run (1, { position: pressed });
+            assert (sent.at (-1).size > 1.9, `${why}: ${sent.at (-1).size} N, ${page.hid.reading.fault}`);
+            const zero = sent.findLastIndex (one => one.size === 0);
+            for (const one of sent.slice (zero))
+                assert (one.size <= force_limit * (one.at - sent[zero].at + 2 * quantum_ms) / 1e3 / ramp_s + 1e-6, `${why}: a step`);
+        }
+    },
+
+    async 'the module fails: the board gets its neutral report, and nothing else for good'()
+    {
+        const page = await pressing(), log = console.error;
+        console.error = () => {};
+        page.hid.reports.wasm = { ...page.hid.reports.wasm, drive() { throw new WebAssembly.RuntimeError ('unreachable'); }, rest() { throw new Error(); } };
+        const sent = await page.run (0.1, { position: pressed });
+        page.hid.rearm();
+        sent.push (...await page.run (0.5, { position: pressed }));
+        console.error = log;
+        assert.deepEqual (sent.map (one => one.drives), [0]);
     },
 
     async 'states of another connection are not used'()

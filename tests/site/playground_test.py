@@ -21,6 +21,7 @@ import unittest
 
 try:
     from selenium import webdriver
+    from selenium.common.exceptions import WebDriverException
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
@@ -41,18 +42,19 @@ navigator.getGamepads = () => window.has_pad ? [window.pad] : [];
 class Board extends EventTarget
 {
     vendorId = 0x16c0; productId = 0x0486; productName = 'Mock board'; collections = [{ usagePage: 0xffab, usage: 0x0200 }];
-    sent = []; z = 0.003; number = 0;
+    sent = []; z = 0.003; number = 0; flags = 0b11;   // homed, driven
     async open()
     {
         this.timer = setInterval (() => {
             const data = new DataView (new ArrayBuffer (64));
-            data.setUint8 (0, 0x54); data.setUint8 (1, 1); data.setUint16 (2, this.is_homed === false ? 0 : 1, true); data.setUint32 (4, ++this.number, true);
+            data.setUint8 (0, 0x54); data.setUint8 (1, 1); data.setUint16 (2, this.flags, true); data.setUint32 (4, this.is_repeating ? this.number : ++this.number, true);
+            data.setUint32 (8, 1000 * performance.now(), true);
             data.setInt32 (20, Math.round (this.z * 1e9), true);
             if (! this.is_silent) this.dispatchEvent (Object.assign (new Event ('inputreport'), { reportId: 0, data, device: this }));
         }, 4);
     }
     async close() { clearInterval (this.timer); this.is_closed = true; }
-    async sendReport (id, bytes) { this.sent.push ([...bytes]); }
+    async sendReport (id, bytes) { this.sent.push ([...bytes]); localStorage.setItem ('last', JSON.stringify (this.last())); }
     last()
     {
         const data = new DataView (Uint8Array.from (this.sent.at (-1)).buffer);
@@ -62,6 +64,7 @@ class Board extends EventTarget
 window.board = new Board();
 Object.defineProperty (navigator, 'hid', { value: Object.assign (new EventTarget(), {
     requestDevice: async options => { window.filters = options.filters; return [window.board]; } }) });
+window.AudioWorkletNode = class extends AudioWorkletNode { constructor (...all) { super (...all); window.engine = this; } };
 window.AudioContext = class extends AudioContext { constructor (options) { super (options); window.sound = this; } };
 """
 
@@ -105,6 +108,10 @@ class Playground(unittest.TestCase):
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         options.binary_location = shutil.which("chromium")
         cls.page = webdriver.Chrome(options=options)
+        cls.mock()
+
+    @classmethod
+    def mock(cls):
         cls.page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": MOCKS})
 
     @classmethod
@@ -370,6 +377,144 @@ class Playground(unittest.TestCase):
         self.until("return window.board.last().drives === 0")
         self.run_script("window.sound.resume()")
         self.until("return window.board.last().force > 0.3")
+
+    def test_what_a_board_says_of_itself_is_heard(self):
+        self.connect("dry_wood", -0.0005)
+        for told, why in (("window.board.flags = 0b1011", "too hot"), ("window.board.flags = 0b01", "not driven"), ("window.board.is_repeating = true", "same report")):
+            self.run_script(told)
+            self.until("return document.getElementById ('status').textContent.includes (arguments[0])", why)
+            self.until("return window.board.last().force === 0")
+            self.run_script("window.board.flags = 0b11; window.board.is_repeating = false")
+            self.until("return window.board.last().force > 0.3")
+
+    def second_window(self):
+        """Opens the playground in another window. The caller is there afterwards."""
+        first = self.page.current_window_handle
+        self.page.switch_to.new_window("window")
+        self.page.set_window_size(1200, 1100)
+        self.mock()
+        self.open("preset=dry_wood")
+        return first, self.page.current_window_handle
+
+    def close_window(self, back_to):
+        self.page.close()
+        self.page.switch_to.window(back_to)
+
+    def device_text(self, part):
+        self.until("return document.getElementById ('device').textContent.includes (arguments[0])", part)
+
+    def test_two_windows_do_not_drive_one_board(self):
+        self.connect("dry_wood", -0.0005)
+        first, second = self.second_window()
+        self.id("connect").click()
+        self.device_text("another tab drives a Tactus board")
+        self.assertEqual(self.run_script("return window.board.sent.length"), 0)
+        self.page.switch_to.window(first)
+        self.until("return window.board.last().force > 0.3")   # the first one goes on
+        self.id("disconnect").click()
+        self.until("return window.board.is_closed === true")
+        self.page.switch_to.window(second)
+        self.id("connect").click()
+        self.device_text("is connected")
+        self.close_window(first)   # and a closed window has no lock any more
+        self.id("connect").click()
+        self.device_text("is connected")
+
+    def test_stop_in_one_window_stops_all_and_each_is_started_by_itself(self):
+        self.connect("dry_wood", -0.0005)
+        first, second = self.second_window()
+        self.press()
+        self.id_click("stop")
+        self.until_force("force === 0")
+        self.page.switch_to.window(first)
+        self.until("return window.board.last().drives === 0 && document.getElementById ('status').textContent.includes ('you stopped it in another tab')")
+        for act in ("record", "record"):
+            self.id_click(act)
+        self.page.switch_to.window(second)
+        self.release()
+        self.id_click("rearm")
+        self.press()   # this window was started
+        self.release()
+        self.page.switch_to.window(first)
+        self.until("window.waits = (window.waits ?? 0) + 1; return window.waits > 20")
+        self.assertEqual(self.run_script("return window.board.last().drives"), 0)   # this one was not
+        self.id("rearm").click()
+        self.until("return window.board.last().force > 0.3")
+        self.id("pad").send_keys(Keys.ESCAPE)   # the other way round, by a key
+        self.until("return window.board.last().drives === 0")
+        self.page.switch_to.window(second)
+        self.until("return document.getElementById ('status').textContent.includes ('you stopped it in another tab')")
+        self.close_window(first)
+
+    def test_a_hidden_tab_stops_its_board_alone(self):
+        self.connect("dry_wood", -0.0005)
+        first, second = self.second_window()
+        self.page.switch_to.window(first)
+        self.run_script("Object.defineProperty (document, 'hidden', { value: true, configurable: true }); document.dispatchEvent (new Event ('visibilitychange'))")
+        self.until("return window.board.last().drives === 0 && document.getElementById ('status').textContent.includes ('this tab was hidden')")
+        self.page.switch_to.window(second)
+        self.press()   # the other one goes on
+        self.release()
+        self.close_window(first)
+
+    def last_report(self):
+        return json.loads(self.run_script("return localStorage.getItem ('last')"))
+
+    def test_a_page_that_ends_lets_its_board_go(self):
+        first, second = self.second_window()   # looks at what the board got last
+        ends = {"reload": self.page.refresh, "another page": lambda: self.page.get("about:blank"), "close": self.page.close}
+        for name, end in ends.items():
+            with self.subTest(name):
+                self.page.switch_to.window(first)
+                self.connect("dry_wood", -0.0005)
+                end()
+                self.page.switch_to.window(second)
+                self.until("return JSON.parse (localStorage.getItem ('last')).drives === 0")
+                self.until("return navigator.locks.query().then (all => all.held.length === 0)")
+        self.assertEqual(self.page.window_handles, [second])
+
+    def test_a_page_that_crashes_leaves_the_board_to_the_next_one(self):
+        first, second = self.second_window()
+        self.connect("dry_wood", -0.0005)   # in the second one
+        try:
+            self.page.set_page_load_timeout(2)
+            self.page.get("chrome://crash")
+        except WebDriverException:
+            pass
+        finally:
+            self.page.set_page_load_timeout(PATIENCE_S)
+        self.page.switch_to.window(first)
+        self.until("return navigator.locks.query().then (all => all.held.length === 0)")
+        self.id("connect").click()
+        self.device_text("is connected")
+        self.page.switch_to.window(second)
+        self.close_window(first)
+
+    def test_a_page_that_is_frozen_or_kept_for_the_way_back_gives_its_board_up(self):
+        self.connect("dry_wood", -0.0005)
+        self.page.execute_cdp_cmd("Page.setWebLifecycleState", {"state": "frozen"})
+        self.page.execute_cdp_cmd("Page.setWebLifecycleState", {"state": "active"})
+        self.until("return window.board.is_closed === true && document.getElementById ('status').textContent.includes ('this page was left')")
+        self.assertEqual(self.run_script("return window.board.last().drives"), 0)
+        self.connect("dry_wood", -0.0005)
+        self.page.get("about:blank")
+        self.page.back()
+        self.until("return document.getElementById ('about').textContent !== ''")
+        self.until("return document.getElementById ('disconnect').hidden")
+        self.assertEqual(self.last_report()["drives"], 0)
+        self.until("return navigator.locks.query().then (all => all.held.length === 0)")
+
+    def test_an_error_in_the_engine_or_the_page(self):
+        self.connect("dry_wood", -0.0005)
+        self.run_script("setTimeout (() => { throw new Error ('on purpose'); }, 0); Promise.reject (new Error ('on purpose'))")
+        self.let_pass(20)
+        self.until("return window.board.last().force > 0.3")   # the page goes on, with all its limits
+        self.run_script("window.engine.port.postMessage ({ turn: { name: 'no such knob', position: 1 } })")
+        self.let_pass(20)
+        self.until("return window.board.last().force > 0.3")
+        self.run_script("window.engine.port.postMessage ({ load: { bytes: null } })")   # the engine restarts, and fails
+        self.until("return window.board.last().force === 0")
+        self.page.get_log("browser")   # the errors were on purpose
 
     def test_every_preset_is_what_render_computes(self):
         for preset in json.loads((self.site / "presets.json").read_text())["presets"]:

@@ -146,7 +146,7 @@ class Engine extends AudioWorkletProcessor
     readingAsked (reading)
     {
         this.reading = reading;
-        this.reading_at = currentTime;
+        this.reading_at = currentTime - reading.age;   // a repeated report does not make it newer
     }
 
     recordAsked (is_on)

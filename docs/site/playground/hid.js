@@ -2,78 +2,116 @@
 // A board or a DualSense by WebHID. What reaches its motors has passed the guard of the graph, in the AudioWorklet, with the limits of the
 // profile. After a stop, and after a silence of the engine, of this page or of the device, it gets its neutral report until it takes one. Then
 // nothing else is sent until the engine says that the graph is halted and gives no effort, so the force comes back along the ramp of the guard.
-import { decode, encode, limitsOf, neutral } from './reports.js';
+import { Reports } from './reports.js';
 
 const longest_silence = 0.05, longest_close_ms = 200;
 let count = 0;
 
-function matches (profile, device)
+/** What a profile asks a browser for. The browser shows only such devices. */
+function filtersOf (profile)
 {
-    return profile.match.some (one => Number (one.vid) === device.vendorId && [one.pid].flat().some (pid => Number (pid) === device.productId)
-                                      && (one.usage === undefined || device.collections.some (all => all.usagePage === Number (one.usage_page)
-                                                                                                     && all.usage === Number (one.usage))));
+    return profile.match.flatMap (one => [one.pid].flat().map (pid => ({
+        vendorId: Number (one.vid), productId: Number (pid),
+        ...(one.usage === undefined ? {} : { usagePage: Number (one.usage_page), usage: Number (one.usage) }) })));
+}
+
+/** One page at a time drives a device: two would add up their changes, and a stop of one would not stop the other. Returns what ends the lock, or null
+    if another page of this origin has it. WebHID does not tell two devices of one kind apart, so the lock is for the kind. A page that ends loses it. */
+async function lock ({ vendorId, productId }, onlost)
+{
+    if (! navigator.locks) throw new Error ('this browser has no locks, so another tab could drive the same device');
+    return new Promise ((done, fail) => {
+        navigator.locks.request (`tactus-device-${vendorId}-${productId}`, { ifAvailable: true },
+                                 held => { if (held) return new Promise (release => done (release)); done (null); })
+            .catch (error => { fail (error); onlost(); });
+    });
 }
 
 export class HidDevice
 {
     /** Asks the person for a device that has a profile. Null if the person chooses none. */
-    static async request (profiles)
+    static async choose (profiles)
     {
-        const filters = profiles.flatMap (profile => profile.match.flatMap (one => [one.pid].flat().map (pid => ({
-            vendorId: Number (one.vid), productId: Number (pid),
-            ...(one.usage === undefined ? {} : { usagePage: Number (one.usage_page), usage: Number (one.usage) }) }))));
-        const [device] = await navigator.hid.requestDevice ({ filters });
+        const [device] = await navigator.hid.requestDevice ({ filters: profiles.flatMap (filtersOf) });
         if (! device) return null;
-        const profile = profiles.find (one => matches (one, device));
-        if (! profile) throw new Error (`no profile fits ${device.productName}`);
-        await device.open();
-        return new HidDevice (device, profile);
+        const module = await Reports.compile();
+        const all = await Promise.all (profiles.map (profile => Reports.open (module, profile)));
+        const [reports] = all.sort ((a, b) => b.fit (device) - a.fit (device));
+        if (! reports || reports.fit (device) <= 0) throw new Error (`no profile fits ${device.productName}`);
+        if (reports.about.why_not) throw new Error (`${reports.about.name} cannot be driven from a page: ${reports.about.why_not}. Use \`tactus play\` instead.`);
+        return { device, reports };
     }
 
-    constructor (device, profile)
+    /** Opens what was chosen, if no other page has it open. */
+    static async open ({ device, reports })
     {
-        const { max_signal = 1, max_signal_slew = Infinity, ramp = 0, device_watchdog = Infinity }
-            = limitsOf (profile, ['max_signal', 'max_signal_slew', 'ramp', 'device_watchdog']);
+        let opened;
+        const unlock = await lock (device, () => opened?.abandon());
+        if (! unlock) throw new Error (`another tab drives a ${reports.about.name}: release the device there first`);
+        try
+        {
+            await device.open();
+            opened = new HidDevice (device, reports, unlock);
+            return opened;
+        }
+        catch (error)
+        {
+            unlock();
+            throw error;
+        }
+    }
+
+    constructor (device, reports, unlock = () => {})
+    {
         this.device = device;
-        this.profile = profile;
-        this.output = profile.outputs[0];
+        this.reports = reports;
+        this.unlock = unlock;
         this.number = ++count;   // tells this connection from earlier ones
-        this.most = { size: max_signal, slew: max_signal_slew, ramp };
-        this.longest_silence_ms = 1000 * Math.min (longest_silence, device_watchdog);   // after its watchdog, the device has let its motors go
-        this.values = null;
-        this.is_stopped = this.is_sending = false;
+        this.longest_silence_ms = 1000 * Math.min (longest_silence, reports.about.device_watchdog || Infinity);   // then the device has let its motors go
+        this.reading = null;
+        this.is_stopped = this.is_sending = this.is_over = false;
         this.has_to_rest = true;
         this.rests = 1;                  // how often it had to rest
         this.driven = 1;                 // reports that drive it; what it did before is unknown
         this.rested = this.asked = 0;    // of those, how many came before the last neutral report that was taken, and that was sent
-        this.rumble = this.enabled = 0;
+        this.driven_since = 0;
         this.last_write = -Infinity;
         this.post = this.onreading = () => {};
         device.addEventListener ('inputreport', event => this.read (event));
         this.timer = setInterval (() => this.watch(), 10);
     }
 
-    get hasForce() { return this.profile.force !== undefined; }
+    get name() { return this.reports.about.name; }
+    get hasForce() { return this.reports.about.has_force; }
 
-    /** Gives the device a role of the graph. `post` sends messages to the engine; `names` are those of the limits that a guard knows. */
-    use (post, role, names)
+    /** Gives the device a role of the graph. `post` sends messages to the engine. */
+    use (post, role)
     {
         this.post = post;
         post ({ rest: this.has_to_rest ? this.rests : null });
-        post ({ device: { number: this.number, role: this.hasForce ? role : undefined, limits: limitsOf (this.profile, names) } });
+        post ({ device: { number: this.number, role: this.hasForce ? role : undefined, limits: this.reports.about.limits } });
     }
 
     read ({ reportId, data })
     {
-        const body = new Uint8Array (data.buffer, data.byteOffset, data.byteLength);
-        const values = decode (this.profile, reportId === 0 ? body : Uint8Array.of (reportId, ...body));
-        if (! values) return;
-        this.values = values;
-        const vector = names => names ? names.map (name => values[name] ?? 0) : [0, 0, 0];
-        this.onreading ({ at: Date.now(), position: vector (this.profile.position), rotation: vector (this.profile.rotation),
-                          pressure: values[this.profile.pressure] ?? 0, buttons: values.buttons,
-                          valid: this.profile.valid === undefined || values[this.profile.valid] === 1,
-                          stick: [values.left_x ?? 0, values.left_y ?? 0] });
+        const now = performance.now(), driven_s = this.has_to_rest ? 0 : (now - this.driven_since) / 1000;
+        const reading = this.module (() => this.reports.take (reportId, data, now, driven_s));
+        if (! reading) return;
+        this.reading = { ...reading, at: Date.now() - 1000 * reading.age };
+        this.read_at = now - 1000 * reading.age;
+        this.onreading ({ ...this.reading, stick: [reading.axes.left_x ?? 0, reading.axes.left_y ?? 0] });
+    }
+
+    /** What the module answers. If it fails, which is a mistake in it, the page gives the device up. */
+    module (call)
+    {
+        try { return call(); }
+        catch (error)
+        {
+            console.error (error);
+            this.abandon();
+            return undefined;
+        }
     }
 
     /** Passes the effort that a state of the engine has for this device on, as often as the device takes one. Old states do not count. */
@@ -84,34 +122,20 @@ export class HidDevice
         const now = performance.now();
         if (this.has_to_rest)
         {
-            if (this.is_stopped || this.rested !== this.driven || device.rest !== this.rests) return;
+            if (this.is_stopped || this.is_over || this.rested !== this.driven || device.rest !== this.rests) return;
             this.has_to_rest = false;
-            this.rumble = this.enabled = 0;
-            this.last_write = now;
+            this.last_write = this.driven_since = now;
             this.hear();
             this.post ({ rest: null });
             return;
         }
-        if (this.is_sending || now - this.last_write < 1000 / (this.output.max_rate ?? 250)) return;
-        const values = {};
-        this.profile.force?.forEach ((name, i) => { values[name] = device.force[i]; });
-        this.profile.torque?.forEach ((name, i) => { values[name] = device.torque[i]; });
-        this.approach (rumble, (now - this.last_write) / 1000);
-        for (const signal of this.profile.signals ?? [])
-            values[signal.amplitude] = this.rumble;
+        if (this.is_sending || now - this.last_write < 1000 / this.reports.about.max_rate) return;
+        const { force = [0, 0, 0], torque = [0, 0, 0] } = device, passed_s = Math.min (now - this.last_write, this.longest_silence_ms) / 1000;
+        const bytes = this.module (() => this.reports.drive ({ force, torque }, rumble, passed_s, (now - this.read_at) / 1000));
+        if (! bytes) return;
         ++this.driven;
         this.is_sending = true;
-        this.send (encode (this.profile, this.output, values, this.values?.sequence ?? 0))
-            .then (() => this.hear(), () => {}).finally (() => { this.is_sending = false; });   // a refused report counts as silence
-    }
-
-    /** The rumble, 0 to 1, within the limits of the profile. */
-    approach (rumble, passed_s)
-    {
-        const { size, slew, ramp } = this.most;
-        this.enabled = ramp > 0 ? Math.min (1, this.enabled + passed_s / ramp) : 1;
-        const change = this.enabled * Math.min (size, rumble) - this.rumble, most = slew * passed_s;
-        this.rumble += Math.min (most, Math.max (-most, change));
+        this.send (bytes).then (() => this.hear(), () => {}).finally (() => { this.is_sending = false; });   // a refused report counts as silence
     }
 
     hear() { this.heard = [performance.now(), Date.now()]; }
@@ -126,8 +150,7 @@ export class HidDevice
     send (bytes)
     {
         this.last_write = performance.now();
-        const id = Number (this.output.id ?? 0);
-        return this.device.sendReport (id, id === 0 ? bytes : bytes.slice (1));
+        return this.device.sendReport (bytes[0], bytes.slice (1));
     }
 
     /** Brings the device to rest. Called again until it has taken the neutral report. */
@@ -140,7 +163,7 @@ export class HidDevice
         }
         if (this.rested === this.driven || this.asked === this.driven) return;
         const driven = this.asked = this.driven;
-        this.send (neutral (this.output)).then (() => { this.rested = driven; }, () => { this.asked = 0; });
+        this.send (this.reports.rest()).then (() => { this.rested = driven; }, () => { this.asked = 0; });
     }
 
     stop()
@@ -152,6 +175,14 @@ export class HidDevice
 
     rearm() { this.is_stopped = false; }
 
+    /** Stops for good, and lets another page have the device at once: this one may get no more time. */
+    abandon()
+    {
+        this.stop();
+        this.is_over = true;
+        this.unlock();
+    }
+
     async close()
     {
         this.post ({ rest: null, device: null });
@@ -160,6 +191,12 @@ export class HidDevice
         for (const end = performance.now() + longest_close_ms; this.rested !== this.driven && performance.now() < end;)
             await new Promise (done => setTimeout (done, 10));
         clearInterval (this.timer);
-        await this.device.close();
+        try
+        {
+            for (const step of this.reports.about.exit)
+                await this.send (Uint8Array.from (step)).catch (() => {});   // it may be unplugged
+            await this.device.close();
+        }
+        finally { this.unlock(); }
     }
 }

@@ -8,9 +8,11 @@ const $ = id => document.getElementById (id);
 const pad = $('pad'), scope = $('scope');
 const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow',
                 released: 'a button is released', halted: 'the device comes to rest first', speed: 'the hand was too fast', impulse: 'it pushed for too long',
-                energy: 'it gave too much energy', limit: 'a limit was exceeded', emergency: 'you stopped it' };
+                energy: 'it gave too much energy', limit: 'a limit was exceeded', emergency: 'you stopped it' };   // emergency: see stopHere
 
 const longest_rumble_ms = 100;
+
+const pages = new BroadcastChannel ('tactus-stop');   // all pages of this origin
 
 let presets = [], preset = null, about = null, module_bytes = null;
 let engine = null, context = null, device = null, recording = false, is_stopped = false, is_kept = false;
@@ -153,20 +155,31 @@ function receive (data)
     if (now === reason || (now === 'halted' && ! device)) return;
     if (now !== 'none') quiet();
     $('rearm').hidden = ! state.latched;
-    if (now !== 'none') say (`No force: ${words[now]}.`);
+    if (now !== 'none') say (`No force: ${(now === 'stale' && device?.hasForce && device.reading?.fault) || words[now]}.`);
     else if (reason !== undefined) say (`${about.title} is running.`);
     reason = now;
 }
 
-function stop()
+/** A stop of this page alone, and who or what caused it. */
+function stopHere (why)
 {
     is_stopped = true;
+    words.emergency = why;
     device?.stop();
     engine?.port.postMessage ({ stop: true });
     $('rearm').hidden = false;
     say (`No force: ${words.emergency}.`);
     quiet();
 }
+
+/** What a person stops in one page, the person stops in all of them, and each has its own START. */
+function stop()
+{
+    pages.postMessage ('stop');
+    stopHere ('you stopped it');
+}
+
+pages.onmessage = () => stopHere ('you stopped it in another tab');
 
 function rearm()
 {
@@ -186,7 +199,7 @@ async function keepForLater()
     const page = location.href.split ('#')[0];
     const keep = () => {
         const loaded = performance.getEntriesByType ('resource').map (one => one.name).filter (name => name.startsWith (new URL ('.', page).href));
-        const needed = ['engine.js', 'graphs/tactus_graph.js', 'profiles.json'].map (name => new URL (name, page).href);
+        const needed = ['engine.js', 'graphs/tactus_graph.js', 'profiles.json', 'reports.wasm'].map (name => new URL (name, page).href);
         return Promise.all ([...new Set ([page, ...needed, ...loaded])].map (url => fetch (url)));
     };
     workers.addEventListener ('controllerchange', keep);   // the first worker, or that of a new build, which has kept nothing so far
@@ -303,9 +316,9 @@ function useDevice()
 {
     if (! device) return;
     device.role = device.hasForce ? chosen : undefined;
-    device.use (message => engine.port.postMessage (message), device.role, about.limits);
+    device.use (message => engine.port.postMessage (message), device.role);
     const role = about.roles.length > 1 && device.hasForce ? ` as ${about.roles[chosen].name}` : '';
-    $('device').textContent = `${device.profile.name} is connected${role}.`;
+    $('device').textContent = `${device.name} is connected${role}.`;
 }
 
 async function connect()
@@ -313,10 +326,10 @@ async function connect()
     if (! navigator.hid) throw new Error ('this browser has no WebHID; Chromium and Edge do');
     const { profiles } = await (await fetch ('profiles.json')).json();
     await begin();
-    const found = await HidDevice.request (profiles);
-    if (! found) return;
+    const choice = await HidDevice.choose (profiles);
+    if (! choice) return;
     if (device) await disconnect();
-    device = found;
+    const found = device = await HidDevice.open (choice);
     device.onreading = reading => {
         if (found.hasForce) engine.port.postMessage ({ reading });
         else if (Math.hypot (...reading.stick) > 0.15) moveHand (chosen, 0.5 + 0.5 * reading.stick[0], 0.5 - 0.5 * reading.stick[1]);
@@ -338,8 +351,26 @@ async function disconnect()
 $('connect').addEventListener ('click', () => connect().catch (error => { $('device').textContent = error.message; }));
 $('disconnect').addEventListener ('click', disconnect);
 navigator.hid?.addEventListener ('disconnect', event => { if (event.device === device?.device) disconnect(); });
-addEventListener ('pagehide', () => { device?.stop(); quiet(); });
-document.addEventListener ('visibilitychange', () => { if (document.hidden && device) stop(); });
+/** The page ends, or is frozen or kept for the way back: its device rests, and is free for another page. */
+function leave()
+{
+    if (device) stopHere ('this page was left');
+    device?.abandon();
+    quiet();
+}
+
+/** A page that comes back may have missed a stop of another page. */
+function comeBack()
+{
+    stopHere ('this page was left');
+    disconnect();
+}
+
+addEventListener ('pagehide', leave);
+addEventListener ('pageshow', event => { if (event.persisted) comeBack(); });
+document.addEventListener ('freeze', leave);
+document.addEventListener ('resume', comeBack);
+document.addEventListener ('visibilitychange', () => { if (document.hidden && device) stopHere ('this tab was hidden'); });
 
 //==============================================================================
 // Recording.
