@@ -1,55 +1,67 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/bristle.hpp>
+#include <tactus/kit/grained_bristle.hpp>
 #include <tactus/kit/tangent_plane.hpp>
 #include <tactus/node/node.hpp>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
 namespace tactus::nodes
 {
 
-/// Friction on a grain: velvet, fur, scales, brushed metal. It drags less with the grain than against it, and differently across it.
+/// Friction on a grain: velvet, fur, scales, brushed metal. It drags less with the grain than against it, and differently across it. So it also
+/// pushes sideways: a tool that is pulled at an angle to the grain is led along it.
 ///
-/// A bristle between tool and surface sticks, stretches and yields as in friction.elasto_plastic, but its adhesion function takes the
-/// stretch d as a vector: the direction of d says at which stretch the contact slides.
+/// A bristle between tool and surface sticks, stretches and yields as in friction.elasto_plastic. The stretches at which it slides are bounded
+/// by two half ellipses, and it slips along the normal n of this bound:
 ///
-///     d = p - c                                        stretch, in the tangent plane
-///     1 / s (d)^2 = (cos / s_g)^2 + (sin / s_a)^2      stretch at which it slides; cos and sin of the angle from the grain to d
-///     s_i = (mu_i f_n / sigma) (d_max / d_max0)        s_g: of mu_along if cos > 0, of mu_against if cos < 0; s_a: of mu_across
-///     c <- c + |dp| zeta (d) d                         zeta of friction.elasto_plastic, with all lengths in proportion to s (d)   (4)
+///     d = p - c                                     stretch, in the tangent plane; d_g along the grain, d_a across
+///     rho (d)^2 = (d_g / s_g)^2 + (d_a / s_a)^2     1 on the bound
+///     s_i = (mu_i f_n / sigma) (d_max / d_max0)     s_g: of mu_along if d_g > 0, of mu_against if d_g < 0; s_a: of mu_across
+///     d = nearest point of the bound to d~ = p - c, if rho (d~) > 1      adhesion `stick`                    (3)
+///     c <- c + Z (rho) h (dp) A^-1 d                                     the other functions                 (4)
 ///     f = -sigma d,   sigma = stiffness, or mu0 reference_load / d_max0
 ///
-/// So a tool that slides at an angle to the grain is pulled back against its motion, with the force f_n mu (angle), where
-/// 1 / mu^2 = (cos / mu_along)^2 + (sin / mu_across)^2, or with mu_against on the other side. With three equal coefficients this is
-/// friction.elasto_plastic with `load: bound`, bit for bit.
+/// Z = zeta d_max is the adhesion function of friction.elasto_plastic over rho; A = diag (s_g^2, s_a^2); h (v) = |A^(1/2) v| is the largest d . v
+/// that the bound allows. A^-1 d points along n. While the tool slides in the direction v, the force is
+///
+///     f = -f_n (mu_g^2 v_g, mu_across^2 v_a) / |(mu_g v_g, mu_across v_a)|,   mu_g = mu_along if v_g > 0, else mu_against
+///
+/// This is the force within the bound that costs the motion most. With mu_along 0.3 and mu_across 0.45, a slide at 45 degrees between both feels
+/// 0.382 N against it and 0.147 N towards the grain, for each newton of load; between against (0.6) and across, 0.530 and 0.148 N. With three
+/// equal coefficients this is friction.elasto_plastic with `load: bound`, bit for bit.
 ///
 /// mu0 is the largest of the three coefficients in file and knobs at the touch, and d_max0 is d_max there, both without wires. So d_max is the
 /// longest of the stretches, at the load `reference_load`.
 ///
-/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 2, eq. (4), where zeta is a function of the stretch.
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 2, eq. (3) and (4), where zeta is a function of the stretch; the bound and
+/// its flow rule: Michalowski & Mroz 1978, Goyal, Ruina & Papadopoulos 1991.
 ///
 /// Departures from the printed chapter
 ///  - The chapter does not say how zeta depends on the direction. The ellipse and its two halves are our choice; they need three numbers.
+///  - In eq. (4) a slip shortens the stretch without turning it. Friction would then act exactly against the motion, and no grain would ever lead
+///    the hand. Here a slip goes along the normal of the bound.
+///  - The other functions solve eq. (4) over each step with Z held, as friction.elasto_plastic does. Where a turn of the path would take the
+///    stretch out of the bound, it is put back to the nearest point.
 ///  - All those of friction.elasto_plastic, except that the load only moves the bound here: no other rule is passive and stays in place.
 ///
 /// Good to know
-///  - Passive for every path, load, grain, normal and coefficient: the contact point only ever moves towards the tool, along the stretch, and
-///    sigma is constant while the tool touches.
+///  - Passive for every path, load, grain, normal and coefficient: a slip along the normal of a convex bound around 0 never lengthens the stretch,
+///    and sigma is constant while the tool touches.
 ///  - Time-free, like friction.elasto_plastic, and with the same energies.
 ///  - `grain` is a direction in space; its part in the tangent plane counts. With the grain, the tool moves towards `grain`. A grain
 ///    along the normal, or of length 0, has no direction: then mu_across holds in every direction.
 ///  - If the grain turns while the tool touches, the stretch stays, and slips where it is now longer than allowed.
-///  - The slope of the force can exceed sigma: sideways on a sliding contact it is up to (q + 1/q) / 2 sigma with function 1, where q is the
-///    ratio of two coefficients, and up to (1 + q) sigma with functions 2 to 4. `claims` counts this. But the held force leaks no more than
-///    that of a spring of sigma, or of 2 sigma with functions 2 to 4, so a damping of sigma T / 2, or sigma T, is enough (section 1).
-///  - With a coefficient of 0, a tool that moves exactly in that direction slides freely, and one that moves at a small angle to it nearly so.
+///  - The slope of the force is at most sigma with function 1, because the nearest point of a convex bound moves no farther than the tool, and at
+///    most (1 + q) sigma with functions 2 to 4, where q is the ratio of two coefficients. `claims` counts this. But the held force leaks no more
+///    than that of a spring of sigma, or of 2 sigma with functions 2 to 4, so a damping of sigma T / 2, or sigma T, is enough (section 1).
+///  - With a coefficient of 0, a tool that moves in that direction slides freely, and one that moves at an angle to it feels only the part of
+///    the friction across.
 struct Anisotropic
 {
     enum class Adhesion
@@ -93,9 +105,9 @@ struct Anisotropic
     static constexpr Info info {
         .id = "friction.anisotropic",
         .name = "Friction on a grain",
-        .summary = "Drags less with the grain than against it: velvet, fur, brushed metal.",
-        .source = "Hayward 2007, section 2, eq. (4)",
-        .keywords = "anisotropic directional nap pile brush scales rub stick slip",
+        .summary = "Drags less with the grain than against it, and leads the hand along it: velvet, fur, brushed metal.",
+        .source = "Hayward 2007, section 2, eq. (4); Michalowski & Mroz 1978",
+        .keywords = "orthotropic anisotropic directional nap pile brush scales rub stick slip",
     };
 
     static constexpr std::string_view adhesion_names[] { "stick", "dupont", "ramp", "dahl" };
@@ -137,11 +149,8 @@ struct Anisotropic
 
     Claims claims() const
     {
-        const auto [along, against, across] = coefficients (params);
-        const auto slope = [] (double a, double b) { return a == b ? 1.0 : 0.5 * (a / b + b / a); };
-        const auto [least, most] = std::minmax ({ along, against, across });
-        const double steepest = params.adhesion == Adhesion::stick ? std::max (slope (along, across), slope (against, across))
-                                                                   : 1.0 + (least == most ? 1.0 : most / least);
+        const auto [least, most] = std::minmax ({ params.mu_along, params.mu_against, params.mu_across });
+        const double steepest = params.adhesion == Adhesion::stick ? 1.0 : 1.0 + (least == most ? 1.0 : most / least);
         const double sigma = stiffnessAtTouch (params);
         return { .passive = true, .stiffness = sigma > 0.0 ? steepest * sigma : 0.0 };
     }
@@ -169,23 +178,18 @@ struct Anisotropic
 private:
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
-    using Three = std::array<double, 3>;   // along, against and across the grain
+    using Vec2 = FrictionBound::Vec2;
 
-    /// The stretches at which the contact slides, by direction.
-    struct Ellipse
+    /// The grain in the plane where d is kept, and the bound.
+    struct Grain
     {
-        Vec3 along, across;   // unit vectors in the plane where d is kept, or 0 if the grain has no direction
-        Three reach {};       // m
+        Vec3 along = Vec3::Zero(), across = Vec3::Zero();   // unit vectors; 0 if the grain has no direction
+        FrictionBound bound {};
 
-        /// 1 / reach^2 = (cos / reach_along)^2 + (sin / reach_across)^2, written so that equal axes give their own length exactly.
-        double operator() (const Vec3& d) const noexcept
-        {
-            const double length = d.norm(), side = reach[2];
-            const double x = d.dot (along), y = d.dot (across), line = along.isZero (0.0) ? side : reach[x < 0.0 ? 1 : 0];
-            const bool is_long = line > side;
-            const double ratio = is_long ? line / side : side / line, share = length > 0.0 ? (is_long ? y : x) / length : 0.0;
-            return std::max (shortest, std::max (line, side) / std::sqrt (1.0 + (ratio * ratio - 1.0) * share * share));
-        }
+        bool operator== (const Grain&) const = default;
+
+        Vec2 of (const Vec3& v) const noexcept { return { v.dot (along), v.dot (across) }; }
+        Vec3 in (const Vec2& v) const noexcept { return v.x() * along + v.y() * across; }
     };
 
     /// The state from one sample to the next. Only `touching` counts while the tool does not touch.
@@ -198,12 +202,11 @@ private:
         double sigma = 0.0;      // N/m
         double energy = 0.0;     // in the stretch, in J
         double d_max0 = 0.0;     // d_max in file and knobs at the touch, in m
-        Bristle bristle {};      // with the lengths in the direction of d
+        Grain grain {};
+        Bristle bristle {};   // with the lengths of the bound across the grain
 
         double stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
     };
-
-    static Three coefficients (const Params& p) noexcept { return { p.mu_along, p.mu_against, p.mu_across }; }
 
     /// The stiffness that a contact keeps until it opens.
     double stiffnessAtTouch (const Params& stored) const noexcept
@@ -212,26 +215,28 @@ private:
         return std::max ({ stored.mu_along, stored.mu_against, stored.mu_across }) * params.reference_load / stored.d_max;
     }
 
-    Ellipse ellipse (const Inputs& in) const noexcept
+    Grain grainOf (const Inputs& in) const noexcept
     {
         const auto& c = contact;
-        const Vec3 along = direction (c.plane.kept (direction (in.grain)));
-        Ellipse bound { .along = along, .across = c.plane.home.cross (along) };
-        const Three mu = coefficients (params);
-        for (std::size_t i = 0; i < mu.size(); ++i)
-        {
-            const double slides = mu[i] * in.normal_force / c.sigma * (params.d_max / c.d_max0);
-            bound.reach[i] = c.sigma > 0.0 ? std::max (shortest, slides) : shortest;
-        }
-        return bound;
+        const auto reach = [&] (double mu) {
+            const double slides = mu * in.normal_force / c.sigma * (params.d_max / c.d_max0);
+            return c.sigma > 0.0 ? std::max (shortest, slides) : shortest;
+        };
+        Grain grain { .along = direction (c.plane.kept (direction (in.grain))) };
+        grain.across = c.plane.home.cross (grain.along);
+        grain.bound = { reach (params.mu_along), reach (params.mu_against), reach (params.mu_across) };
+        if (isZero (grain.along)) grain.bound.with = grain.bound.against = grain.bound.side;
+        return grain;
     }
 
-    /// Sets the lengths of Fig. 2 for a stretch in this direction.
-    void setLengths (double reach) noexcept
+    /// The bristle with the lengths of Fig. 2 for a bound of this length.
+    Bristle scaled (double reach) const noexcept
     {
-        contact.bristle.d_max = reach;
-        contact.bristle.d_stick = params.static_ratio * reach;
-        contact.bristle.d_ba = params.break_away * reach;
+        Bristle bristle = contact.bristle;
+        bristle.d_max = reach;
+        bristle.d_stick = params.static_ratio * reach;
+        bristle.d_ba = params.break_away * reach;
+        return bristle;
     }
 
     void begin (const Position& p, const Params& stored) noexcept
@@ -248,23 +253,45 @@ private:
         if (begins) begin (in.position, stored);
         auto& c = contact;
         c.plane.turn (in.normal, begins);
-        const Ellipse reach = ellipse (in);
 
         // Changes since the last sample take effect where the tool was, before it moves.
-        const Bristle before = c.bristle;
-        const double reach_before = reach (c.d);
-        setLengths (reach_before);
+        const Bristle bristle_before = c.bristle;
+        const Grain grain_before = c.grain;
+        c.grain = grainOf (in);
+        c.bristle = scaled (c.grain.bound.side);
+        const bool is_round = c.grain.bound.isCircle();
+        const Bristle unit = scaled (1.0);
+        const GrainedBristle grained { c.grain.bound, unit };
         bool slips = false;
-        if (c.bristle.d_max < before.d_max || c.bristle.d_stick < before.d_stick) slips = c.bristle.letGo (c.d);
+        if (is_round)
+        {
+            if (c.bristle.d_max < bristle_before.d_max || c.bristle.d_stick < bristle_before.d_stick) slips = c.bristle.letGo (c.d);
+        }
+        else if (c.grain != grain_before || c.bristle.d_stick != bristle_before.d_stick || c.bristle.d_ba != bristle_before.d_ba)
+        {
+            const auto step = grained.letGo (c.grain.of (c.d));
+            slips = step.slips;
+            if (slips) c.d = c.grain.in (step.d);
+        }
         const double released = c.energy - c.stored();
 
         const Vec3 dp = c.plane.kept (in.position - c.p);
-        const double reach_now = reach (c.d + dp);
-        setLengths (reach_now);
-        const auto step = c.bristle.stretch (c.d, dp, reach_now / reach_before);
+        double loss = 0.0;
+        if (is_round)
+        {
+            const auto step = c.bristle.stretch (c.d, dp);
+            c.d = step.d;
+            loss = step.loss;
+            slips = slips || step.slips;
+        }
+        else
+        {
+            const auto step = grained.stretch (c.grain.of (c.d), c.grain.of (dp));
+            c.d = step.slips ? c.grain.in (step.d) : Vec3 { c.d + dp };
+            loss = step.loss;
+            slips = slips || step.slips;
+        }
         c.p = in.position;
-        c.d = step.d;
-        setLengths (reach (c.d));
 
         const Vec3 d = c.plane.shown (c.d);
         c.plane.settle (c.d, d);
@@ -273,10 +300,10 @@ private:
             .force = -c.sigma * d,
             .deflection = d,
             .stored_energy = c.energy,
-            .dissipated_energy = dissipated + (released + c.sigma * step.loss),
-            .state = slips || step.slips ? 2.0 : 1.0,
+            .dissipated_energy = dissipated + (released + c.sigma * loss),
+            .state = slips ? 2.0 : 1.0,
         };
-        return isFinite (c.sigma, reach_now, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
+        return isFinite (c.sigma, c.grain.bound.with, c.grain.bound.against, c.grain.bound.side, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
     }
 
     Contact contact;

@@ -12,6 +12,7 @@ import sys
 import cutting
 import deformation
 import friction
+import grain
 import safety
 import scissors
 import shock
@@ -86,6 +87,24 @@ def friction_3d(set_, about):
             out[f"f_{name}_{axis}"] = part(got["force"], i)
             out[f"d_{name}_{axis}"] = part(got["deflection"], i)
         out["state_" + name] = got["state"]
+    return out
+
+
+def friction_grain(set_, about):
+    given = about["params"]
+    feed = {"position": vectors(set_, "p"), "normal": vectors(set_, "n"),
+            "grain": vectors(set_, "g"), "normal_force": set_["fn"]}
+    common = {name: given[name] for name in ("d_max", "reference_load", *grain.COEFFICIENTS)}
+    forms = {"stick": {}, "dahl": {"adhesion": "dahl"}, "dupont": {"adhesion": "dupont"},
+             "slip": {"static_ratio": given["static_ratio_slip"]}}
+    got = {name: grain.run({**common, **form}, feed) for name, form in forms.items()}
+    got["tip"] = grain.soft_tip({"mu": given["mu_across"], "s_max": given["d_max"]}, feed)
+    out = {}
+    for name, run in got.items():
+        for i, axis in enumerate("xyz"):
+            out[f"f_{name}_{axis}"] = part(run["force"], i)
+            out[f"d_{name}_{axis}"] = part(run["deflection"], i)
+        out["state_" + name] = run["state"]
     return out
 
 
@@ -192,7 +211,7 @@ def deformation_(set_, about):
 
 
 MODELS = {"friction_1d": friction_1d, "friction_bound": friction_bound,
-          "friction_3d": friction_3d,
+          "friction_3d": friction_3d, "friction_grain": friction_grain,
           "cutting": cutting_, "scissors": scissors_, "texture": texture_,
           "shock": shock_, "modal": modal, "passivity": passivity,
           "wallsim": wallsim, "deformation": deformation_}

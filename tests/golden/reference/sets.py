@@ -10,6 +10,7 @@ import deformation
 import draw
 import edge
 import friction
+import grain
 import laws
 import meshes
 import safety
@@ -150,6 +151,65 @@ def friction_set(rng):
         for port, like in (("force", "f_eq3"), ("deflection", "d_eq3"),
                            ("stored_energy", "f_eq3"), ("state", "state_eq3")):
             set_.expect(f"{name}.{port}", got[port], golden, like)
+    return set_
+
+
+def grain_set(rng):
+    rows = 400
+    set_ = Set(draw.rate(rng), rows, time_free=True)
+    size = draw.spread(rng, 1e-5, 1e-2)
+    turned = draw.normals(rng, rows)
+    feed = {"position": draw.motion3(rng, rows, size), "normal": turned,
+            "normal_force": load(rng, rows)}
+    draw.hold(rng, list(feed.values()))
+    # The grain is never along the normal, where it has no direction.
+    feed["grain"] = [vec.across(vec.unit(n), side) if vec.norm(vec.cross(vec.unit(n), side)) > 0.1
+                     else vec.cross(n, (1.0, 0.0, 0.0)) for n, side in
+                     zip(feed["normal"], [draw.direction(rng)] * rows)]
+    for column in feed.values():
+        draw.spoil(rng, column)
+    for i in range(4):
+        name, own = f"pile{i}", dict(feed)
+        params = {"adhesion": rng.choice(("stick", "dupont", "ramp", "dahl")),
+                  "d_max": size * draw.spread(rng, 0.02, 3.0),
+                  "break_away": rng.uniform(0.1, 0.95),
+                  "reference_load": draw.spread(rng, 0.1, 10.0)}
+        for mu in grain.COEFFICIENTS:
+            params[mu] = draw.spread(rng, 0.1, 1.5)
+            if draw.chance(rng, 0.2):
+                own[mu] = moving(rng, {**params, "load": "bound"}, mu, rows)
+        if draw.chance(rng, 0.4):
+            params["static_ratio"] = rng.uniform(1.0, 3.0)
+        if draw.chance(rng, 0.25):
+            params["stiffness"] = draw.spread(rng, 100.0, 5e4)
+        set_.node(name, "friction.anisotropic", params, {}, own)
+        got = grain.run(params, own)
+        for port, like in (("force", "f_"), ("deflection", "d_"),
+                           ("stored_energy", "f_"), ("state", "state_stick")):
+            set_.expect(f"{name}.{port}", got[port], "friction_grain", like)
+    return set_
+
+
+def soft_tip_set(rng):
+    rows = 400
+    set_ = Set(draw.rate(rng), rows, time_free=True)
+    size = draw.spread(rng, 1e-5, 1e-2)
+    feed = {"position": draw.motion3(rng, rows, size), "normal": draw.normals(rng, rows),
+            "normal_force": load(rng, rows)}
+    draw.hold(rng, list(feed.values()))
+    for column in feed.values():
+        draw.spoil(rng, column)
+    params = {"mu": rng.uniform(0.05, 1.5), "s_max": size * draw.spread(rng, 0.02, 3.0),
+              "reference_load": draw.spread(rng, 0.1, 10.0)}
+    if draw.chance(rng, 0.25):
+        params["stiffness"] = draw.spread(rng, 100.0, 5e4)
+    if draw.chance(rng, 0.5):
+        feed["mu"] = moving(rng, {**params, "load": "bound"}, "mu", rows)
+    set_.node("tip", "friction.partial_slip", params, {}, feed)
+    got = grain.soft_tip(params, feed)
+    for port, like in (("force", "f_"), ("deflection", "d_"),
+                       ("stored_energy", "f_"), ("state", "state_stick")):
+        set_.expect(f"tip.{port}", got[port], "friction_grain", like)
     return set_
 
 
@@ -607,7 +667,8 @@ def deformation_set(rng):
     return set_
 
 
-MODELS = {"friction": friction_set, "cutting": cutting_set,
+MODELS = {"friction": friction_set, "grain": grain_set,
+          "soft_tip": soft_tip_set, "cutting": cutting_set,
           "edge": edge_set, "scissors": scissors_set, "texture": texture_set,
           "shock": shock_set, "modal": modal_set,
           "wavetable": wavetable_set, "passivity": passivity_set,
