@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <host/devices/device_plugins/driver_answer.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace tactus::host
+{
+
+/// The functions of a driver. `Device` has
+///
+///     static std::string check (const tactus_device_description&);                  what is wrong; empty if nothing is
+///     static std::unique_ptr<Device> open (const tactus_device_description&, tactus_device_about&, std::string& said);
+///                                                                                   null with the reason, or else perhaps with a remark
+///     std::int32_t read (std::int32_t timeout_ms, tactus_reading&, tactus_device_stamp&, std::string& why);
+///     std::int32_t write (const tactus_effort&, std::string& why);
+///     std::int32_t rest (std::string& why);
+///
+/// with the meaning of tactus_device.h, and a destructor that closes it.
+template <typename Device>
+struct DriverTable
+{
+    static int32_t check (const tactus_device_description* given, const tactus_plugin_report* report) noexcept
+    {
+        return answered (report, [&] {
+            const auto wrong = Device::check (*given);
+            return wrong.empty() ? int32_t { TACTUS_DEVICE_OK } : failed (report, wrong);
+        });
+    }
+
+    static void* open (const tactus_device_description* given, tactus_device_about* about, const tactus_plugin_report* report) noexcept
+    {
+        Device* opened = nullptr;
+        answered (report, [&] {
+            std::string said;
+            opened = Device::open (*given, *about, said).release();
+            if (! said.empty()) report->put (report->context, said.data(), said.size());
+            return int32_t { TACTUS_DEVICE_OK };
+        });
+        return opened;
+    }
+
+    static int32_t read (void* device, int32_t timeout_ms, tactus_reading* to, tactus_device_stamp* stamp, const tactus_plugin_report* report) noexcept
+    {
+        return told (report, [&] (std::string& why) { return static_cast<Device*> (device)->read (timeout_ms, *to, *stamp, why); });
+    }
+
+    static int32_t write (void* device, const tactus_effort* effort, const tactus_plugin_report* report) noexcept
+    {
+        return told (report, [&] (std::string& why) { return static_cast<Device*> (device)->write (*effort, why); });
+    }
+
+    static int32_t rest (void* device, const tactus_plugin_report* report) noexcept
+    {
+        return told (report, [&] (std::string& why) { return static_cast<Device*> (device)->rest (why); });
+    }
+
+    static void close (void* device) noexcept { delete static_cast<Device*> (device); }
+
+private:
+    template <typename F>
+    static int32_t told (const tactus_plugin_report* report, F&& body) noexcept
+    {
+        return answered (report, [&] {
+            std::string why;
+            const int32_t answer = body (why);
+            if (! why.empty()) failed (report, why);
+            return answer;
+        });
+    }
+};
+
+template <typename Device, std::size_t n>
+constexpr tactus_device_driver driverTable (const char* name, const char* about, const char* const (&keys)[n])
+{
+    using Functions = DriverTable<Device>;
+    return { sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, name, "1.0.0", about, keys, n, Functions::check, Functions::open, Functions::read,
+             Functions::write, Functions::rest, Functions::close };
+}
+
+}   // namespace tactus::host

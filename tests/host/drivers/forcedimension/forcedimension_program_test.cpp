@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Programs that play on a fake arm of Force Dimension, and what the arm feels when they end, freeze or are killed.
+
+#include "lab.hpp"
+
+#include <host/cli/program.hpp>
+#include <host/cli/running.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using test::eventually;
+using test::Lab;
+using test::Running;
+using test::runTactus;
+
+namespace
+{
+constexpr auto wall = R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+  "nodes": { "hand": { "type": "device.position", "role": "stylus" },
+             "wall": { "type": "deform.plane", "params": { "stiffness": 500 } },
+             "motor": { "type": "device.force", "role": "stylus" } },
+  "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
+
+/// The program plays the wall, and the hand presses.
+struct Played
+{
+    Played()
+    {
+        lab.arm().target[2] = -0.006;
+        lab.folder.write ("wall.json", wall);
+    }
+
+    bool pushes (const Running& program)
+    {
+        const bool does = test::soon ([&] { return lab.acting() > 0.5; });
+        if (! does) WARN (program.err());
+        return does;
+    }
+
+    bool rests()
+    {
+        return eventually ([&] { return lab.acting() == 0.0; });
+    }
+
+    Lab lab;
+    const std::vector<std::string> play { "play", (lab.folder / "wall.json").string(), "--device", "stylus=forcedimension:0" };
+};
+}   // namespace
+
+TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dimension without a force", "[forcedimension][safety]")
+{
+    Played played;
+    auto& arm = played.lab.arm();
+    Running program (played.play);
+    REQUIRE (played.pushes (program));
+
+    SECTION ("killed: the watchdog of the arm ends the last force")
+    {
+        program.signal (SIGKILL);
+        static_cast<void> (program.finish());
+        CHECK (played.rests());
+        CHECK (arm.stops == 0);
+    }
+    SECTION ("frozen, and then not: the force stays away")
+    {
+        program.signal (SIGSTOP);
+        CHECK (eventually ([&] {
+            const auto last = arm.commanded_at.load();
+            test::letPass (60ms);
+            return arm.commanded_at == last;
+        }));
+        CHECK (played.lab.acting() == 0.0);
+        arm.ignores_silence = 0;
+        program.signal (SIGCONT);
+        CHECK (test::soon ([&] { return arm.cause == 3; }));
+        arm.ignores_silence = 1;
+        const auto forces = arm.forces.load();
+        CHECK (test::soon ([&] { return arm.forces > forces + 100; }));
+        CHECK (played.lab.acting() == 0.0);
+        CHECK (arm.enables == 1);
+        static_cast<void> (program.stop());
+        CHECK (arm.stopped_before_close == 1);
+    }
+    SECTION ("ended with Ctrl-C")
+    {
+        const auto ran = program.stop();
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        CHECK (arm.force[2] == 0.0);
+        CHECK (arm.stopped_before_close == 1);
+        CHECK (arm.closes == 1);
+        CHECK (arm.calls_after_close == 0);
+    }
+}
+
+TEST_CASE ("check-plugin finds no fault in the driver of Force Dimension's arms", "[forcedimension]")
+{
+    Lab lab;
+    const auto plugin = std::filesystem::path (TACTUS_PROGRAM).parent_path().parent_path() / "lib/tactus/plugins/forcedimension.tactus-device";
+    const auto ran = runTactus ({ "check-plugin", plugin.string(), "--open", "{}" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    CHECK (lab.arm().calls_after_close == 0);
+    CHECK (lab.arm().closes > 1);
+    CHECK (lab.arm().calibrations == 0);
+}

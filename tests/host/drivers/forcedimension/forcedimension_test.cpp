@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+// The driver of Force Dimension's arms against a fake of their library. Both are ours; no arm has been tried.
+
+#include "lab.hpp"
+#include "support/rounds.hpp"
+
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/engine.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using test::eventually;
+using test::Lab;
+
+namespace
+{
+bool contains (const std::string& text, const char* part) { return text.find (part) != std::string::npos; }
+
+/// A device that reads what it is told, and keeps what it gets.
+struct ToldDevice final : Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return next; }
+    void write (const Effort& effort) noexcept override { last = effort; }
+
+    Reading next;
+    Effort last;
+};
+}   // namespace
+
+TEST_CASE ("an arm of Force Dimension is read and pushed in the axes of Tactus", "[forcedimension]")
+{
+    Lab lab;
+    REQUIRE (lab.opens());
+    CHECK (lab.limits.max_force == 12.0);
+    CHECK (lab.device_watchdog_s == 255 * 125e-6);
+    lab.arm().target[0] = 0.03;   // towards the person
+    lab.arm().target[1] = 0.02;
+    lab.arm().target[2] = 0.01;
+    const auto is_at = [&] (const Vec3& place) { return (lab.reading.position - place).norm() < 5e-5; };
+    const Vec3 middle { 0.02, -0.03, 0.01 };
+    REQUIRE (lab.ticksUntil ([&] { return lab.reading.valid && is_at (middle); }));   // the weight is carried: the tool does not sag
+    const int axis = GENERATE (0, 1, 2);
+    Vec3 pushed = middle;
+    pushed[axis] += 1.0 / 500.0;
+    CHECK (lab.ticksUntil ([&] { return is_at (pushed); }, Lab::along (axis)));
+    pushed[axis] -= 2.0 / 500.0;
+    CHECK (lab.ticksUntil ([&] { return is_at (pushed); }, Lab::along (axis, -1.0)));
+    CHECK (lab.arm().expert_violations == 0);
+
+    // It ends by stop, wait, close.
+    lab.device.reset();
+    CHECK (lab.arm().stopped_before_close == 1);
+    CHECK (lab.arm().closes == 1);
+    CHECK (lab.arm().calls_after_close == 0);
+    CHECK (lab.arm().is_enabled == 0);
+}
+
+TEST_CASE ("dry wood on an arm of Force Dimension has the forces of its render at the positions that the arm has rounded", "[forcedimension]")
+{
+    Lab lab;
+    lab.arm().is_stepped = 1;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.reads());
+
+    auto file = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs/dry_wood.json");
+    REQUIRE_FALSE (hasErrors (file.messages));
+    const auto told_plan = compile (file.graph, catalogue()).plan, arm_plan = compile (file.graph, catalogue()).plan;
+    REQUIRE (told_plan);
+    REQUIRE (arm_plan);
+    ToldDevice told;
+    Engine offline { told_plan }, live { arm_plan };
+    const GuardLimits limits { .max_force = lab.limits.max_force };
+    offline.attach ("stylus", told, limits);
+    live.attach ("stylus", *lab.device, limits);
+    int pushed = 0;
+    const int readings = test::rounds (3000);
+    for (int k = 0; k < readings; ++k)
+    {
+        const double time = k / 4000.0;
+        const Vec3 at { 0.03 * std::sin (9.0 * time), 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time) };
+        const double by_library[] { -at.y(), at.x(), at.z() };
+        for (std::size_t i = 0; i < 3; ++i)
+            lab.arm().target[i] = by_library[i];
+        const auto before = lab.device->counts().readings;
+        ++lab.arm().step;
+        REQUIRE (eventually ([&] { return lab.device->counts().readings > before; }));
+        // Round by hand, as the arm does: to 1 um.
+        const auto um = [] (double m) { return std::round (m / 1e-6) * 1e-6; };
+        told.next.position = { um (at.x()), -um (-at.y()), um (at.z()) };
+        told.next.valid = k > 0;   // the first tick brings a device to rest
+        offline.tick();
+        live.tick();
+        const auto& asked = told.last.force;
+        INFO ("reading " << k << " asks for " << asked.transpose());
+        REQUIRE (eventually ([&] { return lab.arm().force[1] == asked.x() && lab.arm().force[0] == -asked.y() && lab.arm().force[2] == asked.z(); }));
+        pushed += asked.isZero (0.0) ? 0 : 1;
+    }
+    CHECK (pushed > readings / 4);
+    CHECK (lab.device->counts().readings == static_cast<std::uint64_t> (readings) + 1);   // each is new once
+    CHECK (lab.device->counts().departures == 0);
+}
+
+TEST_CASE ("an arm of Force Dimension is found by number, serial number and model", "[forcedimension]")
+{
+    Lab lab;
+    lab.arms->count = 2;
+    lab.arm (1).type = 63;
+    const auto is_open = [&] { return std::pair (lab.arm (0).is_open.load(), lab.arm (1).is_open.load()); };
+    REQUIRE (lab.opens ({ { "port", "1" } }));
+    CHECK (is_open() == std::pair (0, 1));
+    CHECK (lab.limits.max_force == 20.0);
+    REQUIRE (lab.opens ({ { "port", "sn=10001" } }));
+    CHECK (is_open() == std::pair (1, 0));
+    REQUIRE (lab.opens ({ { "port", "delta.3" } }));
+    CHECK (is_open() == std::pair (0, 1));
+
+    // Without a port, the first one that nobody uses.
+    Lab other;
+    other.arms->count = 2;
+    other.arm (0).is_open = 1;
+    REQUIRE (other.opens());
+    CHECK (other.arm (1).is_open == 1);
+    CHECK (contains (other.said ({ { "port", "0" } }), "device in use"));
+    CHECK (contains (other.said ({ { "port", "sn=7" } }), "no arm with the serial number 7 can be opened: no device found"));
+    CHECK (contains (other.said ({ { "port", "sigma.7" } }), "no sigma.7"));
+    CHECK (contains (other.said ({ { "port", "omega" } }), "a model such as omega.3"));
+    CHECK (contains (other.said ({ { "port", "sn=70000" } }), "serial number"));
+    CHECK (contains (other.said ({ { "calibrate", 1 } }), "calibrate"));
+    CHECK (contains (other.said ({ { "colour", "red" } }), "colour"));
+    other.arms->count = -1;
+    CHECK (contains (other.said(), "no arm can be opened: no device found (error 5 of its library). Connected arms: 0"));
+}
+
+TEST_CASE ("the wrist and the gripper of a left-handed arm turn, press and pull as those of a right-handed one", "[forcedimension]")
+{
+    Lab lab;
+    const bool is_left = GENERATE (false, true);
+    auto& arm = lab.arm();
+    arm.type = is_left ? 105 : 104;
+    arm.left_handed = is_left ? 1 : 0;
+    arm.wrist = arm.active_wrist = arm.gripper = arm.active_gripper = 1;
+    arm.gripper_angle = 0.25;
+    // Turned by 2 rad about (1, 2, 2)/3 of the library.
+    const Vec3 axis { 1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0 };
+    const double angle = GENERATE (2.0, 1e-9, 3.1415926);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+        {
+            const int third = 3 - row - column;
+            const double cross = row == column ? 0.0 : ((column - row + 3) % 3 == 1 ? -1.0 : 1.0) * axis[third];
+            arm.frame[static_cast<std::size_t> (3 * row + column)] = (row == column ? std::cos (angle) : 0.0) + (1.0 - std::cos (angle)) * axis[row] * axis[column] + std::sin (angle) * cross;
+        }
+    arm.buttons = 5;
+    REQUIRE (lab.opens());
+    const auto layout = lab.device->layout();
+    CHECK (layout.axes == std::vector<std::string> { "saturated", "gripper_angle", "gripper" });
+    CHECK (layout.efforts == std::vector<std::string> { "gripper" });
+    REQUIRE (lab.reads());
+    CHECK ((lab.reading.rotation - angle * Vec3 (axis.y(), -axis.x(), axis.z())).norm() < 1e-7);
+    CHECK (lab.reading.axes[1] == 0.25);
+    CHECK (lab.reading.axes[2] == Approx (0.015));
+    CHECK (lab.reading.buttons == 5);
+
+    Effort effort;
+    effort.torque = { 0.05, 0.0, -0.1 };
+    effort.axes.set (0, 2.0);
+    CHECK (lab.ticksUntil ([&] { return arm.torque[1] == 0.05 && arm.torque[0] == 0.0 && arm.torque[2] == -0.1 && arm.gripper_force == (is_left ? -2.0 : 2.0); }, effort));
+}
+
+TEST_CASE ("an arm of Force Dimension counts a position only if it is new, and keeps its weight while nobody ticks", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    arm.time_guard_us = 20'000;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.ticksUntil ([&] { return arm.new_positions >= 20; }));
+    // The one that the library has measured last may not have come yet.
+    const auto measured = arm.new_positions.load();
+    CHECK (lab.device->counts().readings <= arm.new_positions);
+    CHECK (eventually ([&] { return lab.device->counts().readings + 1 >= measured; }));
+    CHECK (lab.device->counts().held_up == 0);
+
+    // Nobody ticks: the library gets zeros all the same, so the weight is carried and the watchdog does not bite.
+    const auto forces = arm.forces.load();
+    CHECK (eventually ([&] { return arm.forces > forces + 100; }));
+    CHECK (arm.force[2] == 0.0);
+    CHECK (arm.is_enabled == 1);
+}
+
+TEST_CASE ("an arm of Force Dimension whose forces go off says why, and nothing switches them on again", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    const auto [cause, count, fault] = GENERATE (table<int, int, ReadingFault> ({ { 1, 17, ReadingFault::stopped },
+                                                                                  { 2, 17, ReadingFault::not_driven },
+                                                                                  { 3, 16, ReadingFault::timed_out },
+                                                                                  { 4, 17, ReadingFault::not_driven },
+                                                                                  { 6, 15, ReadingFault::stopped },
+                                                                                  { 1, 14, ReadingFault::not_driven },
+                                                                                  { 3, 12, ReadingFault::not_driven } }));
+    INFO ("cause " << cause << ", " << count << " numbers of the status");
+    arm.status_count = count;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    REQUIRE (arm.enables == 1);
+    arm.off_cause = cause;
+    CHECK (lab.ticksUntil ([&, wanted = fault] { return lab.reading.fault == wanted && ! lab.reading.valid; }, Lab::along (2)));
+    CHECK (lab.ticksUntil ([&] { return arm.force[2] == 0.0; }, Lab::along (2)));   // what is asked for, too
+    const auto readings = lab.device->counts().readings;
+    CHECK (lab.ticksUntil ([&] { return lab.device->counts().readings > readings + 200; }, Lab::along (2)));
+    CHECK (arm.enables == 1);
+    CHECK (lab.acting() == 0.0);
+    CHECK (lab.device->counts().departures == 0);
+
+    // A person starts again.
+    REQUIRE (lab.opens());
+    CHECK (lab.pushes());
+    CHECK (arm.enables == 2);
+}
+
+TEST_CASE ("an arm of Force Dimension that is too fast brakes, and that is a stop", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    arm.max_speed = 0.05;
+    arm.target[0] = 0.1;   // the hand jumps
+    CHECK (lab.ticksUntil ([&] { return arm.cause == 2 && lab.reading.fault == ReadingFault::not_driven; }, Lab::along (2)));
+    CHECK (arm.is_braked == 1);
+    CHECK (lab.acting() == 0.0);
+}
+
+TEST_CASE ("an arm of Force Dimension with an error, or without power, is not trusted", "[forcedimension][safety]")
+{
+    Lab lab;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    lab.arm().error_flag = 1;
+    CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::failed; }));
+    lab.arm().error_flag = 0;
+    lab.arm().has_no_power = 1;
+    CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_driven; }));
+    lab.arm().has_no_power = 0;
+    CHECK (lab.pushes());
+}
+
+TEST_CASE ("motors that are saturated are an axis of an arm of Force Dimension, and no error", "[forcedimension]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    CHECK (lab.reading.axes[0] == 0.0);
+    arm.max_force = 3.0;   // since it was opened
+    CHECK (lab.ticksUntil ([&] { return lab.reading.axes[0] == 1.0; }, Lab::along (2, 5.0)));
+    CHECK (arm.force[2] == Approx (3.0));
+    CHECK (lab.ticksUntil ([&] { return lab.reading.axes[0] == 0.0; }, Lab::along (2, 2.0)));
+    CHECK (lab.device->counts().write_errors == 0);
+
+    REQUIRE (lab.opens());   // now the library says so from the start
+    CHECK (lab.limits.max_force == 3.0);
+}
+
+TEST_CASE ("an arm of Force Dimension that is unplugged, or does not answer, is opened again, with a force from zero", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    const bool is_silent = GENERATE (false, true);
+    auto& fault = is_silent ? arm.is_muted : arm.is_unplugged;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    fault = 1;
+    CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }, Lab::along (2)));
+    CHECK (contains (lab.device->trouble(), is_silent ? "does not answer: communication error" : "it was unplugged"));
+    CHECK (lab.device->counts().departures == 1);
+    fault = 0;
+    CHECK (lab.pushes());
+    CHECK (arm.enables == 2);
+    CHECK (arm.closes == 1);
+}
+
+TEST_CASE ("a call of Force Dimension's library that takes long costs a stop, and one that never returns costs the arm", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    const auto options = host::PluginDevice::Options { .silence_s = 0.02, .look_again = 2ms, .patience = 200ms, .real_time = false };
+    REQUIRE (lab.opens (Json::object(), options));
+
+    SECTION ("a reading that takes 30 ms is one that comes late")
+    {
+        REQUIRE (lab.reads());
+        arm.read_stall_ms = 30;
+        CHECK (lab.ticksUntil ([&] { return arm.read_stall_ms == 0 && lab.device->counts().oldest > 0.02; }));
+        CHECK (lab.device->counts().departures == 0);
+    }
+    SECTION ("a reading that takes 2 s")
+    {
+        REQUIRE (lab.reads());
+        arm.read_stall_ms = 2000;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::stuck; }));
+        CHECK (contains (lab.device->trouble(), "has not returned from `read`"));
+        CHECK (lab.ticksUntil ([&] { return lab.acting() == 0.0; }, Lab::along (2)));   // long before it returns
+        CHECK (lab.pushes());
+    }
+    SECTION ("an effort that never arrives")
+    {
+        REQUIRE (lab.reads());
+        arm.write_stall_ms = -1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::stuck; }, Lab::along (2)));
+        CHECK (lab.acting() == 0.0);
+        lab.device.reset();   // does not wait for ever
+        CHECK (arm.closes == 0);
+        arm.write_stall_ms = 0;
+        CHECK (eventually ([&] { return arm.closes == 1; }));
+        CHECK (arm.stopped_before_close == 1);
+    }
+    SECTION ("closing that never ends")
+    {
+        REQUIRE (lab.reads());
+        arm.close_stall_ms = -1;
+        lab.device.reset();
+        CHECK (arm.stopped_before_close == 1);
+        arm.close_stall_ms = 0;
+        CHECK (eventually ([&] { return arm.closes == 1; }));
+    }
+    lab.device.reset();
+    CHECK (eventually ([&] { return arm.is_open == 0; }));
+}
+
+TEST_CASE ("an arm of Force Dimension moves by motor only if a person has asked for it", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    arm.must_calibrate = 1;
+
+    SECTION ("nobody has")
+    {
+        CHECK (contains (lab.said(), R"(the arm is not calibrated, so it has no force. With "calibrate": true, its motors move it)"));
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }));
+        CHECK (arm.calibrations == 0);
+        CHECK (arm.enables == 0);
+        arm.is_calibrated = 1;   // by another program, or by hand
+        CHECK (lab.pushes());
+        CHECK (arm.enables == 1);
+    }
+    SECTION ("somebody has")
+    {
+        CHECK (lab.said ({ { "calibrate", true } }).empty());
+        CHECK (arm.calibrations == 1);
+        CHECK (lab.pushes());
+
+        // It comes back without power in between, and nobody has asked for that.
+        arm.is_unplugged = 1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }));
+        arm.is_calibrated = 0;
+        arm.is_unplugged = 0;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }));
+        CHECK (arm.calibrations == 1);
+    }
+    SECTION ("it can only be moved by hand")
+    {
+        arm.calibrates_by_hand = 1;
+        CHECK (contains (lab.said ({ { "calibrate", true } }), "Move each axis to both of its ends by hand"));
+        CHECK (arm.calibrations == 0);
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }));
+        arm.is_calibrated = 1;
+        CHECK (lab.pushes());
+    }
+}
+
+TEST_CASE ("old libraries and arms of Force Dimension are used as far as they go, or refused with the reason", "[forcedimension][safety]")
+{
+    SECTION ("firmware without a watchdog")
+    {
+        Lab lab;
+        lab.arm().watchdog = -1;
+        CHECK (contains (lab.said(), "the arm has no force: it has no watchdog, or one that is off, so it would keep its last force if this program died"));
+        CHECK_FALSE (lab.limits.max_force < GuardLimits::none);
+        CHECK (lab.reads());
+        CHECK (lab.arm().forces == 0);
+        CHECK (lab.arm().enables == 0);
+    }
+    SECTION ("a library without functions of robots and of the watchdog")
+    {
+        Lab lab { "libfake_old_dhd.so", "libdhd.so.3.2.1" };
+        lab.arm().wrist = 1;
+        CHECK (contains (lab.said(), "it has no watchdog"));
+        CHECK (lab.reads());
+        CHECK (lab.device->about().rotation);   // by the name that the function had
+        CHECK (contains (lab.device->about().about, "An arm of Force Dimension, library 3.2.1."));
+        CHECK (contains (lab.said ({ { "port", "sn=10001" } }), "3.2.1, does not find arms by serial number, so none can be opened"));
+        CHECK (contains (lab.said ({ { "port", "omega.3" } }), "no omega.3"));
+    }
+    SECTION ("one from before versions")
+    {
+        Lab lab { "libfake_ancient_dhd.so", "libdhd.so" };
+        CHECK (contains (lab.said(), "this version is too old: it lacks dhdEnableForce or dhdGetSDKVersion"));
+    }
+    SECTION ("none")
+    {
+        Lab lab { nullptr };
+        const auto said = lab.said();
+        CHECK (contains (said, "set FDSDK to its folder: neither libdrd.so nor libdhd.so is in"));
+        CHECK (contains (said, (lab.folder.path() / "sdk").c_str()));
+    }
+    SECTION ("one that needs a library that is not there")
+    {
+        Lab lab { "libfake_needy_drd.so" };
+        CHECK (contains (lab.said(), "libneeded_by_fake.so: cannot open shared object file: No such file or directory"));
+    }
+    SECTION ("the newest by number, and the next one if it cannot be loaded")
+    {
+        Lab lab { "libfake_needy_drd.so", "libdrd.so.3.17.5" };
+        lab.install ("libfake_ancient_dhd.so", "libdrd.so.3.2");
+        lab.install ("libfake_drd.so", "libdrd.so.3.9.1");
+        CHECK (lab.opens());
+        lab.device.reset();
+        Lab text_order { "libfake_drd.so", "libdrd.so.3.17.5" };
+        text_order.install ("libfake_needy_drd.so", "libdrd.so.3.9.1");
+        text_order.install ("libfake_ancient_dhd.so", "libdhd.so.4");   // libdrd comes first
+        CHECK (text_order.said().empty());
+    }
+}
+
+TEST_CASE ("a Falcon behind Force Dimension's library has its own buttons and no serial number", "[forcedimension]")
+{
+    Lab lab;
+    lab.arm().type = 60;
+    lab.arm().serial = 65535;
+    REQUIRE (lab.opens ({ { "port", "falcon" } }));
+    CHECK (lab.limits.max_force == 8.0);
+    CHECK (lab.device->layout().buttons == std::vector<std::string> { "center", "left", "up", "right" });
+    CHECK (lab.device->about().about == "Falcon of Force Dimension, firmware 3.1, library 3.17.5.");
+}
