@@ -157,7 +157,7 @@ TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* pa
 TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
 /** Where a control of the graph stands, from 0 to 1. [main thread] */
 TACTUS_API tactus_result tactus_graph_set_control (tactus_graph*, const char* control, double value, tactus_messages*);
-/** Your function for tactus_graph_perform_all. `user` is what you gave there. */
+/** Your function for tactus_graph_perform_all. `user` is what you gave there. [main thread] */
 typedef tactus_result (*tactus_graph_edits) (tactus_graph*, void* user);
 
 /** Edits in a batch: calls `edits`, and takes what that does with the functions above as one undo step with this name. Only the result is

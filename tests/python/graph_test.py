@@ -41,7 +41,7 @@ class Graphs(TestCase):
         before = graph.text
         with graph.edit("swap") as same:
             self.assertIs(same, graph)
-            graph.connect("drag.deflection", "board.position")   # the second wire into a position, for now
+            graph.connect("hand.position", "board.position", delay=1)   # the second wire into a position, for now
             graph.disconnect("hand.position", "board.position")
             self.assertFalse(graph.undo())
         swapped = graph.text

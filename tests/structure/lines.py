@@ -1,46 +1,45 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Prints how many lines of code each language has, against the last release: lines.py [--release VERSION] [ROOT]
+"""Prints how many lines of code each part has, against the last release: lines.py [--release VERSION] [ROOT]
 
-Warns of each language that has grown by more than 5 %. Exit status 1 if all together have more than `most` in lines.json. With --release, notes
-the lines of today as those of this version in lines.json; do this at a release."""
+Warns of each part that has grown by more than 5 %, and if all together have more than `most` in lines.json. With --release, notes the lines of
+today as those of this version in lines.json; do this at a release."""
 
 import argparse
 import json
 import os
 import pathlib
-import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 GROWTH = 0.05
-LANGUAGES = {"C": ("c", "h"), "C++": ("cpp", "hpp"), "Python": ("py", "pyi"), "shell": ("sh",), "JavaScript": ("js", "mjs", "cjs"), "CMake": ("cmake",)}
-LANGUAGE = {f".{ending}": language for language, endings in LANGUAGES.items() for ending in endings}
+PARTS = ("framework", "nodes", "host", "tests", "docs")
+ENDINGS = {".c", ".h", ".cpp", ".hpp", ".py", ".pyi", ".sh", ".js", ".mjs", ".cjs", ".cmake"}
 
 
 def counted(root):
-    """The lines of each language, without those of the folders that a build or git makes."""
-    lines = dict.fromkeys(LANGUAGES, 0)
+    """The lines of each part, without those of the folders that a build or git makes."""
+    lines = dict.fromkeys((*PARTS, "the rest"), 0)
     for folder, inside, files in os.walk(root):
-        inside[:] = [name for name in inside if name not in (".git", "__pycache__") and not (name == "build" and pathlib.Path(folder) == root)]
+        at = pathlib.Path(folder).relative_to(root)
+        inside[:] = [name for name in inside if name not in (".git", "__pycache__") and not (at == pathlib.Path() and name.startswith(("build", "out")))]
+        part = at.parts[0] if at.parts and at.parts[0] in PARTS else "the rest"
         for name in files:
-            language = "CMake" if name == "CMakeLists.txt" else LANGUAGE.get(pathlib.Path(name).suffix)
-            if language:
-                lines[language] += pathlib.Path(folder, name).read_bytes().count(b"\n")
+            if name == "CMakeLists.txt" or pathlib.Path(name).suffix in ENDINGS:
+                lines[part] += pathlib.Path(folder, name).read_bytes().count(b"\n")
     return lines
 
 
 def report(now, known):
-    """The table, the warnings, and whether there are too many lines."""
+    """The table and the warnings."""
     before, most = known["lines"], known["most"]
-    rows = [(language, before.get(language, 0), now[language]) for language in now]
+    rows = [(part, before.get(part, 0), now[part]) for part in now]
     rows.append(("all", sum(before.values()), sum(now.values())))
     text = [f"{'lines':12}{known['version']:>10}{'now':>10}"]
     text += [f"{name:12}{old:10}{new:10}{f'{100 * (new / old - 1):+9.1f} %' if old else ''}" for name, old, new in rows]
     text += [f"warning: {name} has grown by more than {100 * GROWTH:g} % since {known['version']}" for name, old, new in rows if new > (1 + GROWTH) * old]
-    too_many = rows[-1][2] - most
-    if too_many > 0:
-        text.append(f"error: {too_many} lines more than the {most} of tests/structure/lines.json; delete what nobody needs, or change `most` and say why")
-    return "\n".join(text), too_many > 0
+    if (too_many := rows[-1][2] - most) > 0:
+        text.append(f"warning: {too_many} lines more than the {most} of tests/structure/lines.json")
+    return "\n".join(text)
 
 
 def main():
@@ -53,11 +52,9 @@ def main():
     now = counted(given.root.resolve())
     if given.release:
         table.write_text(json.dumps({"version": given.release, "most": known["most"], "lines": now}, indent=2) + "\n", encoding="utf-8")
-        return 0
-    text, too_many = report(now, known)
-    print(text)
-    return int(too_many)
+    else:
+        print(report(now, known))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -36,7 +36,7 @@ struct ReadingCounts
 class ReadingJudge
 {
 public:
-    /// When a tick asks for the reading, and what it knows.
+    /// The time at which a tick asks for the reading, and what the tick knows.
     struct Tick
     {
         double period_s = 0.0;      ///< 0: whoever asks has no ticks of its own, and only the clock counts
@@ -74,7 +74,7 @@ private:
     void judge (Nanoseconds arrival, std::uint64_t lost) noexcept;
     ReadingFault fault (bool is_connected) const noexcept;
 
-    /// When a report came last.
+    /// The last arrival of a report.
     struct ReportArrival
     {
         double age (bool comes, Nanoseconds arrival, double period_s, Nanoseconds now) noexcept;   // in s; call once per tick

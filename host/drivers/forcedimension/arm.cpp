@@ -67,7 +67,7 @@ const Model models[] {
     { "lambda.7", 12.0, { 108, 109, 112, 113, 114, 117, 118, 119, 120, 121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 210, 211 } },
 };
 
-/// What a person asks for.
+/// The device that a person asks for.
 struct Wanted
 {
     std::string port;

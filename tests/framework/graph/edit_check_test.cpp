@@ -320,7 +320,7 @@ TEST_CASE ("a batch is one step that is judged by its result, and an edit that f
     const auto before = test::fingerprint (history.graph());
 
     history.begin ("rewire");   // two wires into one input, until the first is removed
-    CHECK (history.perform (wireTo ("drag.deflection -> board.position")));
+    CHECK (history.perform (wireTo ("hand.position -> [1] -> board.position")));
     CHECK_FALSE (history.undo());
     CHECK (history.perform (RemoveWire { "", 0, "hand.position -> board.position" }));
     CHECK (history.finish());

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 using namespace tactus::test;
@@ -269,4 +270,19 @@ TEST_CASE ("at least 40 typed mistakes are each reported with line, column and w
         CHECK (ran.status == (message.find (": error: ") != message.npos ? 1 : 0));
     }
     CHECK (seen.size() >= 40);
+}
+
+TEST_CASE ("tactus says that the variable TACTUS_LANES has no effect, and renders the same", "[cli]")
+{
+    const Scratch scratch;
+    const auto render = [&] (const std::string& out) {
+        const auto ran = runTactus ({ "render", TACTUS_SOURCE_DIR "/graphs/two_fingers.json", "--duration", "0.2", "--out", scratch.path (out) });
+        CHECK (ran.status == 0);
+        return ran.err.find ("TACTUS_LANES has no effect") != std::string::npos;
+    };
+    CHECK_FALSE (render ("without.csv"));
+    setenv ("TACTUS_LANES", "1", 1);
+    CHECK (render ("with.csv"));
+    unsetenv ("TACTUS_LANES");
+    CHECK (textOf (scratch.path ("with.csv")) == textOf (scratch.path ("without.csv")));
 }
