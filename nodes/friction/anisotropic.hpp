@@ -225,7 +225,7 @@ private:
         Grain grain { .along = direction (c.plane.kept (direction (in.grain))) };
         grain.across = c.plane.home.cross (grain.along);
         grain.bound = { reach (params.mu_along), reach (params.mu_against), reach (params.mu_across) };
-        if (isZero (grain.along)) grain.bound.with = grain.bound.against = grain.bound.side;
+        if (grain.along.isZero (0.0)) grain.bound.with = grain.bound.against = grain.bound.side;
         return grain;
     }
 

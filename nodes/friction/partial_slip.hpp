@@ -150,7 +150,7 @@ struct PartialSlip
         const double total = dissipated + contact.energy;
 
         Outputs out;
-        if (is_number && ! opens && ! isZero (in.normal) && follow (out, in, stored))
+        if (is_number && ! opens && ! in.normal.isZero (0.0) && follow (out, in, stored))
         {
             contact.touching = true;
             dissipated = out.dissipated_energy;
@@ -169,7 +169,7 @@ private:
     {
         bool touching = false;
         Position p = Position::Zero();   // position of the tool
-        TangentPlaneOf<double> plane {};
+        TangentPlane plane {};
         std::array<Vec3, stack.size()> stretches = unstretched();   // d_i, in the plane's home
         double sigma = 0.0;                                         // N/m
         double energy = 0.0;                                        // in the stretches, in J
