@@ -8,6 +8,7 @@
 
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/json_text.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
