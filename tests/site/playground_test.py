@@ -102,6 +102,10 @@ class Playground(unittest.TestCase):
     def setUpClass(cls):
         cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(cls.site)))
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
+        cls.start()
+
+    @classmethod
+    def start(cls):
         options = webdriver.ChromeOptions()
         for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1200,1100"):
             options.add_argument(flag)
@@ -388,13 +392,18 @@ class Playground(unittest.TestCase):
             self.until("return window.board.last().force > 0.3")
 
     def second_window(self):
-        """Opens the playground in another window. The caller is there afterwards."""
+        """Opens the playground in another window. The caller is there afterwards. The next test begins with a browser of its own."""
+        self.addCleanup(self.restart)
         first = self.page.current_window_handle
         self.page.switch_to.new_window("window")
         self.page.set_window_size(1200, 1100)
         self.mock()
         self.open("preset=dry_wood")
         return first, self.page.current_window_handle
+
+    def restart(self):
+        self.page.quit()
+        self.start()
 
     def close_window(self, back_to):
         self.page.close()
@@ -491,6 +500,7 @@ class Playground(unittest.TestCase):
         self.close_window(first)
 
     def test_a_page_that_is_frozen_or_kept_for_the_way_back_gives_its_board_up(self):
+        self.addCleanup(self.restart)   # a browser that was frozen takes no touch any more
         self.connect("dry_wood", -0.0005)
         self.page.execute_cdp_cmd("Page.setWebLifecycleState", {"state": "frozen"})
         self.page.execute_cdp_cmd("Page.setWebLifecycleState", {"state": "active"})

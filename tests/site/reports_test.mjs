@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // node reports_test.mjs SITE: the module reports.wasm gives what the samples of the profiles demand, refuses what a page cannot drive, and survives noise.
 import assert from 'node:assert';
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
 const site = process.argv[2], { Reports } = await import (pathToFileURL (`${site}/reports.js`));
 const module = new WebAssembly.Module (readFileSync (`${site}/reports.wasm`));
-assert.deepEqual (WebAssembly.Module.imports (module), []);
+// No module of a page can open or calm a device, nor outlive its page: it imports nothing.
+for (const name of ['reports.wasm', ...readdirSync (`${site}/graphs`).filter (one => one.endsWith ('.wasm')).map (one => `graphs/${one}`)])
+    assert.deepEqual (WebAssembly.Module.imports (new WebAssembly.Module (readFileSync (`${site}/${name}`))), [], name);
 
 const near = (a, b) => Math.abs (a - b) <= 1e-9 * Math.max (1, Math.abs (a), Math.abs (b));
 const bytesOf = text => Uint8Array.from (text.split (' ').flatMap (part => {
