@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace tactus::readers
 {
@@ -50,6 +51,19 @@ struct Control
 struct Event
 {
     double time = 0.0, duration = 0.0, intensity = 1.0, sharpness = 0.5;
+    double attack = 0.0, decay = 0.0, release = 0.0;   // s
+    bool is_sustained = true;
+
+    bool hasShape() const { return attack > 0.0 || release > 0.0 || ! is_sustained; }
+
+    /// The gain of its intensity: rises within the attack, falls within the decay unless it is sustained, and falls within the release at its end.
+    double shape (double since) const
+    {
+        double gain = attack > 0.0 ? std::min (1.0, since / attack) : 1.0;
+        if (! is_sustained && since >= attack) gain = decay > 0.0 ? std::max (0.0, 1.0 - (since - attack) / decay) : 0.0;
+        if (release > 0.0) gain *= std::clamp ((duration - since) / release, 0.0, 1.0);
+        return gain;
+    }
 };
 
 class AhapReader
@@ -124,33 +138,45 @@ private:
                               "play it alongside the clip");
         }
         Event event { .time = timeOf (spot) };
-        if (! is_tap)
-        {
-            const auto duration = file.need (spot, "EventDuration");
-            event.duration = limited (duration, 0.0, 30.0);
-        }
+        const auto duration = is_tap ? std::nullopt : file.find (spot, "EventDuration");
+        if (duration) event.duration = limited (*duration, 0.0, 30.0);
+        if (! is_tap && ! (event.duration > 0.0))
+            return file.note (spot, "clip/not_carried", "the continuous event is left out: it has no EventDuration", "give it one, in seconds");
         if (const auto list = file.find (spot, "EventParameters"))
         {
             file.list (*list);
             for (std::size_t i = 0; i < list->json->size(); ++i)
             {
                 const auto entry = ClipJson::entry (*list, i);
-                readEventParameter (entry, event);
+                readEventParameter (entry, event, is_tap);
             }
         }
+        if (event.hasShape())
+            file.note (spot, "clip/changed", "its attack, decay and release are straight lines of as many seconds within its duration: Apple does not publish their shape",
+                       "draw them into a curve of HapticIntensityControl");
         (is_tap ? taps : events).push_back (event);
     }
 
-    void readEventParameter (const Spot& spot, Event& event)
+    void readEventParameter (const Spot& spot, Event& event, bool is_tap)
     {
-        const auto id = file.need (spot, "ParameterID"), value = file.need (spot, "ParameterValue");
+        const auto id = file.need (spot, "ParameterID");
         const auto& name = file.text (id);
+        const auto value = file.find (spot, "ParameterValue");
+        if (! value) return file.note (spot, "clip/habit", quote (name) + " has no ParameterValue; its default is used", "give it one");
         if (name == "HapticIntensity")
-            event.intensity = limited (value, 0.0, 1.0);
+            event.intensity = limited (*value, 0.0, 1.0);
         else if (name == "HapticSharpness")
-            event.sharpness = limited (value, 0.0, 1.0);
-        else if (! (name == "Sustained" && file.number (value) == 1.0))
-            file.note (spot, "clip/not_carried", quote (name) + " of " + numberText (file.number (value)) + " is left out",
+            event.sharpness = limited (*value, 0.0, 1.0);
+        else if (name == "Sustained" && ! is_tap)
+            event.is_sustained = limited (*value, 0.0, 1.0) >= 0.5;
+        else if (name == "AttackTime" && ! is_tap)
+            event.attack = limited (*value, 0.0, 1.0);
+        else if (name == "DecayTime" && ! is_tap)
+            event.decay = limited (*value, 0.0, 1.0);
+        else if (name == "ReleaseTime" && ! is_tap)
+            event.release = limited (*value, 0.0, 1.0);
+        else if (! (name == "Sustained" && file.number (*value) == 1.0))
+            file.note (spot, "clip/not_carried", quote (name) + " of " + numberText (file.number (*value)) + " is left out",
                        "draw it into a curve of HapticIntensityControl");
     }
 
@@ -167,8 +193,13 @@ private:
 
     double controlValue (const Spot& spot, const Control& control)
     {
-        const auto value = file.need (spot, "ParameterValue");
-        return limited (value, &control == &intensity ? 0.0 : -1.0, 1.0);
+        const auto value = file.find (spot, "ParameterValue");
+        if (! value)
+        {
+            file.note (spot, "clip/habit", "there is no ParameterValue; its default is used", "give it one");
+            return control.initial;
+        }
+        return limited (*value, &control == &intensity ? 0.0 : -1.0, 1.0);
     }
 
     void readParameter (const Spot& spot)
@@ -195,17 +226,39 @@ private:
         if (! curve.empty()) control->curves.push_back (std::move (curve));
     }
 
-    /// The squares of a straight line as straight pieces, off by at most 0.05 %.
+    /// The squares of a straight line as straight pieces, off by at most 0.01 %. Their mean is that of the squares, so that the phase of a tone
+    /// does not drift.
     static void addSquares (std::vector<ClipPoint>& out, double from, double to, double a, double b)
     {
-        constexpr double off = 5e-4;
+        constexpr double off = 1e-4;
         const int pieces = std::max (1, static_cast<int> (std::ceil (std::abs (b - a) / (2.0 * std::sqrt (off)))));
+        const double width = (b - a) / pieces, above = width * width / 6.0;   // how far the pieces are above the squares, on average
         for (int i = 0; i <= pieces; ++i)
         {
             const double share = static_cast<double> (i) / pieces, v = std::lerp (a, b, share);
-            const ClipPoint p { std::lerp (from, to, share), v * v };
+            const ClipPoint p { std::lerp (from, to, share), std::max (0.0, v * v - above) };
             if (out.empty() || out.back() != p) out.push_back (p);
         }
+    }
+
+    /// The same of a line times the shape of an event.
+    static void addShaped (std::vector<ClipPoint>& out, double from, double to, double a, double b, const Event& e)
+    {
+        constexpr int pieces = 64;
+        std::vector<double> corners { from, to };
+        for (const double since : { e.attack, e.attack + e.decay, e.duration - e.release })
+            if (const double t = e.time + since; t > from && t < to) corners.push_back (t);
+        std::ranges::sort (corners);
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+            for (int k = 0; k <= pieces; ++k)
+            {
+                // Just within its ends, where the shape may step.
+                const double share = static_cast<double> (k) / pieces, inside = std::clamp (share, 1e-9, 1.0 - 1e-9);
+                const double t = std::lerp (corners[i], corners[i + 1], share), v = std::lerp (a, b, (t - from) / (to - from));
+                const double shaped = v * e.shape (std::lerp (corners[i], corners[i + 1], inside) - e.time);
+                const ClipPoint p { t, shaped * shaped };
+                if (out.empty() || out.back() != p) out.push_back (p);
+            }
     }
 
     /// Calls take (from, to, value at from, value at to) for each straight stretch of a control within an event.
@@ -230,8 +283,13 @@ private:
     void addEvent (const Event& e, ClipTrack& track) const
     {
         const double end = e.time + e.duration;
-        stretches (intensity, e.time, end,
-                   [&] (double from, double to, double a, double b) { addSquares (track.amplitude, from, to, e.intensity * a, e.intensity * b); });
+        if (e.time > 0.0) track.phases.push_back ({ e.time, 0.0 });   // Apple defines no phase: each event begins at 0
+        stretches (intensity, e.time, end, [&] (double from, double to, double a, double b) {
+            if (e.hasShape())
+                addShaped (track.amplitude, from, to, e.intensity * a, e.intensity * b, e);
+            else
+                addSquares (track.amplitude, from, to, e.intensity * a, e.intensity * b);
+        });
         stretches (sharpness, e.time, end, [&] (double from, double to, double a, double b) {
             // The sum is limited to 0…1: corners where it reaches a limit.
             a += e.sharpness;

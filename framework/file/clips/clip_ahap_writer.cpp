@@ -2,12 +2,14 @@
 // Writes Apple AHAP by the rules of Meta's converter: at most 16 points in a curve, curves chained by repeating a point, continuous
 // events of at most 30 s, intensity and sharpness the square roots of amplitude and frequency, and an envelope 20 % lower at a
 // transient (facebook/meta-haptics-sdk, core/haptic_data, MIT).
+#include "clip_ahap_events.hpp"
 #include "clip_formats.hpp"
 
 #include <tactus/text/json_writer.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tactus::readers
 {
@@ -56,12 +58,40 @@ std::vector<ClipPoint> roots (const std::vector<ClipPoint>& points, const std::v
     }
     return made;
 }
-}   // namespace
-
-ClipText writeAhap (const Clip& clip)
+/// One event for each tone, which may sound together. Empty if the curves of the format, which act on all events, do not allow it.
+std::optional<Json> eventsOf (const Clip& clip)
 {
-    ClipText made;
-    const auto track = oneTrack (clip, made.losses);
+    const auto all = ahapEvents (clip.tracks);
+    if (! all) return {};
+    Json pattern = Json::array();
+    addCurves (pattern, "HapticIntensityControl", all->gain);
+    addCurves (pattern, "HapticSharpnessControl", all->shift);
+    for (const auto& e : all->events)
+        for (double from = e.from; from < e.to; from += longest_event_s)
+            pattern.push_back (event ("HapticContinuous", from, std::min (longest_event_s, e.to - from), parameters (e.intensity, e.sharpness)));
+    std::vector<ClipTap> taps;
+    for (const auto& t : clip.tracks)
+        taps.insert (taps.end(), t.taps.begin(), t.taps.end());
+    std::ranges::stable_sort (taps, {}, &ClipTap::time);
+    constexpr double rounding = 1e-9;
+    for (const auto& tap : taps)
+    {
+        // The curves act on the transients too, so they are taken out of their numbers. Before the first point a curve does nothing.
+        const auto curve = [&] (const std::vector<ClipPoint>& points, double nothing) {
+            return points.empty() || tap.time < points.front().time ? nothing : heldAt (points, tap.time, false, nothing);
+        };
+        const double gain = curve (all->gain, 1.0), root = std::sqrt (tap.amplitude), sharpness = tap.sharpness - curve (all->shift, 0.0);
+        if (root > gain + rounding || sharpness < -rounding || sharpness > 1.0 + rounding) return {};
+        pattern.push_back (event ("HapticTransient", tap.time, 0.0,
+                                  parameters (gain > 0.0 ? std::min (1.0, root / gain) : 0.0, std::clamp (sharpness, 0.0, 1.0))));
+    }
+    return pattern;
+}
+
+/// One continuous event with curves, as Meta's converter writes it.
+Json curvesOf (const Clip& clip, Messages& losses)
+{
+    const auto track = oneTrack (clip, losses);
     Json pattern = Json::array();
     const auto envelope = roots (track.amplitude, track.taps);
     if (! envelope.empty())
@@ -77,10 +107,24 @@ ClipText writeAhap (const Clip& clip)
         pattern.push_back (event ("HapticTransient", tap.time, 0.0, parameters (std::sqrt (tap.amplitude), tap.sharpness)));
 
     if (! envelope.empty() && ! track.taps.empty())
-        lose (made.losses, "transients",
+        lose (losses, "transients",
               "the engine of the phone applies the curves of the envelope to the " + std::to_string (track.taps.size())
                   + " transients too, and the envelope is 20 % lower at each",
               "write two files with --split, and play them together");
+    return pattern;
+}
+}   // namespace
+
+ClipText writeAhap (const Clip& clip)
+{
+    ClipText made;
+    const auto isApart = [] (const ClipTrack& t) { return ! t.phases.empty(); };
+    std::optional<Json> pattern;
+    if (clip.tracks.size() > 1 || std::ranges::any_of (clip.tracks, isApart)) pattern = eventsOf (clip);
+    if (! pattern) pattern = curvesOf (clip, made.losses);
+    const auto differs = [&] (const ClipTrack& t) { return t.channel != clip.tracks.front().channel; };
+    if (made.losses.empty() && std::ranges::any_of (clip.tracks, differs))
+        lose (made.losses, "channels", "they are added up: the format has one", "write a .json or .hjif, or each channel alone");
     if (clip.voice != ClipVoice {})
         lose (made.losses, "voice", "the frequencies of 0 and 1, and the ducking, are left out: the phone chooses its own", "no action is needed");
 
@@ -93,7 +137,7 @@ ClipText writeAhap (const Clip& clip)
         else
             lose (made.losses, "notes/" + key, "the note is left out: the format has no place for it", "keep the original file");
     if (! data.empty()) file["Metadata"] = std::move (data);
-    file["Pattern"] = std::move (pattern);
+    file["Pattern"] = std::move (*pattern);
     made.text = writeJson (file);
     return made;
 }

@@ -57,4 +57,51 @@ std::vector<ChannelDifference> compareClips (const Clip& first, const Clip& seco
     return all;
 }
 
+namespace
+{
+std::vector<double> sumOf (const ChannelSamples& all)
+{
+    std::vector<double> sum;
+    for (const auto& [channel, samples] : all)
+    {
+        sum.resize (std::max (sum.size(), samples.size()));
+        for (std::size_t k = 0; k < samples.size(); ++k)
+            sum[k] += samples[k];
+    }
+    return sum;
+}
+
+SampleDifference compareTwo (const std::vector<double>& a, const std::vector<double>& b, int channel)
+{
+    const auto count = std::max (a.size(), b.size());
+    double squares = 0.0, differences = 0.0;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+        const double x = k < a.size() ? a[k] : 0.0, y = k < b.size() ? b[k] : 0.0;
+        squares += x * x;
+        differences += (x - y) * (x - y);
+    }
+    const auto n = static_cast<double> (std::max<std::size_t> (count, 1));
+    return { channel, std::sqrt (squares / n), std::sqrt (differences / n) };
+}
+}   // namespace
+
+std::vector<SampleDifference> compareSamples (const ChannelSamples& first, const ChannelSamples& second, bool mixed)
+{
+    if (mixed) return { compareTwo (sumOf (first), sumOf (second), 0) };
+    std::set<int> channels;
+    for (const auto* all : { &first, &second })
+        for (const auto& [channel, samples] : *all)
+            channels.insert (channel);
+    static const std::vector<double> silence {};
+    const auto in = [] (const ChannelSamples& all, int channel) -> const std::vector<double>& {
+        const auto found = all.find (channel);
+        return found == all.end() ? silence : found->second;
+    };
+    std::vector<SampleDifference> made;
+    for (const int channel : channels)
+        made.push_back (compareTwo (in (first, channel), in (second, channel), channel));
+    return made;
+}
+
 }   // namespace tactus::readers

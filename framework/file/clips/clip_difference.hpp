@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/signal/clip.hpp>
+#include "clip_source.hpp"
 
 #include <vector>
 
@@ -24,5 +24,18 @@ struct ChannelDifference
 /// Compares each channel. If `mixed`, all channels of the first are added up and compared with all of the second, as for a format
 /// with one channel. If only one of them has waves, their envelopes are compared. Clips longer than 10 min are compared in their first 10 min. [main thread]
 std::vector<ChannelDifference> compareClips (const Clip& first, const Clip& second, bool mixed);
+
+/// How far the samples of two renderings differ. Channel 0 is the sum of all.
+struct SampleDifference
+{
+    int channel = 0;
+    double rms = 0.0, difference = 0.0;   ///< of the first one; of the difference
+
+    /// The difference relative to the first one, or to 1 if that is silent.
+    double part() const noexcept { return rms > 0.0 ? difference / rms : difference; }
+};
+
+/// Compares each channel, or the sums of all channels if `mixed`. A channel that one of them lacks is silent there.
+std::vector<SampleDifference> compareSamples (const ChannelSamples& first, const ChannelSamples& second, bool mixed);
 
 }   // namespace tactus::readers

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace tactus::readers
 {
@@ -82,6 +83,13 @@ bool isClipName (std::string_view name) noexcept
                                 [&] (std::string_view known) { return std::ranges::equal (name.substr (dot + 1), known, equals); });
 }
 
+Messages ClipFile::leftOut() const
+{
+    Messages out;
+    std::ranges::copy_if (notes, std::back_inserter (out), [] (const Message& m) { return m.id != "clip/habit"; });
+    return out;
+}
+
 Result<ClipFile> readClip (std::string_view bytes, std::string_view name)
 {
     const auto by_name = formatOf (name);
@@ -91,7 +99,7 @@ Result<ClipFile> readClip (std::string_view bytes, std::string_view name)
         ClipJson file (bytes, name);
         ClipFile made;
         made.clip = readAs (by_name == Format::json ? inside (file) : by_name, file);
-        made.notes = std::move (file.notes);
+        made.notes = file.takeNotes();
         if (const auto what = problemOf (made.clip); ! what.empty()) return Message::error ("clip/range", std::string (name), what, "correct it");
         return made;
     }
@@ -155,7 +163,7 @@ Result<Messages> readCalibration (std::string_view bytes, std::string_view name,
         if (const auto fade = file.find (emphasis, "fade_out_percent"); fade && file.number (*fade) != 0.0)
             file.note (*fade, "clip/not_carried", "the fade of the emphasis is left out", "no action is needed");
         voice = read;
-        return std::move (file.notes);
+        return file.takeNotes();
     }
     catch (const ClipProblem& problem)
     {

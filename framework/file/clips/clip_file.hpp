@@ -12,11 +12,15 @@ namespace tactus::readers
 {
 
 /// A clip that was read. The warnings name contents that a clip cannot hold, and syntax that is accepted although the format does not
-/// allow it. `where` is name:line:column.
+/// allow it. `where` is name:line:column. Warnings of one kind are one, with a count.
 struct ClipFile
 {
-    Clip clip;
-    Messages notes;
+    Clip clip {};
+    Messages notes {};
+    std::string name {}, text {};   ///< of a file whose sound can be compared with what is made of it (renderFile); else empty
+
+    /// The notes about what is not in the clip, or differs there: clip/not_carried, clip/changed, clip/clamped, clip/not_finite.
+    Messages leftOut() const;
 };
 
 /// The text of a clip file, with warnings about what it could not carry. `where` is the part of the clip.
@@ -32,7 +36,7 @@ bool isClipName (std::string_view name) noexcept;
 /// Reads a clip: Meta .haptic 1, Apple AHAP, MPEG HJIF, or a clip of Tactus (.json, "format": "tactus-clip"). The extension selects the
 /// format; a .json may also hold any of the others. The time is linear in the number of events. Accepts any text. Docs: docs/clips.md.
 /// Error ids: clip/unknown_kind, clip/syntax, clip/missing, clip/kind, clip/range, clip/order, clip/version, clip/too_few, clip/too_large.
-/// Warnings: clip/habit, clip/not_carried, clip/clamped. [main thread]
+/// Warnings: clip/habit, and those of ClipFile::leftOut. [main thread]
 [[nodiscard]] Result<ClipFile> readClip (std::string_view bytes, std::string_view name);
 
 /// Writes a clip in the format of the extension. Warnings: clip/not_carried, clip/changed. Error: clip/unknown_kind. [main thread]

@@ -2,13 +2,16 @@
 // Reads MPEG HJIF (ISO/IEC 23090-31). Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics (licensed under BSD-3; none of its code
 // is used here). Drafts called channels tracks, and gave wave bands an encoding_modality.
 #include "clip_formats.hpp"
+#include "hjif_effect.hpp"
 
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 namespace tactus::readers
 {
@@ -27,16 +30,11 @@ struct Band
         transient
     };
 
-    struct Effect
-    {
-        std::vector<ClipPoint> amplitude, hertz;   // at absolute times
-    };
-
     Kind kind = Kind::wave;
     int channel = 1;
     double low = 0.0, high = 0.0;   // Hz
-    bool is_smooth = false;         // a curve without corners
-    std::vector<Effect> effects {};
+    HjifCurve curve = HjifCurve::cubic;
+    std::vector<HjifEffect> effects {};
 };
 
 class HjifReader
@@ -60,7 +58,7 @@ public:
             readPerception (perception);
         }
         scale();
-        for (const auto& band : bands)
+        for (auto& band : bands)
             addBand (band);
         return std::move (clip);
     }
@@ -92,6 +90,10 @@ private:
             channel_now = perceptions_count == 1 ? static_cast<int> (file.numberOr (channel, "id", channel_count - 1.0, -1e9, 1e9)) + 1 : channel_count;
             if (channel_now < 1 || channel_now > most_clip_channels) channel_now = channel_count;
             gain = file.numberOr (channel, "gain", 1.0, -1e6, 1e6) * std::pow (10.0, exponent);
+            for (const auto* key : { "mixing_coefficient", "mixing_weight" })
+                if (const auto weight = file.find (channel, key); weight && file.number (*weight) != 1.0)
+                    file.note (*weight, "clip/not_carried", quote (key) + " of " + numberText (file.number (*weight)) + " is left out: channels are not mixed here",
+                               "set the gain of the node that plays the channel");
             const auto all = file.find (channel, "bands");
             if (! all) continue;
             file.list (*all);
@@ -130,12 +132,7 @@ private:
         Band band { .kind = *kind, .channel = channel_now };
         band.low = file.numberOr (spot, "lower_frequency_limit", 0.0, 0.0, 1e5);
         band.high = file.numberOr (spot, "upper_frequency_limit", 0.0, 0.0, 1e5);
-        if (const auto type = file.find (spot, "curve_type"); band.kind == Band::Kind::curve && type)
-        {
-            band.is_smooth = file.isText (spot, "curve_type", "Cubic");
-            if (! band.is_smooth && ! file.isText (spot, "curve_type", "Linear"))
-                file.note (*type, "clip/changed", "the curve is drawn with straight lines", "no action is needed if its points are close together");
-        }
+        if (const auto type = file.find (spot, "curve_type"); band.kind == Band::Kind::curve && type) band.curve = curveType (spot, *type);
         const auto effects = file.need (spot, "effects");
         file.list (effects);
         for (std::size_t i = 0; i < effects.json->size(); ++i)
@@ -145,6 +142,17 @@ private:
             readEffect (effect, library, band);
         }
         if (! band.effects.empty()) bands.push_back (std::move (band));
+    }
+
+    HjifCurve curveType (const Spot& spot, const Spot& type)
+    {
+        if (file.isText (spot, "curve_type", "Linear")) return HjifCurve::linear;
+        if (file.isText (spot, "curve_type", "Akima")) return HjifCurve::akima;
+        if (file.isText (spot, "curve_type", "Cubic") || file.isText (spot, "curve_type", "Unknown")) return HjifCurve::cubic;
+        const auto name = type.json->is_string() ? quote (type.json->asString()) : std::string ("its type");
+        file.note (type, "clip/changed", "the curve is drawn with straight lines: " + name + " is not decoded",
+                   "no action is needed if its points are close together");
+        return HjifCurve::linear;
     }
 
     /// The effect of the library with this id.
@@ -160,7 +168,8 @@ private:
 
     void readEffect (const Spot& spot, const std::optional<Spot>& library, Band& band)
     {
-        const double start = file.numberOr (spot, "position", 0.0, 0.0, longest_clip_s * timescale);
+        double start = file.numberOr (spot, "position", 0.0, -longest_clip_s * timescale, longest_clip_s * timescale);
+        if (isJustBelow16Bits (start)) start = wrapped (spot, "position", start);
         if (file.isText (spot, "effect_type", "Composite"))
             return file.note (spot, "clip/not_carried", "the composite effect is left out", "put its effects into the band");
         if (! file.isText (spot, "effect_type", "Reference")) return readKeyframes (spot, start, band);
@@ -169,35 +178,108 @@ private:
         readKeyframes (*found, start, band);
     }
 
+    /// MPEG's own decoder writes positions before its packet as unsigned numbers of 16 bits: 65534 is -2. A position that is really as large is
+    /// rare, and the note names it.
+    static bool isJustBelow16Bits (double ticks) { return ticks >= 65536.0 - 64.0 && ticks < 65536.0; }
+
+    double wrapped (const Spot& spot, std::string_view key, double ticks)
+    {
+        const double meant = ticks - 65536.0;
+        file.note (*file.find (spot, key), "clip/changed", numberText (ticks) + " is read as " + numberText (meant) + ": a negative number of 16 bits",
+                   "correct it if it is meant as it is written");
+        return meant;
+    }
+
+    /// The positions of the keyframes, relative to the effect. They never decrease.
+    std::vector<double> positionsOf (const Spot& list)
+    {
+        std::vector<double> ticks;
+        for (std::size_t i = 0; i < list.json->size(); ++i)
+        {
+            const auto frame = ClipJson::entry (list, i);
+            file.object (frame);
+            ticks.push_back (file.numberOr (frame, "relative_position", 0.0, -longest_clip_s * timescale, longest_clip_s * timescale));
+            if (++keyframes > budgets().numbers) file.refuse (frame, "clip/too_large", "the effects have more keyframes than the budget allows", "shorten it");
+        }
+        for (std::size_t i = ticks.size(); i-- > 0;)
+        {
+            const auto frame = ClipJson::entry (list, i);
+            const bool goes_back = i + 1 < ticks.size() && ticks[i] > ticks[i + 1];
+            const bool is_wrap = ticks[i] >= 32768.0 && ticks[i] < 65536.0 && goes_back && ticks[i] - 65536.0 <= ticks[i + 1];
+            if (is_wrap || (i == 0 && ticks.size() == 1 && isJustBelow16Bits (ticks[i])))
+                ticks[i] = wrapped (frame, "relative_position", ticks[i]);
+            else if (goes_back)
+            {
+                const auto later = ClipJson::entry (list, i + 1);
+                file.refuse (later, "clip/order", "it is before the previous keyframe", "sort the keyframes by relative_position");
+            }
+        }
+        return ticks;
+    }
+
+    HjifEffect::Base baseOf (const Spot& spot)
+    {
+        using Base = HjifEffect::Base;
+        const auto base = file.find (spot, "base_signal");
+        if (! base) return Base::sine;
+        for (const auto& [name, value] : { std::pair { "Sine", Base::sine }, std::pair { "Square", Base::square }, std::pair { "Triangle", Base::triangle },
+                                           std::pair { "SawToothUp", Base::saw_up }, std::pair { "SawToothDown", Base::saw_down } })
+            if (file.isText (spot, "base_signal", name)) return value;
+        file.refuse (*base, "clip/range", "there is no such base signal", "base signals are Sine, Square, Triangle, SawToothUp and SawToothDown");
+    }
+
     void readKeyframes (const Spot& spot, double start, Band& band)
     {
-        if (const auto base = file.find (spot, "base_signal"); base && ! file.isText (spot, "base_signal", "Sine"))
-            file.note (*base, "clip/not_carried", "the signal is played as a sine", "no action is needed");
         const auto list = file.find (spot, "keyframes");
         if (! list) return file.note (spot, "clip/not_carried", "the effect has no keyframes", "remove it");
         file.list (*list);
-        Band::Effect effect;
-        double before = 0.0;
-        for (std::size_t i = 0; i < list->json->size(); ++i)
+        if (list->json->size() == 0) return file.note (*list, "clip/not_carried", "the effect has no keyframes", "remove it");
+        const auto ticks = positionsOf (*list);
+        const double first = std::min (0.0, ticks.front());   // a keyframe before its effect: the effect begins there
+        HjifEffect effect { .timescale = timescale, .start = start + first, .length = ticks.back() - first, .base = baseOf (spot) };
+        const double radians = file.numberOr (spot, "phase", 0.0, -1e6, 1e6), cycles = radians / (2.0 * std::numbers::pi);
+        effect.phase = cycles - std::floor (cycles);
+        if (effect.seconds (effect.length) > longest_clip_s) file.refuse (*list, "clip/range", "it is more than a day after the start", "correct it");
+        for (std::size_t i = 0; i < ticks.size(); ++i)
         {
             const auto frame = ClipJson::entry (*list, i);
-            file.object (frame);
-            const double place = start + file.numberOr (frame, "relative_position", 0.0, 0.0, longest_clip_s * timescale), time = place / timescale;
-            if (time > longest_clip_s) file.refuse (frame, "clip/range", "it is more than a day after the start", "correct it");
-            if (time < before) file.refuse (frame, "clip/order", "it is before the previous keyframe", "sort the keyframes by relative_position");
-            before = time;
-            if (const auto v = file.find (frame, "amplitude_modulation")) effect.amplitude.push_back ({ time, amplitude (*v, band) });
-            if (const auto v = file.find (frame, "frequency_modulation")) effect.hertz.push_back ({ time, file.number (*v, 0.0, 1e5) });
-            if (++keyframes > budgets().numbers) file.refuse (frame, "clip/too_large", "the effects have more keyframes than the budget allows", "shorten it");
+            const double time = ticks[i] - first;
+            if (const auto v = file.find (frame, "amplitude_modulation")) effect.amplitude.push_back ({ time, amplitude (*v) });
+            if (const auto v = file.find (frame, "frequency_modulation")) effect.hertz.push_back ({ time, frequency (*v, band) });
         }
+        if (band.kind != Band::Kind::transient && ! (effect.start + effect.length > std::max (0.0, effect.start)))
+            return file.note (spot, "clip/not_carried", "the effect is left out: it has no duration after 0 s", "give it a keyframe at its end");
+        if (band.kind == Band::Kind::wave)
+        {
+            // What has no amplitude plays at 1, and the gain of the channel.
+            if (effect.amplitude.empty() && gain != 1.0) effect.amplitude.push_back ({ 0.0, limited (spot, gain) });
+            if (effect.isSilent())
+                return file.note (spot, "clip/not_carried", "the effect is left out: without a frequency, or at an amplitude of 0, it is silent",
+                                  "give its keyframes a frequency_modulation");
+        }
+        else if (effect.amplitude.empty())
+            return file.note (spot, "clip/not_carried", "the effect is left out: none of its keyframes has an amplitude", "give them an amplitude_modulation");
         band.effects.push_back (std::move (effect));
     }
 
-    double amplitude (const Spot& spot, const Band& band)
+    double limited (const Spot& spot, double v)
     {
-        const double v = gain * file.number (spot), used = std::clamp (v, band.kind == Band::Kind::curve ? -1.0 : 0.0, 1.0);
+        const double used = std::clamp (v, -1.0, 1.0);
         if (used != v) file.note (spot, "clip/clamped", numberText (v) + " with the gain of the channel is limited to " + numberText (used), "lower the gain");
         return used;
+    }
+
+    double amplitude (const Spot& spot) { return limited (spot, gain * file.number (spot)); }
+
+    double frequency (const Spot& spot, const Band& band)
+    {
+        const double hertz = file.number (spot, 0.0, 1e5);
+        if (band.kind == Band::Kind::transient && std::abs (hertz - transient_hertz) > 1.0)
+            file.note (spot, "clip/changed", "the transient is two cycles of " + numberText (hertz) + " Hz; MPEG's own software plays two cycles of 90.9 Hz instead",
+                       "no action is needed");
+        if (band.kind == Band::Kind::wave && band.high > band.low && (hertz < band.low || hertz > band.high))
+            file.note (spot, "clip/changed", numberText (hertz) + " Hz is outside the limits of its band; it is played as it is", "correct the limits of the band");
+        return hertz;
     }
 
     /// Chooses what 0 and 1 mean, so that all frequencies are between them.
@@ -219,8 +301,8 @@ private:
                 for (const auto& e : b.effects)
                     for (const auto& p : e.hertz)
                         include (p.value);
+                if (kind == Band::Kind::transient) include (otherwise);   // of keyframes without a frequency
             }
-            if (! known && std::ranges::any_of (bands, [&] (const Band& b) { return b.kind == kind; })) low = high = otherwise;
         };
         over (Band::Kind::wave, clip.voice.lowest, clip.voice.highest, 0.5 * (clip.voice.lowest + clip.voice.highest));
         over (Band::Kind::transient, clip.voice.tap_lowest, clip.voice.tap_highest, transient_hertz);
@@ -228,12 +310,12 @@ private:
 
     static double onScale (double hertz, double low, double high) { return high > low ? std::clamp ((hertz - low) / (high - low), 0.0, 1.0) : 0.5; }
 
-    ClipTrack& trackFor (const Band& band, double start)
+    ClipTrack& trackFor (const Band& band, double start, bool is_wave)
     {
         for (auto i = first_track; i < clip.tracks.size(); ++i)
-            if (auto& t = clip.tracks[i]; t.amplitude.empty() || t.amplitude.back().time <= start)
+            if (auto& t = clip.tracks[i]; t.is_wave == is_wave && (t.amplitude.empty() || t.amplitude.back().time <= start))
             {
-                if (! t.amplitude.empty())
+                if (! t.amplitude.empty() && t.amplitude.back().time < start)
                 {
                     t.amplitude.push_back ({ t.amplitude.back().time, 0.0 });
                     t.amplitude.push_back ({ start, 0.0 });
@@ -241,58 +323,67 @@ private:
                 return t;
             }
         if (clip.tracks.size() >= at (most_clip_tracks)) file.refuse (file.root(), "clip/too_large", "more than 256 effects sound together", "remove some");
-        return clip.tracks.emplace_back (ClipTrack { .channel = band.channel, .is_wave = band.kind == Band::Kind::curve });
+        return clip.tracks.emplace_back (ClipTrack { .channel = band.channel, .is_wave = is_wave });
     }
 
-    void addBand (const Band& band)
+    void addBand (Band& band)
     {
-        if (band.kind == Band::Kind::transient) return addTransients (band);
         first_track = clip.tracks.size();
-        auto effects = band.effects;
-        std::erase_if (effects, [] (const auto& e) { return e.amplitude.empty(); });
-        std::ranges::stable_sort (effects, {}, [] (const auto& e) { return e.amplitude.front().time; });
-        for (const auto& e : effects)
-        {
-            auto& track = trackFor (band, e.amplitude.front().time);
-            if (band.is_smooth)
-                addSmooth (e.amplitude, track.amplitude);
+        if (band.kind == Band::Kind::transient) return addTransients (band);
+        std::ranges::stable_sort (band.effects, {}, &HjifEffect::start);
+        for (const auto& e : band.effects)
+            if (band.kind == Band::Kind::curve)
+                addWave (band, curveOf (e, band.curve));
+            else if (e.isTone())
+                addTone (band, e);
             else
-                track.amplitude.insert (track.amplitude.end(), e.amplitude.begin(), e.amplitude.end());
-            if (track.is_wave) continue;
-            auto hertz = e.hertz;
-            if (hertz.empty()) hertz.push_back ({ e.amplitude.front().time, 0.5 * (band.low + band.high) });
-            for (const auto& p : hertz)
-                if (track.sharpness.empty() || p.time >= track.sharpness.back().time)
-                    track.sharpness.push_back ({ p.time, onScale (p.value, clip.voice.lowest, clip.voice.highest) });
-        }
+                addWave (band, e.wave());
     }
 
-    /// The smooth step of the standard from keyframe to keyframe, in 16 straight pieces: off by at most 0.6 % of the step.
-    static void addSmooth (const std::vector<ClipPoint>& points, std::vector<ClipPoint>& out)
+    void addWave (const Band& band, const std::vector<ClipPoint>& points)
     {
-        constexpr int pieces = 16;
-        out.push_back (points.front());
-        for (std::size_t i = 1; i < points.size(); ++i)
-            for (int k = 1; k <= pieces; ++k)
-            {
-                const double s = static_cast<double> (k) / pieces;
-                out.push_back (
-                    { std::lerp (points[i - 1].time, points[i].time, s), std::lerp (points[i - 1].value, points[i].value, s * s * (3.0 - 2.0 * s)) });
-            }
+        if (points.empty()) return;
+        auto& track = trackFor (band, points.front().time, true);
+        track.amplitude.insert (track.amplitude.end(), points.begin(), points.end());
+        if ((keyframes += static_cast<double> (points.size())) > budgets().numbers)
+            file.refuse (file.root(), "clip/too_large", "the effects make more points than the budget allows", "shorten it");
+    }
+
+    void addTone (const Band& band, const HjifEffect& effect)
+    {
+        const auto stretches = effect.stretches();
+        if (stretches.empty()) return;
+        const auto& first = stretches.front();
+        auto& track = trackFor (band, first.from, false);
+        const auto sharpness = [&] (double hertz) { return onScale (hertz, clip.voice.lowest, clip.voice.highest); };
+        const auto add = [] (std::vector<ClipPoint>& points, ClipPoint p) {
+            if (points.empty() || points.back() != p) points.push_back (p);
+        };
+        if (first.from > 0.0 || first.cycles != 0.0) track.phases.push_back ({ first.from, first.cycles });
+        for (const auto& s : stretches)
+        {
+            add (track.amplitude, { s.from, std::clamp (s.a, 0.0, 1.0) });
+            add (track.amplitude, { s.to, std::clamp (s.b, 0.0, 1.0) });
+            add (track.sharpness, { s.from, sharpness (s.hertz) });
+            add (track.sharpness, { s.to, sharpness (s.hertz_end) });
+        }
     }
 
     void addTransients (const Band& band)
     {
-        auto& track = clip.tracks.emplace_back (ClipTrack { .channel = band.channel });
+        ClipTrack taps { .channel = band.channel };
         for (const auto& e : band.effects)
             for (const auto& p : e.amplitude)
             {
                 const auto f = std::ranges::find (e.hertz, p.time, &ClipPoint::time);
-                const double hertz = f != e.hertz.end() ? f->value : band.high > band.low ? 0.5 * (band.low + band.high)
-                                                                                          : transient_hertz;
-                track.taps.push_back ({ p.time, p.value, onScale (hertz, clip.voice.tap_lowest, clip.voice.tap_highest) });
+                const double hertz = f != e.hertz.end() && f->value >= 0.1 ? f->value : transient_hertz, time = e.seconds (p.time);
+                if (p.value >= 0.0 && time >= 0.0)
+                    taps.taps.push_back ({ time, p.value, onScale (hertz, clip.voice.tap_lowest, clip.voice.tap_highest) });
+                else   // upside down, or cut off by the start
+                    addWave (band, HjifEffect { .timescale = 1.0, .start = time, .length = 2.0 / hertz, .amplitude = { { 0.0, p.value } }, .hertz = { { 0.0, hertz } } }.wave());
             }
-        std::ranges::stable_sort (track.taps, {}, &ClipTap::time);
+        std::ranges::stable_sort (taps.taps, {}, &ClipTap::time);
+        if (! taps.taps.empty()) clip.tracks.push_back (std::move (taps));
     }
 
     ClipJson& file;

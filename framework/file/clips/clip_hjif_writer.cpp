@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Writes MPEG HJIF (ISO/IEC 23090-31) as profile Main, level 1. Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics.
 #include "clip_formats.hpp"
+#include "clip_tone.hpp"
 
 #include <tactus/text/json_writer.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace tactus::readers
 {
@@ -23,33 +25,52 @@ Json band (const char* type, double low, double high)
     return { { "band_type", type }, { "lower_frequency_limit", whole (std::floor (low)) }, { "upper_frequency_limit", whole (std::ceil (high)) } };
 }
 
-Json effect (double time, Json keyframes)
+Json effect (double time, Json keyframes, double cycles = 0.0)
 {
-    Json made { { "effect_type", "Basis" }, { "position", ticks (time) }, { "phase", 0.0 }, { "base_signal", "Sine" } };
+    Json made { { "effect_type", "Basis" }, { "position", ticks (time) }, { "phase", 2.0 * std::numbers::pi * cycles }, { "base_signal", "Sine" } };
     made["keyframes"] = std::move (keyframes);
     return made;
 }
 
-/// One keyframe for each point of the envelope and of the sharpness, in order.
-Json keyframesOf (const ClipTrack& track, const ClipVoice& voice, double start)
+/// One keyframe for each point of the envelope and of the sharpness, in order. The amplitude is held beyond its ends until the last keyframe, so
+/// no keyframe may be after its last point.
+Json keyframesOf (const ClipTone& tone, const ClipVoice& voice)
 {
     Json frames = Json::array();
     std::size_t next = 0;
     const auto hertz = [&] (double until) {
-        for (; next < track.sharpness.size() && track.sharpness[next].time <= until; ++next)
+        for (; next < tone.sharpness.size() && tone.sharpness[next].time <= until; ++next)
         {
-            const auto& p = track.sharpness[next];
+            const auto& p = tone.sharpness[next];
             const double f = voice.lowest + p.value * (voice.highest - voice.lowest);
-            frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (start) }, { "frequency_modulation", whole (f) } });
+            frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (tone.from) }, { "frequency_modulation", whole (f) } });
         }
     };
-    for (const auto& p : track.amplitude)
+    for (const auto& p : tone.amplitude)
     {
         hertz (p.time);
-        frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (start) }, { "amplitude_modulation", p.value } });
+        frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (tone.from) }, { "amplitude_modulation", p.value } });
     }
-    hertz (longest_clip_s);
     return frames;
+}
+
+/// One effect for each stretch that sounds.
+Json tones (const ClipTrack& track, const ClipVoice& voice)
+{
+    Json effects = Json::array();
+    const auto sweeps = ClipScore::sweepsOf (track.sharpness, track.phases, voice);
+    for (const auto& tone : tonesOf (track))
+        effects.push_back (effect (tone.from, keyframesOf (tone, voice), cyclesAt (sweeps, static_cast<double> (ticks (tone.from)) / ticks_per_second)));
+    return effects;
+}
+
+Json curve (const ClipTrack& track)
+{
+    Json frames = Json::array();
+    const auto start = ticks (track.amplitude.front().time);
+    for (const auto& p : track.amplitude)
+        frames.push_back (Json { { "relative_position", ticks (p.time) - start }, { "amplitude_modulation", p.value } });
+    return effect (track.amplitude.front().time, std::move (frames));
 }
 
 void addTrack (Json& bands, const ClipTrack& track, const ClipVoice& voice)
@@ -58,15 +79,13 @@ void addTrack (Json& bands, const ClipTrack& track, const ClipVoice& voice)
     {
         auto made = band ("Curve", 0.0, 1000.0);
         made["curve_type"] = "Linear";
-        made["effects"] = Json::array ({ effect (0.0, keyframesOf (track, voice, 0.0)) });
+        made["effects"] = Json::array ({ curve (track) });
         bands.push_back (std::move (made));
     }
     else if (! track.amplitude.empty())
     {
         auto made = band ("VectorialWave", std::min (voice.lowest, voice.highest), std::max (voice.lowest, voice.highest));
-        auto tone = track;
-        if (tone.sharpness.empty()) tone.sharpness.push_back ({ 0.0, 0.5 });
-        made["effects"] = Json::array ({ effect (0.0, keyframesOf (tone, voice, 0.0)) });
+        made["effects"] = tones (track, voice);
         bands.push_back (std::move (made));
     }
     if (track.taps.empty()) return;

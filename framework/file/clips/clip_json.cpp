@@ -52,8 +52,31 @@ void ClipJson::refuse (const Spot& spot, std::string id, std::string text, std::
 
 void ClipJson::note (const Spot& spot, std::string id, std::string text, std::string remedy)
 {
-    if (notes.size() >= most_messages) return;
-    notes.push_back (Message::warning (std::move (id), placeOf (spot), spot.pointer() + ": " + std::move (text), std::move (remedy)));
+    auto kind = id + " " + text;
+    std::erase_if (kind, [] (char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e'; });
+    const auto pointer = spot.pointer();
+    if (const auto known = groups.find (kind); known != groups.end())
+    {
+        ++known->second.count;
+        known->second.last = pointer;
+        return;
+    }
+    if (notes.size() >= most_messages)
+    {
+        ++dropped;
+        return;
+    }
+    groups[kind] = { .index = notes.size() };
+    notes.push_back (Message::warning (std::move (id), placeOf (spot), pointer + ": " + std::move (text), std::move (remedy)));
+}
+
+Messages ClipJson::takeNotes()
+{
+    for (const auto& [kind, group] : groups)
+        if (group.count > 1) notes[group.index].text += "; and " + std::to_string (group.count - 1) + " more like it, the last at " + group.last;
+    groups.clear();
+    if (dropped > 0) notes.back().text += "; " + std::to_string (dropped) + " other warnings are not listed";
+    return std::move (notes);
 }
 
 std::optional<Spot> ClipJson::find (const Spot& spot, std::string_view key) const

@@ -5,6 +5,7 @@
 
 #include <tactus/text/message.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,7 +39,10 @@ public:
     const Spot& root() const noexcept { return top; }
 
     [[noreturn]] void refuse (const Spot&, std::string id, std::string text, std::string remedy) const;
+
+    /// A warning. Notes that differ only in their numbers are one, with a count.
     void note (const Spot&, std::string id, std::string text, std::string remedy);
+    Messages takeNotes();   ///< all of them, at most most_messages
 
     std::optional<Spot> find (const Spot& object, std::string_view key) const;
     Spot need (const Spot& object, std::string_view key) const;   ///< refuses a missing key: clip/missing
@@ -57,14 +61,21 @@ public:
     Spot need (const Spot&&, std::string_view) const = delete;
     static Spot entry (const Spot&&, std::size_t) = delete;
 
-    Messages notes;   ///< warnings; not more than most_messages
-
 private:
+    struct Group
+    {
+        std::size_t index = 0, count = 1;   // in notes
+        std::string last {};                // where the last of them was
+    };
+
     std::string placeOf (const Spot&) const;
 
     std::string name;
     RelaxedJson read;
     Spot top;
+    Messages notes;
+    std::map<std::string, Group> groups;   // by the text without its numbers
+    std::size_t dropped = 0;
 };
 
 }   // namespace tactus::readers

@@ -165,6 +165,12 @@ ClipTrack oneTrack (const Clip& clip, Messages& losses)
         if (t.is_wave) lose (losses, "track " + std::to_string (tracks.size() + 1), "the wave becomes its envelope, in steps of 10 ms", "write a .wav instead");
         tracks.push_back (t.is_wave ? envelopeOf (t, clip.voice) : t);
     }
+    std::size_t phases = 0;
+    for (const auto& t : tracks)
+        phases += t.phases.size();
+    if (phases > 0)
+        lose (losses, "tracks", "the phases of " + std::to_string (phases) + " tones are left out: the format has one tone, which runs on through silence",
+              "write a .json or .hjif");
     if (channels.size() > 1)
         lose (losses, "channels", "the " + std::to_string (channels.size()) + " channels are added up: the format has one",
               "write a .json or .hjif, or each channel alone");

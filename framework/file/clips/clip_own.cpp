@@ -59,6 +59,10 @@ void readTrack (const ClipJson& file, const Spot& spot, ClipTrack& track)
         positive (row, v[2]);
         track.taps.push_back ({ v[0], v[1], v[2] });
     });
+    rowsOf (file, spot, "phases", 2, [&] (const Spot& row, const double* v) {
+        positive (row, v[1]);
+        track.phases.push_back ({ v[0], v[1] });
+    });
 }
 }   // namespace
 
@@ -130,6 +134,7 @@ ClipText writeOwnClip (const Clip& clip)
                 taps.push_back (Json::array ({ p.time, p.amplitude, p.sharpness }));
             track["transients"] = std::move (taps);
         }
+        if (! t.phases.empty()) track["phases"] = rows (t.phases);
         tracks.push_back (std::move (track));
     }
     file["tracks"] = std::move (tracks);

@@ -33,13 +33,15 @@ struct ClipTap
 };
 
 /// One line of a clip. Its amplitude is 0 before its first point and after its last one. Its sharpness is held there, and is 0.5
-/// without any point. Times do not decrease.
+/// without any point. The phase of its tone is the integral of its frequency from 0 s on, or from the last of its phases on, if it has
+/// any. Times do not decrease.
 struct ClipTrack
 {
     int channel = 1;        ///< from 1
     bool is_wave = false;   ///< `amplitude` is the signal itself, from -1 to 1, and not the envelope of a tone
     std::vector<ClipPoint> amplitude {}, sharpness {};
     std::vector<ClipTap> taps {};
+    std::vector<ClipPoint> phases {};   ///< at this time the tone has this phase, in cycles
 
     bool operator== (const ClipTrack&) const = default;
 };
@@ -94,6 +96,7 @@ struct Clip
 ///     3  amplitude    n       time, amplitude, 0
 ///     4  sharpness    n       time, sharpness, 0
 ///     5  transient    n       time, amplitude, sharpness
+///     6  phase        n       time, cycles, 0
 ///
 /// Tracks are numbered from 1 in the order of their rows.
 enum class ClipRow
@@ -103,7 +106,8 @@ enum class ClipRow
     track,
     amplitude,
     sharpness,
-    tap
+    tap,
+    phase
 };
 
 inline constexpr int clip_columns = 5;
@@ -147,6 +151,8 @@ inline Grid gridOf (const Clip& clip)
             row (ClipRow::sharpness, i + 1, p.time, p.value, 0.0);
         for (const auto& p : t.taps)
             row (ClipRow::tap, i + 1, p.time, p.amplitude, p.sharpness);
+        for (const auto& p : t.phases)
+            row (ClipRow::phase, i + 1, p.time, p.value, 0.0);
     }
     return grid;
 }
@@ -209,6 +215,8 @@ inline std::string takeClipRow (Clip& clip, const double* row)
         clip.tracks.back().sharpness.push_back ({ a, b });
     else if (kind == 5.0)
         clip.tracks.back().taps.push_back ({ a, b, c });
+    else if (kind == 6.0)
+        clip.tracks.back().phases.push_back ({ a, b });
     else
         return "a row has an unknown kind";
     return {};
@@ -227,6 +235,7 @@ inline std::string problemOf (const Clip& clip)
         const auto& t = clip.tracks[i];
         auto what = detail::problemOfEnvelope (t.amplitude, "amplitude", t.is_wave ? -1.0 : 0.0);
         if (what.empty()) what = detail::problemOfEnvelope (t.sharpness, "sharpness", 0.0);
+        if (what.empty()) what = detail::problemOfEnvelope (t.phases, "phases", 0.0);
         if (what.empty()) what = detail::problemOfTaps (t.taps);
         if (what.empty() && (t.channel < 1 || t.channel > most_clip_channels)) what = "its channel is not between 1 and 1024";
         if (! what.empty()) return "track " + std::to_string (i + 1) + ": " + what;

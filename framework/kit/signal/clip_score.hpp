@@ -28,6 +28,8 @@ struct ClipMoment
 ///     value (t) = sum over tracks  duck (t) A (t) sin (2 pi integral_0^t f)  +  sum over transients  a sin (2 pi f (t - t_i))
 ///     f = lowest + sharpness (highest - lowest)
 ///
+/// Where a track sets a phase, its integral begins there, and the phase is added.
+///
 /// A is straight between its points, and so is f: the phase is a parabola in each stretch, and exact.
 ///
 /// A transient is two cycles of a sine, so it begins and ends at 0 (MetaQuest.acf: 36.4 ms at 55 Hz, 12.1 ms at 165 Hz; the MPEG
@@ -79,14 +81,19 @@ public:
         return cycles_per_sample < silent ? (silent - cycles_per_sample) / (silent - whole) : 0.0;
     }
 
+    /// A stretch of a tone whose frequency is straight.
+    struct Sweep
+    {
+        double at, hertz, slope, cycles;   ///< s, Hz, Hz/s, phase at `at` from 0 to 1
+    };
+
+    /// The stretches of a tone, of which the first begins at 0. [main thread]
+    static std::vector<Sweep> sweepsOf (const std::vector<ClipPoint>& sharpness, const std::vector<ClipPoint>& phases, const ClipVoice&);
+
 private:
     struct Ramp
     {
         double at, value, slope;
-    };
-    struct Sweep
-    {
-        double at, hertz, slope, cycles;   // cycles: phase at `at`, 0…1
     };
     struct Burst
     {
@@ -160,7 +167,7 @@ private:
     void add (const ClipTrack& track, const ClipVoice& voice)
     {
         Part part { .is_wave = track.is_wave, .ramps = rampsOf (track.amplitude), .sweeps = {}, .bursts = burstsOf (track.taps, voice) };
-        if (! track.is_wave) part.sweeps = sweepsOf (track.sharpness, voice);
+        if (! track.is_wave) part.sweeps = sweepsOf (track.sharpness, track.phases, voice);
         double loudest = 0.0, hardest = 0.0;
         for (const auto& p : track.amplitude)
             loudest = std::max (loudest, std::abs (p.value));
@@ -184,27 +191,6 @@ private:
         return ramps;
     }
 
-    static std::vector<Sweep> sweepsOf (const std::vector<ClipPoint>& points, const ClipVoice& voice)
-    {
-        const auto hertz = [&] (double sharpness) { return voice.lowest + sharpness * (voice.highest - voice.lowest); };
-        std::vector<Sweep> sweeps { { 0.0, hertz (points.empty() ? 0.5 : points.front().value), 0.0, 0.0 } };
-        const auto next = [&] (double time, double from, double slope) {
-            const Sweep& last = sweeps.back();
-            const double length = time - last.at, cycles = last.cycles + length * (last.hertz + 0.5 * last.slope * length);
-            if (length > 0.0)
-                sweeps.push_back ({ time, from, slope, cycles - std::floor (cycles) });
-            else
-                sweeps.back() = { last.at, from, slope, last.cycles };
-        };
-        for (std::size_t i = 0; i < points.size(); ++i)
-        {
-            const double length = i + 1 < points.size() ? points[i + 1].time - points[i].time : 0.0;
-            const double to = length > 0.0 ? hertz (points[i + 1].value) : 0.0, from = hertz (points[i].value);
-            next (points[i].time, from, length > 0.0 ? (to - from) / length : 0.0);
-        }
-        return sweeps;
-    }
-
     static std::vector<Burst> burstsOf (const std::vector<ClipTap>& taps, const ClipVoice& voice)
     {
         constexpr double rounding = 1e-6;   // of a time, in half cycles
@@ -225,5 +211,43 @@ private:
     std::vector<Part> parts;
     double ends = 0.0, most = 0.0, ducking = 1.0, fastest_hertz = 0.0;
 };
+
+//==============================================================================
+// Implementation below.
+
+inline std::vector<ClipScore::Sweep> ClipScore::sweepsOf (const std::vector<ClipPoint>& points, const std::vector<ClipPoint>& phases, const ClipVoice& voice)
+{
+    const auto hertz = [&] (double sharpness) { return voice.lowest + sharpness * (voice.highest - voice.lowest); };
+    std::vector<Sweep> sweeps { { 0.0, hertz (points.empty() ? 0.5 : points.front().value), 0.0, 0.0 } };
+    const auto at = [&] (double time) {
+        const Sweep& last = sweeps.back();
+        const double length = time - last.at, cycles = last.cycles + length * (last.hertz + 0.5 * last.slope * length);
+        return Sweep { time, last.hertz + last.slope * length, last.slope, cycles - std::floor (cycles) };
+    };
+    const auto put = [&] (Sweep s) {
+        if (s.at > sweeps.back().at)
+            sweeps.push_back (s);
+        else
+            sweeps.back() = { sweeps.back().at, s.hertz, s.slope, s.cycles };
+    };
+    auto phase = phases.begin();
+    const auto setPhases = [&] (double until) {
+        for (; phase != phases.end() && phase->time < until; ++phase)
+        {
+            auto s = at (phase->time);
+            s.cycles = phase->value;
+            put (s);
+        }
+    };
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        const double length = i + 1 < points.size() ? points[i + 1].time - points[i].time : 0.0;
+        const double to = length > 0.0 ? hertz (points[i + 1].value) : 0.0, from = hertz (points[i].value);
+        setPhases (points[i].time);
+        put ({ points[i].time, from, length > 0.0 ? (to - from) / length : 0.0, at (points[i].time).cycles });
+    }
+    setPhases (2.0 * longest_clip_s);
+    return sweeps;
+}
 
 }   // namespace tactus

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/kit/signal/clip_score.hpp>
+
+#include <vector>
+
+namespace tactus::readers
+{
+
+/// The value at t, of a line that is held beyond its ends. Where it steps, `before` selects the value before the step.
+double heldAt (const std::vector<ClipPoint>& points, double t, bool before, double otherwise);
+
+/// A stretch of a track that sounds: from silence, or a phase that is set, to the next silence or phase. Formats whose effects or events begin
+/// anew hold a track as these.
+struct ClipTone
+{
+    double from = 0.0, to = 0.0;                         ///< s
+    std::vector<ClipPoint> amplitude {}, sharpness {};   ///< at times of the clip; the first is at `from`, the last at `to`
+};
+
+std::vector<ClipTone> tonesOf (const ClipTrack&);
+
+/// The phase of a tone, in cycles from 0 to 1.
+double cyclesAt (const std::vector<ClipScore::Sweep>&, double time);
+
+}   // namespace tactus::readers
