@@ -54,16 +54,19 @@ std::string bytesOf (const std::string& file)
 }
 
 /// Prints how far the written clip is from the one that was read. Always prints something, even if nothing was lost.
-void print (const SavedClip& saved)
+void print (const SavedClip& saved, std::size_t said)
 {
-    sayAll (saved.losses);
+    for (std::size_t i = 0; i < saved.losses.size(); ++i)
+        if (i >= said) say (saved.losses[i]);   // the notes of the reader were said when it was read
+    for (const auto& m : saved.losses)
+        std::cout << "  loss: " << inOneLine (m.where) << ": " << inOneLine (m.text) << "\n";
     for (const auto& sentence : differenceReport (saved))
         std::cout << "  loss: " << sentence << "\n";
 }
 
 void wrote (const std::string& file) { std::cout << "wrote " << printableName (file) << "\n"; }
 
-void writeSamples (const ConvertOptions& options, const Clip& clip)
+void writeSamples (const ConvertOptions& options, const Clip& clip, const readers::ClipFile& source)
 {
     orFail (checkRendered (clip, options.rate_hz, "lower --rate"));
     const auto all = renderClip (clip, options.rate_hz);
@@ -82,19 +85,21 @@ void writeSamples (const ConvertOptions& options, const Clip& clip)
     }
     orFail (file.commit());
     wrote (options.out);
+    for (const auto& m : source.leftOut())
+        std::cout << "  loss: " << inOneLine (m.where) << ": " << inOneLine (m.text) << "\n";
     std::cout << "  loss: samples at " << roundedText (options.rate_hz, 3) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
 }
 
-void writeFile (const std::string& out, const Clip& clip, double rate_hz)
+void writeFile (const std::string& out, const Clip& clip, double rate_hz, const readers::ClipFile& source)
 {
-    const auto saved = orFail (saveClip (clip, out, rate_hz));
+    const auto saved = orFail (saveClip (clip, out, rate_hz, &source));
     wrote (out);
-    print (saved);
+    print (saved, source.leftOut().size());
 }
 
 /// Continuous events into one file, transients into another: the engine of the phone then does not apply the curves of one file to the
 /// events of the other.
-void writeSplit (const ConvertOptions& options, const Clip& clip)
+void writeSplit (const ConvertOptions& options, const Clip& clip, const readers::ClipFile& source)
 {
     const auto path = fs::path (options.out);
     const auto second = (path.parent_path() / (path.stem().string() + "_transients" + path.extension().string())).string();
@@ -104,8 +109,8 @@ void writeSplit (const ConvertOptions& options, const Clip& clip)
     for (auto& t : taps.tracks)
         t.amplitude.clear();
     refuseOverwriting ({ options.out, second }, { options.in });
-    writeFile (options.out, continuous, 0.0);
-    writeFile (second, taps, 0.0);
+    writeFile (options.out, continuous, 0.0, source);
+    writeFile (second, taps, 0.0, source);
 }
 
 bool isPenRecording (const std::string& file) { return extensionOf (file) == ".events" || extensionOf (file) == ".evemu"; }
@@ -140,18 +145,18 @@ void run (const ConvertOptions& options)
     if (! options.calibration.empty()) inputs.emplace_back (options.calibration);
     refuseOverwriting ({ options.out }, inputs);
 
-    auto read = orFail (loadClip (options.in));
+    const auto read = orFail (loadClip (options.in));
     sayAll (read.notes);
-    auto& clip = read.clip;
+    auto clip = read.clip;
     if (! options.calibration.empty()) sayAll (orFail (readers::readCalibration (bytesOf (options.calibration), options.calibration, clip.voice)));
     std::cout << printableName (options.in) << ": " << clip.tracks.size() << (clip.tracks.size() == 1 ? " track, " : " tracks, ") << clip.events()
               << " points and transients, " << roundedText (clip.lastEvent(), 3) << " s\n";
     if (extension == ".csv" && options.rate_hz > 0.0)
-        writeSamples (options, clip);
+        writeSamples (options, clip, read);
     else if (options.split)
-        writeSplit (options, clip);
+        writeSplit (options, clip, read);
     else
-        writeFile (options.out, clip, options.rate_hz);
+        writeFile (options.out, clip, options.rate_hz, read);
 }
 }   // namespace
 

@@ -33,7 +33,7 @@
 #include <host/app/welcome/template_row.hpp>
 #include <host/app/welcome/tour.hpp>
 #include <host/app/welcome/welcome_page.hpp>
-#include <tactus/kit/signal/clip.hpp>
+#include <tactus/file/clips/clip_file.hpp>
 
 #include <array>
 #include <utility>
@@ -200,7 +200,7 @@ private:
     void openExample (const std::string& type);
     void saveClipAs (const std::filesystem::path&);
     void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
+    bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to, const readers::ClipFile* source = nullptr);
     void recall (int snapshot);
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);

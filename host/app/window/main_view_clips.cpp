@@ -22,7 +22,7 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     for (const auto& m : notes)
         lines.push_back (messageText (m));
     std::ranges::move (lossReport (saved), std::back_inserter (lines));
-    if (lines.back().starts_with ("none")) lines.pop_back();
+    if (lines.back().starts_with ("none") || lines.back().starts_with ("nothing else")) lines.pop_back();
     if (lines.empty()) return TRANS ("The file holds the whole clip, and renders to the same signal.");
     auto text = TRANS ("What the file does not hold, or holds differently:") + "\n";
     for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
@@ -66,7 +66,7 @@ void MainView::saveClipAs (const fs::path& file)
     if (! read)
         return tell (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".");
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
-    chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { static_cast<void> (writeClip (clip, {}, {}, to)); });
+    chooseOwnFile (file.stem().string() + other, [this, source = *read] (const fs::path& to) { static_cast<void> (writeClip (source.clip, {}, {}, to, &source)); });
 }
 
 /// Asks where to save a file of the user. The clips of presets are in a folder that may be read-only.
@@ -77,12 +77,12 @@ void MainView::chooseOwnFile (const std::string& name, std::function<void (const
     chooseFile (true, ownFolder() / name, std::move (chosen));
 }
 
-bool MainView::writeClip (const Clip& clip, Messages notes, std::optional<double> gain, const fs::path& to)
+bool MainView::writeClip (const Clip& clip, Messages notes, std::optional<double> gain, const fs::path& to, const readers::ClipFile* source)
 {
     auto file = to;
     if (! file.has_extension()) file += ".haptic";
     const auto name = juce::String (printableName (file.filename().string()));
-    const auto saved = saveClip (clip, file);
+    const auto saved = saveClip (clip, file, 0.0, source);
     if (! saved)
     {
         tell (TRANS ("The clip was not saved"), messageText (saved.error()) + ".");

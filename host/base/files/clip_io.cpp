@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 namespace tactus::host
 {
@@ -75,7 +76,7 @@ Clip clipOfRendered (const RenderedClip& rendered, double rate_hz)
 }
 
 /// Other programs clip samples beyond 1, and signal.clip refuses them.
-Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wanted_hz)
+Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wanted_hz, readers::SampleTimes& times, readers::ChannelSamples& samples)
 {
     const double rate_hz = rateFor (clip, wanted_hz);
     if (auto fits = checkRendered (clip, rate_hz, "write fewer samples per second"); ! fits) return fits.error();
@@ -92,6 +93,9 @@ Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wante
         if (auto written = file->frame (frame); ! written) return written.error();
     }
     if (auto written = file->commit(); ! written) return written.error();
+    times = { rate_hz, 0.0, std::min (times.count, all.value.front().size()) };
+    for (std::size_t c = 0; c < all.channels.size(); ++c)
+        samples[all.channels[c]].assign (all.value[c].begin(), all.value[c].begin() + static_cast<std::ptrdiff_t> (times.count));
     const bool is_wave = std::ranges::any_of (clip.tracks, &ClipTrack::is_wave);
     SavedClip saved { {},
                       lossesOf (clip, clipOfRendered (all, rate_hz), false,
@@ -198,7 +202,14 @@ Result<readers::ClipFile> loadClip (const fs::path& path)
         return Message::error ("clip/unknown_kind", name, "there is no clip format with the extension " + quote (extension),
                                "clips are .haptic, .ahap, .hjif, .json, .wav and .csv");
     auto bytes = readFile (name);
-    if (bytes) return readers::readClip (*bytes, name);
+    if (bytes)
+    {
+        auto read = readers::readClip (*bytes, name);
+        if (! read) return read.error();
+        read->name = name;
+        read->text = std::move (*bytes);
+        return read;
+    }
     const auto& why = bytes.error();
     return Message::error (why.id, name, why.text, why.remedy.empty() ? "check the path and its permissions" : why.remedy);
 }
@@ -210,24 +221,63 @@ Result<> checkRendered (const Clip& clip, double rate_hz, const std::string& rem
     return {};
 }
 
-Result<SavedClip> saveClip (const Clip& clip, const fs::path& path, double rate_hz)
+namespace
 {
-    const auto extension = extensionOf (path);
-    if (extension == ".wav") return saveWave (clip, path, rate_hz);
-    if (extension == ".csv") return saveRows (clip, path);
-    auto made = readers::writeClip (clip, path.string());
+Result<SavedClip> saveText (const Clip& clip, const fs::path& path, readers::SampleTimes& times, readers::ChannelSamples& samples)
+{
+    const auto extension = extensionOf (path), name = path.string();
+    auto made = readers::writeClip (clip, name);
     if (! made) return made.error();
-    auto back = readers::readClip (made->text, path.string());
+    auto back = readers::readClip (made->text, name);
     if (! back) return back.error();
     if (auto written = writeTextFile (path, made->text); ! written) return written.error();
     const bool is_mixed = extension == ".haptic" || extension == ".ahap";
-    return SavedClip { std::move (made->losses), extension == ".ahap" ? lossesOfAhap (clip, back->clip, path.string()) : lossesOf (clip, back->clip, is_mixed),
-                       is_mixed };
+    auto rendered = readers::renderFile (made->text, name, ClipVoice {}, times);
+    samples = rendered ? std::move (*rendered) : readers::renderSamples (back->clip, times);
+    return SavedClip { std::move (made->losses), extension == ".ahap" ? lossesOfAhap (clip, back->clip, name) : lossesOf (clip, back->clip, is_mixed), is_mixed };
+}
+
+/// When to compare: away from the round times at which drawn envelopes step, and no more samples than take a moment.
+readers::SampleTimes comparisonOf (const Clip& clip, double& seconds)
+{
+    constexpr double rate_hz = 8000.0, offset = 0.4142, longest_s = 600.0, most = 1e7;
+    constexpr double tail_s = 0.05;   // the longest transient
+    const double all = clip.lastEvent() + tail_s;
+    seconds = std::min ({ all, longest_s, most / rate_hz / static_cast<double> (std::max<std::size_t> (1, clip.tracks.size())) });
+    const auto count = static_cast<std::size_t> (seconds * rate_hz);
+    if (seconds >= all) seconds = 0.0;   // nothing was left out
+    return { rate_hz, offset, count };
+}
+}   // namespace
+
+Result<SavedClip> saveClip (const Clip& clip, const fs::path& path, double rate_hz, const readers::ClipFile* source)
+{
+    double seconds = 0.0;
+    auto times = comparisonOf (clip, seconds);
+    readers::ChannelSamples written;
+    const auto extension = extensionOf (path);
+    auto saved = extension == ".wav" ? saveWave (clip, path, rate_hz, times, written) : extension == ".csv" ? saveRows (clip, path)
+                                                                                                            : saveText (clip, path, times, written);
+    if (! saved) return saved;
+    if (extension == ".csv") written = readers::renderSamples (clip, times);   // the rows are the clip, number by number
+    // What the clip was read from counts, and not what was read, unless the clip is another one by now.
+    const bool is_same = source != nullptr && source->clip == clip;
+    const auto original = is_same ? readers::renderFile (source->text, source->name, ClipVoice {}, times) : std::nullopt;
+    saved->samples = readers::compareSamples (original ? *original : readers::renderSamples (clip, times), written, saved->is_mixed);
+    saved->compared = original ? "an independent rendering of " + printableName (fs::path (source->name).filename().string()) : "the clip";
+    if (source != nullptr && ! is_same) saved->compared = "the clip after it was changed, and not with its file";
+    if (seconds > 0.0) saved->compared += ", in its first " + threeDigits (seconds) + " s";
+    if (source != nullptr)
+    {
+        auto notes = source->leftOut();
+        saved->losses.insert (saved->losses.begin(), std::make_move_iterator (notes.begin()), std::make_move_iterator (notes.end()));
+    }
+    return saved;
 }
 
 std::vector<std::string> differenceReport (const SavedClip& saved)
 {
-    constexpr double none = 1e-9, little_hertz = 0.05;
+    constexpr double none = 1e-9, little_hertz = 0.05, little_part = 1e-3;
     std::vector<std::string> sentences;
     for (const auto& [part, d, why] : saved.differences)
     {
@@ -235,8 +285,17 @@ std::vector<std::string> differenceReport (const SavedClip& saved)
         sentences.push_back (part + ": the envelope differs by " + threeDigits (d.difference) + " rms, " + threeDigits (100.0 * d.part()) + " % of its "
                              + threeDigits (d.rms) + "; the frequency by " + threeDigits (d.frequency) + " Hz rms" + (why.empty() ? "" : " (" + why + ")"));
     }
-    if (sentences.empty()) sentences.emplace_back ("none in the rendered envelope and frequency");
-    return sentences;
+    for (const auto& d : saved.samples)
+    {
+        if (d.part() <= little_part) continue;
+        const auto part = d.channel == 0 ? std::string ("all channels") : "channel " + std::to_string (d.channel);
+        sentences.push_back (part + ": the samples differ by " + threeDigits (d.difference) + " rms, " + threeDigits (100.0 * d.part()) + " % of their "
+                             + threeDigits (d.rms) + ", from " + saved.compared);
+    }
+    if (! sentences.empty()) return sentences;
+    // "None" is a claim about all that was lost, so it is made only if nothing else was.
+    const auto where = "in the rendered envelope and frequency; the samples differ by less than 0.1 % from " + saved.compared;
+    return { (saved.losses.empty() ? "none " : "nothing else ") + where };
 }
 
 std::vector<std::string> lossReport (const SavedClip& saved)

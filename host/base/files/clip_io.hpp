@@ -39,13 +39,18 @@ struct SavedClip
     Messages losses;                     ///< what the format cannot hold
     std::vector<ClipLoss> differences;   ///< only those that can be measured
     bool is_mixed = false;               ///< all channels were added up
+
+    std::vector<readers::SampleDifference> samples {};   ///< of the signal itself
+    std::string compared {};                             ///< what the samples were compared with, and how much of it; a part of a sentence
 };
 
 /// Writes a clip in the format of the extension: .haptic, .ahap, .hjif, .json, .wav or the rows of a clip in a .csv. Reads it back to
 /// find out what was lost. `rate_hz` is for a .wav; 0: the rate of the recording that the clip came from, or 8 kHz. Samples of a .wav are from -1 to 1:
 /// if the signal exceeds 1, all channels are divided by the same factor, and the losses say so (clip/changed). An .ahap is compared twice: what it holds,
-/// envelope and transients apart, and how a phone plays it. Ids: those of writeClip, WavWriter and TableWriter, clip/too_large, clip/too_few. [main thread]
-Result<SavedClip> saveClip (const Clip&, const std::filesystem::path&, double rate_hz = 0.0);
+/// envelope and transients apart, and how a phone plays it. With `source`, the file that the clip was read from, the samples of what was written are compared
+/// with a rendering of that file which shares no rule with its reader, and its notes about what was left out are losses. Ids: those of writeClip, WavWriter
+/// and TableWriter, clip/too_large, clip/too_few. [main thread]
+Result<SavedClip> saveClip (const Clip&, const std::filesystem::path&, double rate_hz = 0.0, const readers::ClipFile* source = nullptr);
 
 /// The losses as sentences: each thing that the format cannot hold, and how far the rendered clip differs. Never empty.
 std::vector<std::string> lossReport (const SavedClip&);

@@ -187,3 +187,25 @@ TEST_CASE ("convert: what is wrong is refused, and nothing is written", "[cli][c
     CHECK (ran.status == 1);
     CHECK (has (ran.err, "output/is_input"));
 }
+
+TEST_CASE ("convert: what the reader left out is a loss, and two tones that become one are too", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto event = [] (const std::string& sharpness) {
+        return R"({ "Event": { "Time": 0, "EventType": "HapticContinuous", "EventDuration": 2, "EventParameters": [
+            { "ParameterID": "HapticIntensity", "ParameterValue": 0.6 }, { "ParameterID": "HapticSharpness", "ParameterValue": )"
+               + sharpness + " } ] } }";
+    };
+    const auto beat = scratch.write ("beat.ahap", "{ \"Pattern\": [ " + event ("0.8") + ", " + event ("0.82") + " ] }");
+    CHECK (has (converted ({ beat, scratch.path ("b.haptic") }).out, "loss: all channels: the samples differ by "));
+    auto ran = converted ({ beat, scratch.path ("b.ahap") });
+    CHECK (has (ran.out, "loss: none in the rendered envelope and frequency; the samples differ by less than 0.1 % from an independent rendering of beat.ahap"));
+
+    const auto sound = scratch.write ("sound.ahap", "{ \"Pattern\": [ " + event ("0.8") + R"(, { "Event": { "Time": 0, "EventType": "AudioCustom",
+        "EventWaveformPath": "x.wav" } } ] })");
+    ran = converted ({ sound, scratch.path ("s.json") });
+    CHECK (has (ran.out, "the sound 'x.wav' is left out"));
+    CHECK (has (ran.out, "loss: nothing else in the rendered envelope and frequency"));
+    CHECK (! has (ran.out, "loss: none"));
+    CHECK (has (ran.err, "the sound 'x.wav' is left out"));
+}
