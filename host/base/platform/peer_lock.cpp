@@ -5,14 +5,21 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <pthread.h>
+#include <pwd.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 #endif
 
 namespace tactus::host
@@ -30,53 +37,197 @@ void release (std::atomic<int>& slot) noexcept
 }
 
 /// An address without its port, such as "192.168.4.1". An IPv4 address that is written as IPv6 becomes one of IPv4.
-std::string addressIn (const sockaddr_storage& where)
+std::string addressIn (const sockaddr_storage& where, bool with_scope)
 {
     std::array<char, INET6_ADDRSTRLEN> text {};
     if (where.ss_family == AF_INET)
         return ::inet_ntop (AF_INET, &reinterpret_cast<const sockaddr_in&> (where).sin_addr, text.data(), text.size());
     const auto& six = reinterpret_cast<const sockaddr_in6&> (where);
     if (IN6_IS_ADDR_V4MAPPED (&six.sin6_addr)) return ::inet_ntop (AF_INET, &six.sin6_addr.s6_addr[12], text.data(), text.size());
-    return std::string (::inet_ntop (AF_INET6, &six.sin6_addr, text.data(), text.size())) + "%" + std::to_string (six.sin6_scope_id);
+    const std::string address = ::inet_ntop (AF_INET6, &six.sin6_addr, text.data(), text.size());
+    return with_scope ? address + "%" + std::to_string (six.sin6_scope_id) : address;
 }
 
-/// Such as "2 192.168.4.1 9750": the type of the socket, where it leads, and the port. Empty if it is not connected to an address of the internet.
-std::string nameOf (int socket)
+/// Such as "192.168.4.1 9750": where a socket leads.
+std::string nameOf (const sockaddr_storage& here, const sockaddr_storage& there, bool with_scope)
 {
-    sockaddr_storage here {}, there {};
-    socklen_t here_size = sizeof here, there_size = sizeof there;
+    auto address = addressIn (there, with_scope);
+    if (address == addressIn (here, with_scope) || address.starts_with ("127.")) address = "here";   // what goes to this computer comes from the same address
+    const auto port = reinterpret_cast<const sockaddr_in&> (there).sin_port;                         // it is at the same place for IPv6
+    return address + " " + std::to_string (ntohs (port));
+}
+
+/// The device at the far end of a socket.
+struct Peer
+{
+    std::string name;       // such as "2 192.168.4.1 9750", with the type of the socket; empty if it is not connected to an address of the internet
+    std::string unscoped;   // as the tables of the kernel have it: without the type, and without the interface of a local address
     int type = 0;
-    socklen_t type_size = sizeof type;
-    if (::getsockname (socket, reinterpret_cast<sockaddr*> (&here), &here_size) != 0
-        || ::getpeername (socket, reinterpret_cast<sockaddr*> (&there), &there_size) != 0
-        || ::getsockopt (socket, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || (there.ss_family != AF_INET && there.ss_family != AF_INET6))
-        return {};
-    auto address = addressIn (there);
-    if (address == addressIn (here) || address.starts_with ("127.")) address = "here";   // what goes to this computer comes from the same address
-    const auto port = reinterpret_cast<const sockaddr_in&> (there).sin_port;             // it is at the same place for IPv6
-    return std::to_string (type) + " " + address + " " + std::to_string (ntohs (port));
+    std::string inode;   // of the socket itself
+
+    explicit Peer (int socket)
+    {
+        sockaddr_storage here {}, there {};
+        socklen_t here_size = sizeof here, there_size = sizeof there, type_size = sizeof type;
+        struct stat file
+        {
+        };
+        if (::getsockname (socket, reinterpret_cast<sockaddr*> (&here), &here_size) != 0
+            || ::getpeername (socket, reinterpret_cast<sockaddr*> (&there), &there_size) != 0
+            || ::getsockopt (socket, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || (there.ss_family != AF_INET && there.ss_family != AF_INET6))
+            return;
+        if (::fstat (socket, &file) == 0) inode = std::to_string (file.st_ino);
+        unscoped = nameOf (here, there, false);
+        name = std::to_string (type) + " " + nameOf (here, there, true);
+    }
+};
+
+/// Reads an address and a port as /proc/net/udp has them, such as 0104A8C0:2616. Words are in the order of this computer.
+bool read (const std::string& text, sockaddr_storage& to)
+{
+    const auto colon = text.find (':');
+    if (colon != 8 && colon != 32) return false;
+    std::array<std::uint32_t, 4> words {};
+    for (std::size_t i = 0; i < colon / 8; ++i)
+        if (std::from_chars (&text[8 * i], &text[8 * i] + 8, words[i], 16).ec != std::errc()) return false;
+    std::uint16_t port = 0;
+    if (std::from_chars (&text[colon] + 1, text.data() + text.size(), port, 16).ec != std::errc()) return false;
+    if (colon == 8)
+    {
+        auto& four = reinterpret_cast<sockaddr_in&> (to);
+        four.sin_family = AF_INET;
+        four.sin_addr.s_addr = words[0];
+        four.sin_port = htons (port);
+        return true;
+    }
+    auto& six = reinterpret_cast<sockaddr_in6&> (to);
+    six.sin6_family = AF_INET6;
+    std::copy_n (reinterpret_cast<const std::uint8_t*> (words.data()), 16, six.sin6_addr.s6_addr);
+    six.sin6_port = htons (port);
+    return true;
+}
+
+/// The users of all other sockets that are connected to the device.
+std::vector<uid_t> usersOf (const Peer& peer)
+{
+    std::vector<uid_t> all;
+    const bool streams = peer.type == SOCK_STREAM;
+    for (const auto* table : { streams ? "/proc/net/tcp" : "/proc/net/udp", streams ? "/proc/net/tcp6" : "/proc/net/udp6" })
+    {
+        std::ifstream in (table);
+        std::string line;
+        std::getline (in, line);   // the names of the columns
+        while (std::getline (in, line))
+        {
+            std::istringstream row (line);
+            std::string number, local, remote, state, queues, timer, retransmitted, waited, inode;
+            uid_t user = 0;
+            sockaddr_storage here {}, there {};
+            constexpr auto connected = "01";
+            if (! (row >> number >> local >> remote >> state >> queues >> timer >> retransmitted >> user >> waited >> inode) || state != connected
+                || inode == "0" || inode == peer.inode || ! read (local, here) || ! read (remote, there))
+                continue;
+            if (nameOf (here, there, false) == peer.unscoped) all.push_back (user);
+        }
+    }
+    return all;
+}
+
+/// An abstract name: there is no file that could stay behind, or that another user could not open.
+struct LockName
+{
+    sockaddr_un address { .sun_family = AF_UNIX, .sun_path = {} };
+    socklen_t size = 0;
+
+    explicit LockName (const std::string& text)
+    {
+        const auto bytes = std::min (text.size() + 1, sizeof address.sun_path);   // the first one is 0
+        std::copy_n (text.begin(), bytes - 1, address.sun_path + 1);
+        size = static_cast<socklen_t> (offsetof (sockaddr_un, sun_path) + bytes);
+    }
+    const sockaddr* get() const noexcept { return reinterpret_cast<const sockaddr*> (&address); }
+};
+
+/// Who has a lock.
+struct Holder
+{
+    bool is_known = false;
+    uid_t user = 0;
+    pid_t process = 0;   // 0: unknown
+
+    explicit Holder (const LockName& name)
+    {
+        const int file = ::socket (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+        if (file < 0) return;
+        ucred whose {};
+        socklen_t size = sizeof whose;
+        is_known = ::connect (file, name.get(), name.size) == 0 && ::getsockopt (file, SOL_SOCKET, SO_PEERCRED, &whose, &size) == 0;
+        ::close (file);
+        if (! is_known) return;
+        user = whose.uid;
+        struct stat folder
+        {
+        };
+        if (whose.pid > 0 && ::stat (("/proc/" + std::to_string (whose.pid)).c_str(), &folder) == 0 && folder.st_uid == user) process = whose.pid;
+    }
+
+    bool isMine() const noexcept { return is_known && user == ::geteuid(); }
+};
+
+std::string nameOfUser (uid_t user)
+{
+    std::array<char, 1024> room {};
+    passwd entry {}, *found = nullptr;
+    if (::getpwuid_r (user, &entry, room.data(), room.size(), &found) == 0 && found != nullptr) return entry.pw_name;
+    return std::to_string (user);
+}
+
+/// Such as " (process 1234, tactus)"; empty for this process. A process chooses its own name, so no byte of it may reach a terminal as a command.
+std::string wordsFor (pid_t process)
+{
+    if (process == 0 || process == ::getpid()) return {};
+    std::ifstream in ("/proc/" + std::to_string (process) + "/comm");
+    std::string name;
+    std::getline (in, name);
+    std::ranges::replace_if (
+        name, [] (char c) { return c < ' ' || c > '~'; }, '?');
+    return " (process " + std::to_string (process) + (name.empty() ? ")" : ", " + name + ")");
+}
+
+/// Why a lock counts; empty if it does not.
+std::string whyCounts (const Holder& holder, const Peer& peer)
+{
+    if (holder.isMine()) return "another role or another instance of Tactus is using it" + wordsFor (holder.process);
+    const auto users = usersOf (peer);
+    const auto user = holder.is_known ? std::ranges::find (users, holder.user) : users.begin();
+    if (user == users.end()) return {};
+    return "the user " + nameOfUser (*user) + " is using it" + wordsFor (holder.process);
 }
 }   // namespace
 
-std::optional<PeerLock> PeerLock::take (int connected_socket, std::string_view part)
+PeerLock::Attempt PeerLock::take (int connected_socket, std::string_view part)
 {
     // The child of a fork must not hold the locks of its parent.
     static const int forks = ::pthread_atfork (nullptr, nullptr, [] { std::ranges::for_each (locks, release); });
-    const auto peer = nameOf (connected_socket);
-    if (forks != 0 || peer.empty()) return std::nullopt;
+    const Peer peer (connected_socket);
+    if (forks != 0 || peer.name.empty()) return { .why = "it cannot be locked" };
 
-    // An abstract name: there is no file that could stay behind, or that another user could not open.
-    sockaddr_un name { .sun_family = AF_UNIX, .sun_path = {} };
-    const auto text = std::string (1, '\0') + "tactus " + peer + " " + std::string (part);
-    const auto size = std::min (text.size(), sizeof name.sun_path);
-    std::copy_n (text.begin(), size, name.sun_path);
-    int file = ::socket (AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (file < 0) return std::nullopt;
-    if (::bind (file, reinterpret_cast<const sockaddr*> (&name), static_cast<socklen_t> (offsetof (sockaddr_un, sun_path) + size)) == 0)
-        for (auto& slot : locks)
-            if (int none = 0; slot.compare_exchange_strong (none, file + 1)) return PeerLock (&slot);
-    ::close (file);
-    return std::nullopt;
+    for (int number = 0; number < most_names; ++number)
+    {
+        const LockName name ("tactus " + (number > 0 ? std::to_string (number) + " " : "") + peer.name + " " + std::string (part));
+        const int file = ::socket (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        if (file < 0) return { .why = "it cannot be locked" };
+        if (::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // whoever connects learns from the kernel who listens
+        {
+            for (auto& slot : locks)
+                if (int none = 0; slot.compare_exchange_strong (none, file + 1)) return { PeerLock (&slot) };
+            ::close (file);
+            return { .why = "it cannot be locked: this program uses " + std::to_string (locks.size()) + " devices" };
+        }
+        ::close (file);
+        if (auto why = whyCounts (Holder (name), peer); ! why.empty()) return { .why = std::move (why) };
+    }
+    return { PeerLock (nullptr) };   // nobody who has a connection holds a lock
 }
 
 PeerLock::~PeerLock()
@@ -86,9 +237,9 @@ PeerLock::~PeerLock()
 
 #else
 
-std::optional<PeerLock> PeerLock::take (int, std::string_view)
+PeerLock::Attempt PeerLock::take (int, std::string_view)
 {
-    return PeerLock (nullptr);
+    return { PeerLock (nullptr) };
 }
 PeerLock::~PeerLock() = default;
 

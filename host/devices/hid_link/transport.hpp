@@ -29,10 +29,10 @@ struct OutgoingReport
 /// A failed transfer, with the system's own message.
 inline Message transferError (std::string why) { return Message::error ("hid/transfer", {}, std::move (why)); }
 
-/// A device that another driver uses: another role, or another program.
-inline Message inUse (std::string where)
+/// A device that another driver uses: another role, or another program. `who` says which, if that is known.
+inline Message inUse (std::string where, std::string who = "another role or another instance of Tactus is using it")
 {
-    return Message::error ("hid/not_opened", std::move (where), "another role or another instance of Tactus is using it",
+    return Message::error ("hid/not_opened", std::move (where), std::move (who),
                            "end the other program, or leave the device to the other role");
 }
 

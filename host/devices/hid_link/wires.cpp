@@ -358,8 +358,8 @@ Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const
     auto socket = WireFile::connectUdp (device.path);
     if (! socket) return notOpened (device, socket.error().text, socket.error().remedy);
     auto alone = PeerLock::take (socket->descriptor());   // before anything is sent, because the device would then send its reports here
-    if (! alone) return inUse (device.path);
-    auto udp = std::make_unique<UdpTransport> (std::move (*socket), std::move (*alone), device.path, profile);
+    if (! alone) return inUse (device.path, std::move (alone.why));
+    auto udp = std::make_unique<UdpTransport> (std::move (*socket), std::move (*alone.lock), device.path, profile);
     udp->knock();
     Bytes answer (longest_report + 1);
     const auto got = udp->readUntil (answer, Clock::now() + until_answer);

@@ -32,8 +32,9 @@ std::string Exchange::open (const ServiceAddress& address, const std::string& pa
 
 std::string Exchange::claim (std::string_view part)
 {
-    claimed = PeerLock::take (socket.descriptor(), part);
-    return claimed ? std::string() : "another role or another instance of Tactus is using it";
+    auto attempt = PeerLock::take (socket.descriptor(), part);
+    claimed = std::move (attempt.lock);
+    return attempt.why;
 }
 
 void Exchange::begin()

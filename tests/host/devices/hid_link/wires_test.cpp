@@ -261,7 +261,9 @@ TEST_CASE ("a UDP device is driven by one role, and not kept by the child of a f
     REQUIRE ((near && other));
     auto held = PeerLock::take (near->descriptor());
     REQUIRE (held);
-    CHECK_FALSE (PeerLock::take (near->descriptor()));
+    const auto second = PeerLock::take (near->descriptor());
+    CHECK_FALSE (second);
+    CHECK (second.why == "another role or another instance of Tactus is using it");
     if (by_six) CHECK_FALSE (PeerLock::take (by_six->descriptor()));   // not every computer has IPv6
     CHECK (PeerLock::take (other->descriptor()));
     CHECK (PeerLock::take (near->descriptor(), "another arm"));
@@ -278,7 +280,7 @@ TEST_CASE ("a UDP device is driven by one role, and not kept by the child of a f
     REQUIRE (child > 0);
     char told = 0;
     REQUIRE (::read (ready[0], &told, 1) == 1);   // the child has given up what it got
-    held.reset();
+    held.lock.reset();
     CHECK (PeerLock::take (near->descriptor()));
     for (const int end : { ends[1], ends[0], ready[1], ready[0] })
         ::close (end);

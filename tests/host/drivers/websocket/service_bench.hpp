@@ -44,7 +44,7 @@ inline std::optional<host::PeerLock> lockOn (int port, std::string_view part = {
     REQUIRE (::connect (socket, reinterpret_cast<const sockaddr*> (&where), sizeof where) == 0);
     auto lock = host::PeerLock::take (socket, part);
     ::close (socket);
-    return lock;
+    return std::move (lock.lock);
 }
 
 /// A fake service, and its driver on it.
