@@ -30,6 +30,7 @@ using Kind = Outcome::Kind;
 
 constexpr auto between_knocks = 100ms;
 constexpr auto until_answer = 200ms;
+constexpr int until_it_streams = 16;   // reports without another knock between them, as after a restart
 constexpr auto until_gone = 1s;
 constexpr auto until_late = 20ms;                               // without an answer: the device has missed a byte, or its answer was lost
 constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
@@ -281,6 +282,7 @@ class UdpTransport final : public WireTransport
 public:
     UdpTransport (WireFile f, PeerLock l, std::string name, const Profile& p)
         : WireTransport (std::move (f), std::move (name), p), lock (std::move (l)), stale (p), may_be_silent (sendsOnlyChanges (p)),
+          must_stream (! may_be_silent && ! p.outputs.empty() && ! (p.rate > 0.0 && p.rate < 2.0 / std::chrono::duration<double> (between_knocks).count())),
           heard (Clock::now()), knocked (heard)
     {
     }
@@ -301,11 +303,18 @@ public:
             if (got.what == Kind::report)
             {
                 heard = now;
-                if (! stale.isStale (into.first (got.size))) return got;
+                if (stale.isStale (into.first (got.size))) continue;
+                if (to_come == 0) return got;
+                --to_come;
                 continue;
             }
             if (! may_be_silent && now - heard > until_gone) return { .what = Kind::failure, .error = ETIMEDOUT };
-            if (now - std::max (heard, knocked) > between_knocks) knock();
+            if (now - std::max (heard, knocked) > between_knocks)
+            {
+                knock();
+                // A device that only answers has no reading that a force could follow: it would get a pulse for each answer.
+                if (must_stream) to_come = until_it_streams;
+            }
             return got;
         }
     }
@@ -326,8 +335,9 @@ private:
 
     PeerLock lock;          // so that only one driver uses the device
     StaleDatagrams stale;   // [reader]
-    const bool may_be_silent;
+    const bool may_be_silent, must_stream;
     Clock::time_point heard, knocked;   // [reader]
+    int to_come = 0;                    // reports that do not count yet   [reader]
 };
 
 /// Without a remedy, the usual one helps.

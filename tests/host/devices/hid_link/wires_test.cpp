@@ -246,6 +246,68 @@ TEST_CASE ("a socket takes datagrams only from the address that it was opened fo
     CHECK_FALSE (WireFile::listenUdp (port));   // it is taken
 }
 
+TEST_CASE ("a UDP device that only answers when it is asked gives no reading, so a force does not pulse", "[wires][hid][safety]")
+{
+    // The reports of a fake board, which this test sends when it likes.
+    const auto profile = board();
+    auto source = FakeDevice::make (profile, stillHand(), { .wire = Wire::udp, .link = {}, .faults = {} });
+    REQUIRE (source);
+    Bytes next;
+    (*source)->on_line = [&] (const FakeDevice::Line& line) {
+        if (line.what == FakeDevice::Line::What::sent) next.assign (line.bytes.begin(), line.bytes.end());
+    };
+    const int own = ::socket (AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    sockaddr_in here {}, host {};
+    here.sin_family = AF_INET;
+    here.sin_addr.s_addr = htonl (INADDR_LOOPBACK);
+    socklen_t size = sizeof here;
+    REQUIRE (::bind (own, reinterpret_cast<sockaddr*> (&here), size) == 0);
+    REQUIRE (::getsockname (own, reinterpret_cast<sockaddr*> (&here), &size) == 0);
+    const auto isAsked = [&] {   // by a datagram without bytes
+        std::array<char, 256> bytes {};
+        return ::recvfrom (own, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*> (&host), &size) == 0;
+    };
+    const auto tell = [&] {
+        (*source)->step();
+        return ::sendto (own, next.data(), next.size(), 0, reinterpret_cast<sockaddr*> (&host), size) == static_cast<ssize_t> (next.size());
+    };
+
+    NoHid system;
+    ConnectedDevice where;
+    where.wire = Wire::udp;
+    where.path = "127.0.0.1:" + std::to_string (ntohs (here.sin_port));
+    auto opening = std::async (std::launch::async, [&] { return HidPort::open (system, where, profile, { .look_again = 5ms, .real_time = false }); });
+    while (opening.wait_for (1ms) != std::future_status::ready)
+        if (isAsked()) CHECK (tell());
+    auto opened = opening.get();
+    REQUIRE (opened);
+    HidDevice device { std::move (*opened) };
+    device.prepare (1e-3);
+    const auto tick = [&] {
+        const auto reading = device.read();
+        device.write ({});
+        return reading.valid;
+    };
+
+    bool was_valid = false;
+    int answers = 0;
+    REQUIRE (eventually ([&] {
+        was_valid = tick() || was_valid;
+        if (isAsked() && tell()) ++answers;
+        return answers == 8;
+    }));
+    CHECK_FALSE (was_valid);
+    CHECK (device.port().counts().reports == 0);
+    CHECK (device.port().isConnected());
+
+    // When it sends by itself, its reports count.
+    CHECK (eventually ([&] {
+        system.ns += 1'000'000;
+        return tell() && tick();
+    }));
+    ::close (own);
+}
+
 TEST_CASE ("a UDP device is driven by one role, and not kept by the child of a fork", "[wires][hid][safety]")
 {
     Bench bench { Wire::udp };
