@@ -63,6 +63,7 @@ static void* open_board (const tactus_device_description* given, tactus_device_a
     about->rest_reports = last_reports;
     about->rest_report_count = 1;
     about->device_watchdog_s = 0.02;
+    about->stamps = TACTUS_DEVICE_NUMBERS;
     return b;
 }
 

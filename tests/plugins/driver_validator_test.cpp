@@ -106,6 +106,7 @@ TEST_CASE ("check-plugin catches a driver that describes its device wrongly", "[
     catches ("lying", "no_limits", { "open: ", "gives no max_force", "device/no_limits" });
     catches ("lying", "no_failsafe", { "open: ", "device/no_failsafe" });
     catches ("lying", "late_failsafe", { "open: ", "device/no_failsafe" });
+    catches ("lying", "unstamped", { "open: ", "a frozen reading would not be noticed", "gives no max_still with still_force", "device/no_limits" });
     catches ("lying", "no_json", { "open: ", "device/bad_driver" });
     catches ("lying", "many", { "open: ", "gives 40 axes" });
     catches ("lying", "twins", { "open: ", "two of its axes 'twist'" });
@@ -127,6 +128,7 @@ TEST_CASE ("check-plugin catches a driver whose readings lie", "[plugins][safety
     catches ("lying", "repeats", { "readings: most readings have the number or the time of the one before" });
     catches ("lying", "batches", { "readings: most readings cannot be used, because others are missing before them" });
     catches ("lying", "back", { "readings: the number or the time of a reading went back" });
+    catches ("lying", "no_number", { "readings: a reading lacks the number or the time that the driver promises for every one" });
     catches ("lying", "gone", { "readings: the device is gone: nobody is there" });
     catches ("lying", "past_end", { "bounds: `read` writes past the end of tactus_reading" });
     catches ("lying", "fails", { "timeout: `read` fails and does not say why" });

@@ -65,6 +65,7 @@ static void* open_arm (const tactus_device_description* given, tactus_device_abo
     about->rest_file = given->port;
     about->rest_reports = last_reports, about->rest_report_count = 1;
     about->device_watchdog_s = 0.02;
+    about->stamps = TACTUS_DEVICE_NUMBERS;
     return a;
 }
 

@@ -89,6 +89,21 @@ void checkLimits (const DriverAbout& a, Messages& messages)
     need (a.torque, a.limits.max_torque, "max_torque", "a torque");
     need (! a.layout.efforts.empty(), a.limits.max_axis_effort, "max_axis_effort", "efforts on axes");
     need (a.layout.signal_outputs > 0, a.limits.max_signal, "max_signal", "signals");
+    if (a.stamps == 0)
+    {
+        // Without a number and a clock, a device that repeats a reading forever looks like one that measures.
+        const auto needStill = [&] (bool is_needed, double least, const char* key, const char* what, const char* where) {
+            if (is_needed && ! (a.limits.max_still < GuardLimits::none && least < GuardLimits::none))
+                messages.push_back (Message::error ("device/no_limits", "",
+                                                    std::string ("a frozen reading would not be noticed: the driver takes ") + what + " along the " + where
+                                                        + " that it reads, but its readings have neither a number nor a time (`stamps`), and it gives no "
+                                                          "max_still with "
+                                                        + key,
+                                                    std::string ("ask the author of the driver to add a number, a time, or max_still and ") + key));
+        };
+        needStill (a.force && a.position, a.limits.still_force, "still_force", "a force", "position");
+        needStill (a.torque && a.rotation, a.limits.still_torque, "still_torque", "a torque", "rotation");
+    }
     checkStops (a.limits, "", messages);
     if (a.takesEfforts() && a.rest_reports.empty() && ! (a.device_watchdog_s > 0.0 && a.device_watchdog_s <= longest_watchdog))
         messages.push_back (Message::error ("device/no_failsafe", "",
@@ -127,7 +142,8 @@ bool DriverAbout::isLike (const DriverAbout& other) const
 {
     const auto tool = [] (const DriverAbout& a) { return std::array { a.position, a.rotation, a.pressure, a.force, a.torque }; };
     return tool (*this) == tool (other) && layout == other.layout && rate_hz == other.rate_hz && limits == other.limits
-           && rest_reports.empty() == other.rest_reports.empty() && device_watchdog_s == other.device_watchdog_s && unrendered == other.unrendered;
+           && rest_reports.empty() == other.rest_reports.empty() && device_watchdog_s == other.device_watchdog_s && unrendered == other.unrendered
+           && stamps == other.stamps;
 }
 
 DriverAbout readAbout (const tactus_device_about& given, bool can_write, Messages& messages)
@@ -144,6 +160,8 @@ DriverAbout readAbout (const tactus_device_about& given, bool can_write, Message
     constexpr std::uint32_t no_force = TACTUS_DEVICE_NO_FORCE_X | TACTUS_DEVICE_NO_FORCE_Y | TACTUS_DEVICE_NO_FORCE_Z,
                             no_torque = TACTUS_DEVICE_NO_TORQUE_X | TACTUS_DEVICE_NO_TORQUE_Y | TACTUS_DEVICE_NO_TORQUE_Z;
     if (given.unrendered > (no_force | no_torque)) check.bad ("names a direction without a motor that this version of Tactus does not know");
+    if (given.stamps > (TACTUS_DEVICE_NUMBERS | TACTUS_DEVICE_TIMES)) check.bad ("names a stamp that this version of Tactus does not know");
+    a.stamps = given.stamps;
     a.unrendered = given.unrendered | (a.force ? 0u : no_force) | (a.torque ? 0u : no_torque);
     a.about = printableName (check.text (given.about, longest_text, "a sentence"));
 

@@ -27,6 +27,7 @@ struct DriverAbout
     std::vector<Failsafe::Report> rest_reports {};   ///< for the failsafe; none: only the watchdog of the device brings it to rest
     double device_watchdog_s = 0.0;
     std::uint32_t unrendered = 0;   ///< TACTUS_DEVICE_NO_FORCE_X | …, all of a force or a torque that the device does not have
+    std::uint32_t stamps = 0;       ///< TACTUS_DEVICE_NUMBERS | …: what every reading must have
 
     /// The part of a force or a torque that the motors render.
     Vec3 renderedForce (const Vec3& all) const noexcept { return rendered (all, TACTUS_DEVICE_NO_FORCE_X); }

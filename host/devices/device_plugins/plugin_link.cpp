@@ -77,7 +77,7 @@ ReadingFault faultOf (std::uint32_t told) noexcept
 
 PluginDevice::Link::Link (std::unique_ptr<OpenedDevice> d, std::optional<Failsafe> armed, const Options& o)
     : options (o), longest_silence (toDuration (isFinite (o.silence_s) && o.silence_s > 0.0 ? o.silence_s : GuardLimits::default_watchdog)),
-      called (d->driver().name()), driver (d->driver().shared_from_this()), description (d->description()), about (d->about()), watch (about.rate_hz),
+      called (d->driver().name()), driver (d->driver().shared_from_this()), description (d->description()), about (d->about()), watch (about.rate_hz, about.stamps),
       device (std::move (d)), failsafe (std::move (armed)), limiter (about.limits)
 {
     for (auto& slew : slews)
@@ -301,7 +301,7 @@ void PluginDevice::Link::lookAgain()
             limiter.forget();
             driven = rest_fails = false;   // it was brought to rest when it was opened
             failing_since.reset();
-            watch = StampWatch { about.rate_hz };
+            watch = StampWatch { about.rate_hz, about.stamps };
             draft.fault = draft.standing = 0;
             note ({});
             current_episode.fetch_add (1, std::memory_order_acq_rel);

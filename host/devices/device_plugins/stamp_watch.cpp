@@ -26,7 +26,8 @@ StampWatch::Assessment StampWatch::operator() (const tactus_device_stamp& stamp,
 {
     Assessment v;
     const bool has_number = stamp.number != 0, has_time = stamp.time_s != 0.0;
-    if (! isFinite (stamp.time_s)) return { .fault = ReadingFault::malformed };
+    const bool lacks_one = (! has_number && (promised & TACTUS_DEVICE_NUMBERS) != 0) || (! has_time && (promised & TACTUS_DEVICE_TIMES) != 0);
+    if (lacks_one || ! isFinite (stamp.time_s)) return { .fault = ReadingFault::malformed };
     if (has_one && has_number && stamp.number == number) return { .is_new = false, .fault = ReadingFault::repeated };
     if (has_one && has_time && stamp.time_s == time) return { .is_new = false, .fault = ReadingFault::clock_stopped };
 

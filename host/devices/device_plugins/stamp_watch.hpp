@@ -15,6 +15,7 @@ namespace tactus::host
 ///  - The same number or time again is not a new reading.
 ///  - A lower number or an earlier time means that the device has restarted, or that readings come out of order: 16 good ones must follow.
 ///  - Readings that are missing count as lost: by the number, or else by the rate.
+///  - A reading without a stamp that the driver has promised (tactus_device_about) is not used.
 ///  - A clock that falls behind the wall clock means that readings wait somewhere on the way: they are older than they seem, by
 ///
 ///        lag = (t - s) - o      o' = min (o + d T, t - s)      t: wall clock, s: clock of the device, T: time since the last reading, d: 0.1 %
@@ -23,7 +24,7 @@ namespace tactus::host
 class StampWatch
 {
 public:
-    explicit StampWatch (double rate_hz) noexcept : rate (rate_hz) {}
+    explicit StampWatch (double rate_hz, std::uint32_t promised_stamps = 0) noexcept : rate (rate_hz), promised (promised_stamps) {}
 
     struct Assessment
     {
@@ -41,6 +42,7 @@ private:
     double lagOf (double time_s, double now_s) noexcept;
 
     double rate;
+    std::uint32_t promised;
     hid::ReportRecord record;
     std::uint64_t number = 0;
     double time = 0.0, arrived = 0.0, offset = 0.0;

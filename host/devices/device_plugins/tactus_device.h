@@ -83,6 +83,13 @@ enum
     TACTUS_DEVICE_NO_TORQUE_Z = 32
 };
 
+/** What the device says about every reading, in its tactus_device_stamp. */
+enum
+{
+    TACTUS_DEVICE_NUMBERS = 1,
+    TACTUS_DEVICE_TIMES = 2
+};
+
 /** What a device is. Tactus copies it when `open` has returned. It must be the same each time the same device is opened. */
 typedef struct tactus_device_about
 {
@@ -116,11 +123,14 @@ typedef struct tactus_device_about
                                    at most 0.5 s */
     uint32_t unrendered;      /**< TACTUS_DEVICE_NO_FORCE_X | …: these parts are 0 in all efforts, and the guard does not count them; otherwise a force
                                    without a motor could hide energy from it. 0: the motors render every direction */
+    uint32_t stamps;          /**< TACTUS_DEVICE_NUMBERS | …: a reading without them is not used. 0: neither; then nothing shows that the device has stopped
+                                   measuring and repeats a reading, so a device that takes a force along its position needs max_still and still_force in
+                                   `guard`, and one that takes a torque along its rotation needs max_still and still_torque */
 } tactus_device_about;
 
-#define TACTUS_DEVICE_ABOUT_INIT                                                                      \
-    {                                                                                                 \
-        sizeof (tactus_device_about), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0, 0.0, 0 \
+#define TACTUS_DEVICE_ABOUT_INIT                                                                         \
+    {                                                                                                    \
+        sizeof (tactus_device_about), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0, 0.0, 0, 0 \
     }
 
 /** Why a device cannot be trusted, by its own account. */

@@ -127,7 +127,12 @@ void limitForce (GuardLimits& g, const PidCalibration& c, double travel, double 
     (c.turns ? g.max_angular_speed : g.max_speed) = c.turns ? max_angular_speed : max_speed;
     g.max_energy = most * std::min (0.5 * travel, c.turns ? longest_turn : longest_push);
     g.energy_window = energy_window;
-    (c.turns ? g.still_torque : g.still_force) = still_share * most;
+    limitStill (g, c, quantum);
+}
+
+void limitStill (GuardLimits& g, const PidCalibration& c, double quantum)
+{
+    (c.turns ? g.still_torque : g.still_force) = still_share * c.full_force * c.usable;
     g.max_still = quantum <= (c.turns ? fine_turn : fine_quantum) ? still_for : still_for_coarse;
 }
 

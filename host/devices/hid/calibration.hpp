@@ -51,6 +51,9 @@ PidCalibration calibrationOf (const std::string& product, const std::vector<std:
 /// `travel` of the driven axis is known, speed, energy and stillness. `travel` and `quantum`, its resolution, are in m or rad; 0: unknown.
 void limitForce (GuardLimits&, const PidCalibration&, double travel, double quantum);
 
+/// Sets max_still with the least force or torque at which it counts; the time depends on the quantum of the position.
+void limitStill (GuardLimits&, const PidCalibration&, double quantum);
+
 /// The slew limit of an effort of this size, per s.
 double slewOf (double effort);
 

@@ -66,9 +66,9 @@ public:
             about.buttons = Inverse3Messages::buttons.data();
             about.button_count = Inverse3Messages::buttons.size();
         }
-        // Guesses, as for the Tactus board: weak, because the arm has not been measured.
+        // Guesses, as for the Tactus board: weak, because the arm has not been measured. The service gives neither number nor time.
         about.guard = R"({"max_force": "2 N", "max_slew": "500 N/s", "max_speed": "2 m/s", "max_impulse": "15 N*s", "impulse_window": "10 s",
-            "max_energy": "200 mJ", "energy_window": "1 s", "watchdog": "20 ms"})";
+            "max_energy": "200 mJ", "energy_window": "1 s", "max_still": "1 s", "still_force": "0.5 N", "watchdog": "20 ms"})";
         about.device_watchdog_s = 0.05;   // a command lasts for one tick of the service
         exchange.begin();
         return {};

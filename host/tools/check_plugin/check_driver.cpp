@@ -284,7 +284,7 @@ std::string checkReadings (const Device& device, double seconds)
     const auto opened = device.open (why);
     if (! opened) return why;
     const auto& about = opened->about();
-    host::StampWatch watch { about.rate_hz };
+    host::StampWatch watch { about.rate_hz, about.stamps };
     std::uint64_t readings = 0, calls = 0, repeated = 0, back = 0, faults = 0, after_lost = 0;
     double oldest = 0.0;
     const auto begin = Clock::now();
@@ -301,6 +301,7 @@ std::string checkReadings (const Device& device, double seconds)
         const auto verdict = watch (stamp, secondsOf (Clock::now().time_since_epoch()));
         ++readings;
         repeated += verdict.is_new ? 0 : 1;
+        if (verdict.fault == ReadingFault::malformed) return "a reading lacks the number or the time that the driver promises for every one";
         back += verdict.has_gone_back ? 1 : 0;
         after_lost += verdict.fault == ReadingFault::lost ? 1 : 0;
         faults += stamp.fault != 0 || reading.valid == 0 ? 1 : 0;

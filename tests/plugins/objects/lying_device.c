@@ -89,6 +89,7 @@ static void* open_device (const tactus_device_description* given, tactus_device_
     about->rate_hz = lies (d, "fast") ? 100 : 1000;
     about->guard = "{\"max_force\": \"2 N\", \"max_slew\": \"500 N/s\", \"watchdog\": \"50 ms\"}";
     about->device_watchdog_s = 0.02;
+    about->stamps = lies (d, "unstamped") ? 0 : TACTUS_DEVICE_NUMBERS;
     if (lies (d, "no_failsafe")) about->device_watchdog_s = 0;
     if (lies (d, "late_failsafe")) about->device_watchdog_s = 0.6;
     if (lies (d, "no_limits")) about->guard = "{\"watchdog\": 0.02}";
@@ -149,9 +150,9 @@ static int32_t read_device (void* device_, int32_t timeout_ms, tactus_reading* r
     reading->age_s = lies (d, "old") ? -1 : 0;
     reading->axis_count = lies (d, "few") ? 1 : 2;
     if (lies (d, "past_end")) memset (reading + 1, 0, 8);
-    if (lies (d, "spins")) return TACTUS_DEVICE_OK;
-    stamp->number = lies (d, "repeats") ? 1 : lies (d, "back") ? 1000 - d->number % 100
-                                                               : d->number;
+    stamp->number = lies (d, "no_number") ? 0 : lies (d, "repeats") ? 1
+                                            : lies (d, "back")      ? 1000 - d->number % 100
+                                                                    : d->number;
     return TACTUS_DEVICE_OK;
 }
 

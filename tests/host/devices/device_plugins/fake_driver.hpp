@@ -63,6 +63,7 @@ public:
     std::vector<const char*> axes {}, efforts {}, buttons {};
     int signal_inputs = 0, signal_outputs = 0;
     double rate_hz = 1000.0, mass = 0.0, device_watchdog_s = 0.02;
+    std::uint32_t stamps = TACTUS_DEVICE_NUMBERS;
     std::string guard = R"({"max_force": "2 N", "ramp": "10 ms", "watchdog": "50 ms"})";
     std::string rest_file {};
     std::function<void (tactus_device_about&)> changes {};
@@ -176,6 +177,7 @@ private:
         about->rate_hz = now->rate_hz;
         about->guard = now->guard.c_str();
         about->device_watchdog_s = now->device_watchdog_s;
+        about->stamps = now->stamps;
         if (! now->rest_file.empty())
         {
             about->rest_file = now->rest_file.c_str();

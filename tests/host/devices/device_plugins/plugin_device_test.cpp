@@ -129,6 +129,7 @@ TEST_CASE ("a driver that reports something that is not a number, too little or 
     fake.axes = { "twist", "squeeze" };
     fake.signal_inputs = 1;
     fake.rate_hz = 0.0;   // on a busy computer, the test sends them late
+    fake.stamps = 0;
     fake.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_ROTATION | TACTUS_DEVICE_PRESSURE;
     const auto device = fake.open();
     device->read();

@@ -86,6 +86,47 @@ TEST_CASE ("a driver that describes its device wrongly is refused, and its devic
     CHECK (idFor ([&] (FakeDriver& f) { f.guard = endless; }) == "device/bad_driver");
 }
 
+TEST_CASE ("a driver that gives neither number nor time must give max_still, and one that promises them must give them", "[plugins][safety]")
+{
+    FakeDriver fake;
+    const auto idNow = [&] (std::uint32_t stamps, const char* guard) {
+        fake.stamps = stamps;
+        fake.guard = guard;
+        return idOf (host::openPluginDevice (*fake.driver, { { "driver", "fake" } }).messages);
+    };
+    constexpr auto bare = R"({"max_force": "2 N", "max_torque": "20 mN*m"})";
+    constexpr auto for_force = R"({"max_force": "2 N", "max_torque": "20 mN*m", "max_still": "1 s", "still_force": "0.5 N"})";
+    constexpr auto for_torque = R"({"max_force": "2 N", "max_torque": "20 mN*m", "max_still": "1 s", "still_torque": "5 mN*m"})";
+    CHECK (idNow (0, bare) == "device/no_limits");
+    CHECK (idNow (0, for_torque) == "device/no_limits");   // it takes no torque, so this watches nothing
+    CHECK (idNow (0, for_force) == "");
+    CHECK (idNow (TACTUS_DEVICE_NUMBERS, bare) == "");
+    CHECK (idNow (TACTUS_DEVICE_TIMES, bare) == "");
+    CHECK (idNow (4, bare) == "device/bad_driver");
+    fake.tool = TACTUS_DEVICE_ROTATION | TACTUS_DEVICE_TORQUE;
+    CHECK (idNow (0, for_force) == "device/no_limits");
+    CHECK (idNow (0, for_torque) == "");
+    fake.tool = TACTUS_DEVICE_FORCE;   // no position that could freeze
+    CHECK (idNow (0, bare) == "");
+    fake.tool = TACTUS_DEVICE_POSITION;   // nothing pushes
+    CHECK (idNow (0, "") == "");
+}
+
+TEST_CASE ("a reading without the number that its driver promises is not used", "[plugins][safety]")
+{
+    FakeDriver fake;
+    const auto device = fake.open();
+    device->read();
+    device->write ({});
+    fake.send (1e-3);
+    REQUIRE (tactus::test::eventually ([&] { return device->read().valid; }));
+    FakeDriver::Sent bare;
+    bare.reading.valid = 1;
+    fake.send (bare);
+    CHECK (tactus::test::eventually ([&] { return device->read().fault == ReadingFault::malformed; }));
+    CHECK_FALSE (device->read().valid);
+}
+
 TEST_CASE ("a device without limits is allowed if it takes no efforts", "[plugins]")
 {
     FakeDriver fake;

@@ -7,6 +7,8 @@
 
 #include <host/drivers/haply/fake_inverse3.hpp>
 #include <host/drivers/haply/inverse3.hpp>
+#include <tactus/run/device/gestures.hpp>
+#include <tactus/run/guard.hpp>
 #include <tactus/run/realtime.hpp>
 
 #include <catch2/catch.hpp>
@@ -246,6 +248,47 @@ TEST_CASE ("an Inverse3 that stays idle although it is pushed is not trusted", "
     }));
     arm.service->fail (Fault::none);
     CHECK (arm.pushes());
+}
+
+TEST_CASE ("an Inverse3 that freezes under a push is stopped, and ten minutes of a hand that rests against a push are not", "[haply][safety]")
+{
+    constexpr double dt = 1e-3, quantum = 10e-6;
+    constexpr int ten_minutes = 600'000;
+    auto limits = Arm (Patience::ample).opened.limits;
+    CHECK (limits.max_still == 1.0);
+    limits.watchdog = GuardLimits::none;   // no time passes here
+    const auto guarded = [&] {
+        Guard guard;
+        guard.prepare (limits, dt);
+        return guard;
+    };
+    const auto* hold = findGesture ("hold");
+    REQUIRE (hold != nullptr);
+    const auto resting = [&] (int k) {   // a tremor of tens of micrometres, as a coarse sensor has it
+        const Vec3 at = hold->position (1.0 + std::fmod (k * dt, 4.0));
+        Reading reading;
+        for (int i = 0; i < 3; ++i)
+            reading.position[i] = quantum * std::round (at[i] / quantum);
+        return reading;
+    };
+
+    auto hand = guarded(), light = guarded();
+    const Effort push { .force = { 0.0, 0.0, 1.2 } }, touch { .force = { 0.0, 0.0, 0.49 } };
+    for (int k = 0; k < ten_minutes && hand.events() == 0 && light.events() == 0; ++k)
+    {
+        hand (push, resting (k));
+        light (touch, resting (0));   // frozen, or lying on a table: less than still_force
+    }
+    CHECK (hand.stop() == Guard::Stop::none);
+    CHECK (hand.events() == 0);
+    CHECK (light.events() == 0);
+
+    int ticks = 0;
+    while (ticks < 2000 && ! hand (push, resting (ten_minutes)).force.isZero (0.0))
+        ++ticks;
+    CHECK (ticks > 990);
+    CHECK (ticks <= 1000 + 5 + 2);
+    CHECK (hand.stop() == Guard::Stop::stale);
 }
 
 TEST_CASE ("what is wrong with a description of an Inverse3, or with its service, is said", "[haply][wires]")
