@@ -81,7 +81,19 @@ std::string describe (const DeviceHealth& h)
 HealthWatch::Meter& HealthWatch::meterOf (const std::string& role)
 {
     const auto at = std::ranges::find (meters, role, &Meter::role);
-    return at != meters.end() ? *at : meters.emplace_back (Meter { role, {} });
+    return at != meters.end() ? *at : meters.emplace_back (Meter { .role = role });
+}
+
+void HealthWatch::Meter::add (double at_s, std::uint64_t reports, double longest_gap_s) noexcept
+{
+    if (at_s - latest_s > longest_gap_s)
+    {
+        rate.reset();
+        recent.reset();
+    }
+    latest_s = at_s;
+    rate.add (at_s, reports);
+    recent.add (at_s, reports);
 }
 
 void HealthWatch::judgeRate (Meter& meter, DeviceHealth& h, double nominal_hz) const
@@ -122,7 +134,7 @@ void HealthWatch::poll (const PluginRole& plugin)
     auto& meter = meterOf (plugin.role);
     if (std::exchange (meter.departures, counts.departures) != counts.departures) meter.rate.reset();
     const std::chrono::duration<double> at = device.lastArrival().time_since_epoch();
-    if (h.connected && at.count() > 0.0) meter.rate.add (at.count(), counts.readings + counts.lost);
+    if (h.connected && at.count() > 0.0) meter.add (at.count(), counts.readings + counts.lost, longestGap());
     if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
 }
 
@@ -156,8 +168,7 @@ void HealthWatch::poll (std::span<const RealDevice> devices, std::span<const Plu
         auto& meter = meterOf (real.role);
         if (std::exchange (meter.departures, port.departures) != port.departures) meter = { .role = real.role, .departures = port.departures };
         if (const auto latest = latestOf (*device); latest && h.connected)
-            for (auto* each : { &meter.rate, &meter.recent })
-                each->add (latest->at_s, latest->reports + read.lost);
+            meter.add (latest->at_s, latest->reports + read.lost, longestGap());
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
         if (hasOneRate (real.profile())) judgeRate (meter, h, real.profile().rate);
         if (port.reports == 0 && port.stray > 0)

@@ -63,7 +63,8 @@ std::string describe (const DeviceHealth&);
 /// tick thread is not involved. The reference is the device that ticks the run, or else the computer's clock, which also
 /// drives the timer. Lost reports, known from sequence numbers, are counted too, so they do not look like a slow clock. When
 /// a device that was disconnected is back, the measurement of its rate starts again. A rate that is off by more than 2 % in two spans in a row is reported:
-/// one span can contain a pause of the computer, in which reports were lost. [one thread]
+/// one span can contain a short pause of the computer, in which reports were lost. After a gap of a quarter of a span, both measurements begin again: what
+/// came before and after a stall says nothing about the rate. [one thread]
 class HealthWatch
 {
 public:
@@ -81,7 +82,11 @@ private:
     struct Meter
     {
         std::string role;
+        /// Adds a look, or begins again after a gap.
+        void add (double at_s, std::uint64_t reports, double longest_gap_s) noexcept;
+
         RateMeter rate {}, recent {};   // `recent`: begins again after each `shortest_span`
+        double latest_s = 0.0;
         std::uint64_t departures = 0;
         int wrong = 0;           // how many spans in a row were too slow (< 0) or too fast
         double wrong_hz = 0.0;   // the rate in the last one of them
@@ -90,6 +95,8 @@ private:
     Meter& meterOf (const std::string& role);
     void poll (const PluginRole&);
     void judgeRate (Meter&, DeviceHealth&, double nominal_hz) const;
+
+    double longestGap() const noexcept { return 0.25 * shortest_span; }
 
     std::string clock;
     double shortest_span;

@@ -355,6 +355,16 @@ TEST_CASE ("a board whose rate is not that of its profile is reported, and a pau
         look (0.05, 50);
         was_warned = was_warned || isWarned();
     }
+    // Stalls, one after the other: a span with a gap says nothing about the rate.
+    for (int stall = 0; stall < 4; ++stall)
+    {
+        look (4.0, 1);
+        for (int k = 0; k < 8; ++k)
+        {
+            look (0.05, 50);
+            was_warned = was_warned || isWarned();
+        }
+    }
     CHECK_FALSE (was_warned);
 
     double after = 0.0;
