@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "bounded_log.hpp"
 #include "commands.hpp"
 #include "report.hpp"
 
@@ -39,7 +40,7 @@ struct FakeOptions
     std::string profile, wire, link, hand = "stroke", log;
     std::vector<std::string> faults;
     int port = 0;
-    double duration_s = 0.0;
+    double duration_s = 0.0, log_megabytes = 100.0;
 };
 
 std::shared_ptr<const Profile> profileOf (const std::string& id)
@@ -228,11 +229,16 @@ void run (const FakeOptions& o)
     auto fake = orFail (FakeDevice::make (profile, handOf (o.hand), options));
 
     std::ofstream log;
+    BoundedLog bounded (log, static_cast<std::uint64_t> (1e6 * o.log_megabytes));
     if (! o.log.empty())
     {
         log.open (o.log);
         if (! log) fail (Message::error ("output/unwritable", o.log, "the log cannot be written", "name a file in a folder that you may write to"));
-        fake->on_line = [&log] (const FakeDevice::Line& line) { log << textOf (line); };
+        fake->on_line = [&o, &bounded] (const FakeDevice::Line& line) {
+            if (bounded.add (textOf (line)))
+                warn (o.log, Message::warning ("fake/log", "", "the log has reached " + numberText (o.log_megabytes) + " MB and ends here; the device goes on",
+                                               "give a larger --log-size, in MB"));
+        };
     }
     const auto place = ! o.link.empty() ? o.link : fake->place();
     std::cout << "a fake " << profile->name << " is at " << place << "; play on it: --device ROLE=" << nameOf (options.wire) << ":" << profile->id
@@ -269,6 +275,7 @@ void addFakeDevice (const Command& app)
                        "reset, away, and of a service push and rename; may be given more than once")
         .oneValueEach();
     command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if received, and its bytes").type ("FILE");
+    command.addOption ("--log-size", options->log_megabytes, "The largest size of the log in MB; default: 100").check (finiteWithin (1e-3, 1e6));
     command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
     command.footer ("Examples:\n"
                     "  tactus fake-device tactus_board --link board --log heard.txt\n"
