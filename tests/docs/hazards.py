@@ -18,7 +18,7 @@ CAUSES, OSC = "host/devices/live/force_causes.hpp", "host/devices/osc/remote_con
 HARMLESS = {"/tactus/" + name for name in ("hello", "stop", "emergency", "probe", "trigger", "status", "costs", "cost", "guard", "done", "error", "capture", "value")}
 BEGIN, END = f"<!-- the table of {CAUSES} -->", "<!-- end of the table -->"
 
-tests = {file.stem for pattern in ("**/*_test.cpp", "python/*_test.py", "guest/own_*", "site/*_test.*") for file in ROOT.glob("tests/" + pattern)}
+tests = {file.stem for pattern in ("**/*_test.cpp", "python/*_test.py", "host/devices/live/*_test.py", "guest/own_*", "site/*_test.*") for file in ROOT.glob("tests/" + pattern)}
 page = (ROOT / "docs/hazards.md").read_text(encoding="utf-8")
 faults, _, rest = page.partition(BEGIN)
 shown, _, after = rest.partition(END)

@@ -4,12 +4,9 @@ closed while a call goes on; and forks."""
 
 import json
 import os
-import pathlib
-import re
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 from contextlib import suppress
@@ -17,12 +14,10 @@ from unittest import mock
 
 import tactus
 from support import GRAPHS, PROGRAM, TestCase
+import pushed_board
+from pushed_board import PUSH
 from tactus import _play
 from waiting import eventually
-
-PUSH = {"format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
-        "nodes": {"push": {"type": "signal.constant", "params": {"value": 0.4}}, "motor": {"type": "device.force", "role": "stylus"}},
-        "wires": ["push.out -> motor.force.z"]}
 
 BEGIN = """
 import concurrent.futures, ctypes, os, signal, sys, threading
@@ -39,44 +34,13 @@ THREADS = {"no other thread": "",
            "a pool that never ends": "concurrent.futures.ThreadPoolExecutor().submit(for_ever)"}
 GOES_ON = ("a thread that never ends", "a pool that never ends")   # the interpreter waits for these
 BY_ITSELF = {"the end of the script": "", "sys.exit": "sys.exit(3)", "an exception": "1 / 0", "Ctrl-C": "os.kill(os.getpid(), signal.SIGINT); for_ever()"}
-AT_ONCE = {"SIGTERM": "os.kill(os.getpid(), signal.SIGTERM)", "os._exit": "os._exit(0)"}   # no Python runs: the guardian brings the board to rest
+AT_ONCE = {"os._exit": "os._exit(0)", "os.abort": "os.abort()", "a wild pointer": "ctypes.string_at(8)",
+           **{name: f"os.kill(os.getpid(), signal.{name})" for name in ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGKILL", "SIGSEGV")}}   # no Python runs: the guardian brings the board to rest
 
 
-class Board:
-    """A board on this computer, with a heavy handle, and what it hears."""
-
+class Board(pushed_board.Board):
     def __init__(self):
-        self._folder = tempfile.TemporaryDirectory()
-        folder = pathlib.Path(self._folder.name)
-        (folder / "hand.json").write_text('{"driver": "sim", "mass": "1000 kg"}')
-        (folder / "push.json").write_text(json.dumps(PUSH))
-        self.graph, self._log = str(folder / "push.json"), folder / "log"
-        self._fake = subprocess.Popen([PROGRAM, "fake-device", "tactus_board", "--wire", "udp", "--log", self._log, "--hand", folder / "hand.json"],
-                                      stdout=subprocess.PIPE, text=True)
-        lines = iter(self._fake.stdout.readline, "")
-        self.device = next(found.group(1) for found in map(re.compile(r"ROLE=(\S+)").search, lines) if found)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._fake.kill()
-        self._fake.communicate()
-        self._folder.cleanup()
-
-    def forces(self):
-        """All that it heard, in uN."""
-        whole = self._log.read_text().rpartition("\n")[0].splitlines()
-        reports = [bytes.fromhex(line.partition("<")[2]) for line in whole if "<" in line]
-        return [max(abs(int.from_bytes(r[at:at + 4], "little", signed=True)) for at in (8, 12, 16)) if r[2] & 1 else 0 for r in reports]
-
-    def is_pushed(self):
-        heard = self.forces()
-        return bool(heard) and heard[-1] > 390000
-
-    def was_released(self):
-        heard = self.forces()
-        return max(heard, default=0) > 390000 and heard[-1] == 0
+        super().__init__(PROGRAM)
 
     def run(self, code):
         return subprocess.Popen([sys.executable, "-B", "-c", code, self.graph, self.device], stderr=subprocess.DEVNULL, start_new_session=True)
@@ -100,9 +64,17 @@ class Programs(TestCase):
                 self.ends(thread, end, thread in GOES_ON)
 
     def test_the_force_goes_when_the_program_ends_at_once(self):
-        for thread in THREADS:
+        for thread in ("no other thread", "a thread that never ends"):
             for end in AT_ONCE.values():
                 self.ends(thread, end, False)
+
+    def test_the_force_goes_when_another_program_takes_its_place(self):
+        self.ends("a thread that never ends", "os.execv('/bin/sleep', ['sleep', '600'])", True)
+
+    def test_the_force_goes_before_what_atexit_calls_and_before_threads_raise(self):
+        self.ends("no other thread", "import atexit; atexit.register(for_ever)", True)
+        self.ends("no other thread", "threading._register_atexit(for_ever)", True)
+        self.ends("a daemon thread", "threading.excepthook = lambda *_: for_ever()\nthreading.Thread(target=lambda: 1 / 0).start()", True)
 
     def test_the_force_goes_when_the_main_thread_ends_without_the_interpreter(self):
         self.ends("a thread that never ends", "ctypes.CDLL(None).pthread_exit(None)", True)

@@ -19,7 +19,9 @@
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
+#include <cstdlib>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -55,6 +57,7 @@ namespace
 constexpr std::size_t most_events = 1000;
 constexpr double most_number = 1e9;
 constexpr std::chrono::duration<double> longest_stop { tactus::Runner::longest_halt_s + 5.0 };
+constexpr auto longest_exit = std::chrono::seconds (2);   // then the guardian brings the devices to rest when the process ends
 constexpr auto look_apart = std::chrono::milliseconds (20);
 
 long thisProcess() noexcept
@@ -65,6 +68,45 @@ long thisProcess() noexcept
     return 0;
 #endif
 }
+
+/// The sessions that a program has started and not closed. `exit` stops them before it does what the program has asked for later, which may take for ever,
+/// and before it destroys what their ticks use.
+class SessionsOfProcess
+{
+public:
+    /// Those of this process. The child of a fork begins with none: it has copies of those of its parent, and perhaps a copy of a locked mutex.
+    static SessionsOfProcess& here()
+    {
+        static std::atomic<SessionsOfProcess*> current { nullptr };   // never deleted, because threads may use it until the process has ended
+        for (auto* known = current.load();;)
+        {
+            if (known != nullptr && known->owner == thisProcess()) return *known;
+            auto made = std::make_unique<SessionsOfProcess>();
+            if (current.compare_exchange_strong (known, made.get())) return *made.release();
+        }
+    }
+
+    void add (tactus_session* s)
+    {
+        static const int registered = std::atexit (stopAll) + ::at_quick_exit (stopAll);   // once, also for the children of forks
+        static_cast<void> (registered);
+        const std::lock_guard lock (mutex);
+        all.push_back (s);
+    }
+
+    void remove (tactus_session* s)
+    {
+        const std::lock_guard lock (mutex);
+        std::erase (all, s);
+    }
+
+private:
+    static void stopAll() noexcept;
+
+    const long owner = thisProcess();
+    std::mutex mutex;
+    std::vector<tactus_session*> all;
+};
 
 /// The profiles of this computer, read once.
 const tactus::host::hid::LoadedProfiles& profiles()
@@ -82,6 +124,7 @@ struct tactus_session
 
     ~tactus_session()
     {
+        SessionsOfProcess::here().remove (this);
         attending.request_stop();
         wake.notify_all();
         if (attending.joinable()) attending.join();
@@ -116,6 +159,23 @@ struct tactus_session
     std::condition_variable_any wake;
     std::jthread attending;   // declared last: it uses the other members
 };
+
+void SessionsOfProcess::stopAll() noexcept
+{
+    static_cast<void> (tactus::caught ("the end of the program", [] {
+        auto& sessions = here();
+        const std::lock_guard lock (sessions.mutex);
+        for (auto* s : sessions.all)
+        {
+            s->stops.stop (By::program);
+            if (s->has_started) s->live->stop();
+        }
+        const auto isTicking = [] (const tactus_session* s) { return s->isTicking(); };
+        for (const auto began = std::chrono::steady_clock::now();
+             std::ranges::any_of (sessions.all, isTicking) && std::chrono::steady_clock::now() - began < longest_exit;)
+            std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    }));
+}
 
 void tactus_session::tellStops()
 {
@@ -276,6 +336,7 @@ tactus_result tactus_session_start (tactus_session* s, tactus_messages* messages
     if (std::exchange (s->starts, true)) return misuse ("the session was started before");
     return guarded (messages, TACTUS_FAILED, [&] {
         const HeldSignals held;   // by the threads that start here: the handlers of the program run on its own threads
+        SessionsOfProcess::here().add (s);
         s->attending = std::jthread ([s] (const std::stop_token& stop) {
             static_cast<void> (tactus::caught ("the thread of the session", [&] {
                 std::unique_lock lock (s->mutex);
