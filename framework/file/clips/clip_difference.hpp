@@ -25,7 +25,7 @@ struct ChannelDifference
 /// with one channel. If only one of them has waves, their envelopes are compared. Clips longer than 10 min are compared in their first 10 min. [main thread]
 std::vector<ChannelDifference> compareClips (const Clip& first, const Clip& second, bool mixed);
 
-/// How far the samples of two renderings differ. Channel 0 is the sum of all.
+/// The difference between the samples of two renderings. Channel 0 is the sum of all.
 struct SampleDifference
 {
     int channel = 0;

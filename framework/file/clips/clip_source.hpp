@@ -11,7 +11,7 @@
 namespace tactus::readers
 {
 
-/// When samples are taken: at (k + offset) / rate, for k from 0 to count - 1.
+/// The times at which samples are taken: (k + offset) / rate, for k from 0 to count - 1.
 struct SampleTimes
 {
     double rate_hz = 8000.0, offset = 0.0;

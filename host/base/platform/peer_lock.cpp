@@ -148,7 +148,7 @@ struct LockName
     const sockaddr* get() const noexcept { return reinterpret_cast<const sockaddr*> (&address); }
 };
 
-/// Who has a lock.
+/// The process that holds a lock.
 struct Holder
 {
     bool is_known = false;

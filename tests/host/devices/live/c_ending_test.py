@@ -10,7 +10,7 @@ import sys
 import unittest
 from contextlib import suppress
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "support"))
 from pushed_board import Board   # noqa: E402
 from waiting import eventually   # noqa: E402
 
