@@ -15,13 +15,13 @@ namespace tactus::plan
 
 namespace
 {
-constexpr int no_device = -1;
+constexpr int none_found = -1;
 
-/// For each node, the nearest device node from which `next` leads to it, or `no_device`. The search starts at all device nodes at once,
+/// For each node, the nearest device node from which `next` leads to it, or `none_found`. The search starts at all device nodes at once,
 /// and follows one wire in each round.
 std::vector<int> nearestDevice (const Flat& flat, const Grouped<int>& next)
 {
-    std::vector<int> nearest (flat.nodes.size(), no_device), front;
+    std::vector<int> nearest (flat.nodes.size(), none_found), front;
     for (int n = 0; n < flat.nodeCount(); ++n)
         if (flat.node (n).type->bind && flat.node (n).runs()) front.push_back (n);
     std::ranges::sort (front, {}, [&] (int n) -> const std::string& { return flat.node (n).path; });
@@ -32,7 +32,7 @@ std::vector<int> nearestDevice (const Flat& flat, const Grouped<int>& next)
         std::vector<int> reached;
         for (const int n : front)
             for (const int m : next[at (n)])
-                if (nearest[at (m)] == no_device)
+                if (nearest[at (m)] == none_found)
                 {
                     nearest[at (m)] = nearest[at (n)];
                     reached.push_back (m);
@@ -58,7 +58,7 @@ void findDevices (Flat& flat)
     const auto before = nearestDevice (flat, onward), after = nearestDevice (flat, back);
     for (int n = 0; n < flat.nodeCount(); ++n)
         if (flat.node (n).type->learn)
-            if (const int device = before[at (n)] != no_device ? before[at (n)] : after[at (n)]; device != no_device)
+            if (const int device = before[at (n)] != none_found ? before[at (n)] : after[at (n)]; device != none_found)
                 flat.nodes[at (n)].role = flat.node (device).role;
 }
 
