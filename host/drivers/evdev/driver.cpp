@@ -11,10 +11,8 @@
 #include <atomic>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <map>
 #include <mutex>
-#include <set>
 
 namespace tactus::host::evdev
 {
@@ -75,14 +73,6 @@ public:
         return known != all.end() ? std::optional (known->second) : std::nullopt;
     }
 
-    /// True if it is in the place of one that went away from another port.
-    bool hasElsewhere (const std::string& port, const EventDeviceInfo& info) const
-    {
-        const std::lock_guard lock (mutex);
-        return ! info.place.empty()
-               && std::ranges::any_of (all, [&] (const auto& one) { return one.first != port && one.second.isSameAs (info) && one.second.place == info.place; });
-    }
-
 private:
     mutable std::mutex mutex;
     std::map<std::string, EventDeviceInfo> all;
@@ -92,47 +82,6 @@ GoneDevices& gone()
 {
     static GoneDevices devices;
     return devices;
-}
-
-/// The devices that are open in this program.
-class OpenPaths
-{
-public:
-    void add (const std::string& path)
-    {
-        const std::lock_guard lock (mutex);
-        all.insert (nodeOf (path));
-    }
-
-    void remove (const std::string& path)
-    {
-        const std::lock_guard lock (mutex);
-        if (const auto at = all.find (nodeOf (path)); at != all.end()) all.erase (at);
-    }
-
-    bool has (const std::string& path) const
-    {
-        const std::lock_guard lock (mutex);
-        return all.contains (nodeOf (path));
-    }
-
-private:
-    /// A link, such as those in /dev/input/by-id, is the device that it leads to.
-    static std::string nodeOf (const std::string& path)
-    {
-        std::error_code failed;
-        const auto real = std::filesystem::canonical (path, failed);
-        return failed ? path : real.string();
-    }
-
-    mutable std::mutex mutex;
-    std::multiset<std::string> all;
-};
-
-OpenPaths& openPaths()
-{
-    static OpenPaths paths;
-    return paths;
 }
 
 /// The path of the only device that meets a condition. If there is none, `why` gets the reason.
@@ -158,18 +107,8 @@ std::string findPath (const std::string& port, std::string& why)
 {
     if (const auto before = gone().at (port))
     {
-        // An identical one that is in use, or in the place of another that went away, is not this one. Of several others, the one in its place is.
-        const auto isFree = [&] (const EventDeviceInfo& info) {
-            return info.isSameAs (*before) && ! openPaths().has (info.path) && ! gone().hasElsewhere (port, info);
-        };
-        const auto isInPlace = [&] (const EventDeviceInfo& info) { return isFree (info) && ! info.place.empty() && info.place == before->place; };
-        if (auto path = onlyOne (isInPlace, quote (before->name), why); ! path.empty()) return path;
-        if (auto path = onlyOne (isFree, quote (before->name), why); ! path.empty()) return path;
-        if (why.find ("devices are called") != why.npos)
-        {
-            why = "several devices like " + quote (before->name) + " have come: plug the one that was at this port in where it was";
-            return {};
-        }
+        if (const auto path = onlyOne ([&] (const EventDeviceInfo& info) { return info.isSameAs (*before); }, quote (before->name), why); ! path.empty())
+            return path;
         why = "the device " + quote (before->name) + ", which was at this port, is gone";
         return {};
     }
@@ -224,9 +163,7 @@ std::unique_ptr<Opened> open (const Wanted& wanted, std::string& why, std::strin
     opened->device = std::make_unique<ForceDevice> (std::move (*events), calibration, wanted.most_hz);
     why = opened->device->prepare();
     if (! why.empty()) return nullptr;
-    if (const auto stays = opened->device->whatStaysChanged(); ! stays.empty()) remark += (remark.empty() ? "" : "; ") + stays;
     gone().found (wanted.port);
-    openPaths().add (opened->device->device().info().path);
     return opened;
 }
 
@@ -300,10 +237,9 @@ int32_t restPort (void* device, const tactus_plugin_report* report) noexcept
 void closePort (void* device) noexcept
 {
     const std::unique_ptr<Opened> opened (static_cast<Opened*> (device));
+    if (! opened->is_gone) return;
     try
     {
-        openPaths().remove (opened->device->device().info().path);
-        if (! opened->is_gone) return opened->device->restore();
         gone().add (opened->port, opened->device->device().info());
     }
     catch (const std::exception&)
