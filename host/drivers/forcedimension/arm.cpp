@@ -359,9 +359,9 @@ private:
         char guard[512];
         std::snprintf (guard, sizeof guard,
                        R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g, "energy_window": 1,
-                       "watchdog": 0.02%s%s})",
+                       "max_still": 1, "still_force": 0.5, "watchdog": 0.02%s%s})",
                        most, 250.0 * most, 5.0 * most, 0.02 * most,
-                       turns ? R"(, "max_torque": 0.2, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)" : "",
+                       turns ? R"(, "max_torque": 0.2, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)" : "",
                        grips ? R"(, "max_axis_effort": 8, "max_axis_slew": 2000, "max_axis_impulse": 40)" : "");
         limits = guard;
         if (drives) about.guard = limits.c_str();

@@ -286,7 +286,7 @@ TEST_CASE ("an Inverse3 that freezes under a push is stopped, and ten minutes of
     int ticks = 0;
     while (ticks < 2000 && ! hand (push, resting (ten_minutes)).force.isZero (0.0))
         ++ticks;
-    CHECK (ticks > 990);
+    CHECK (ticks > 900);   // it has also lain still before
     CHECK (ticks <= 1000 + 5 + 2);
     CHECK (hand.stop() == Guard::Stop::stale);
 }
