@@ -184,11 +184,6 @@ void CommandRun::decideLength (Pace pace)
 
     if (feed) count = feed->ticks();
     if (options.watch && options.duration_s == 0.0) return;
-    if (pace == Pace::live && options.duration_s > 0.0)
-    {
-        wall_s = options.duration_s;   // a feed may end it before
-        return;
-    }
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
     {
         const double wanted = std::ceil (seconds * rate() - 1e-6);
