@@ -74,7 +74,7 @@ public:
 
 std::array<Opened, 2> opened;
 FakeArms* arms = nullptr;
-std::atomic<bool> is_expert = false;
+[[maybe_unused]] std::atomic<bool> is_expert = false;   // the ancient library has no expert mode
 
 Clock::time_point now() { return tactus::test::fromNow (0ns); }
 std::int64_t nanoseconds (Clock::time_point t) { return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count(); }
