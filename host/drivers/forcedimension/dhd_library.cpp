@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -105,7 +107,10 @@ std::shared_ptr<const DhdLibrary> DhdLibrary::load (std::string& why)
                 const bool is_old = f.dhdEnableForce == nullptr || f.dhdGetSDKVersion == nullptr;
                 if (! is_old && f.dhdOpenID && f.dhdClose && f.dhdStop && f.dhdErrorGetLast && f.dhdGetStatus && f.dhdGetPosition && f.dhdSetForce)
                 {
-                    static_cast<void> (object->release());   // stays loaded
+                    static auto& loaded = *new std::vector<std::unique_ptr<SharedObject>>;   // never destroyed: the library stays loaded
+                    static std::mutex mutex;
+                    const std::lock_guard lock (mutex);
+                    loaded.push_back (std::move (*object));
                     return std::make_shared<const DhdLibrary> (f);
                 }
                 note (is_old ? "this version is too old: it lacks dhdEnableForce or dhdGetSDKVersion" : "it lacks functions that every version has");
