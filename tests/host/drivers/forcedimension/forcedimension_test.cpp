@@ -82,7 +82,7 @@ TEST_CASE ("dry wood on an arm of Force Dimension has the forces of its render a
     for (int k = 0; k < readings; ++k)
     {
         const double time = k / 4000.0;
-        const Vec3 at { 0.03 * std::sin (9.0 * time), 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time) };
+        const Vec3 at { 0.03 * std::sin (9.0 * time), 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };   // touches from the start
         const double by_library[] { -at.y(), at.x(), at.z() };
         for (std::size_t i = 0; i < 3; ++i)
             lab.arm().target[i] = by_library[i];
