@@ -25,7 +25,7 @@ struct FrictionBound
     /// The half axes of the half in which a vector lies.
     Vec2 axes (const Vec2& d) const noexcept { return { d.x() < 0.0 ? against : with, side }; }
 
-    /// How many times as long as the bound a stretch is: 1 on the bound.
+    /// The length of a stretch, in lengths of the bound in its direction: 1 on the bound.
     double share (const Vec2& d) const noexcept { return d.cwiseQuotient (axes (d)).norm(); }
 
     /// The largest d . v of all stretches d within the bound: while the contact slips by v, it turns this times sigma into heat.

@@ -121,7 +121,7 @@ std::string ownerOf (const struct stat& s, const std::string& path)
     return what (s, path) + " belongs to " + (name.empty() ? "user number " + std::to_string (s.st_uid) : "the user " + printableName (name));
 }
 
-/// A sentence about another user who can change this one, which is called `path`. Empty if nobody can.
+/// A sentence that names another user who can change the file or folder `path`. Empty if no other user can.
 std::string whoElse (const struct stat& s, const std::string& path, Place place = Place::end)
 {
     if (auto owner = ownerOf (s, path); ! owner.empty()) return owner;

@@ -303,7 +303,8 @@ private:
             .dissipated_energy = dissipated + (released + c.sigma * loss),
             .state = slips ? 2.0 : 1.0,
         };
-        return isFinite (c.sigma, c.grain.bound.with, c.grain.bound.against, c.grain.bound.side, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
+        return isFinite (c.sigma, c.grain.bound.with, c.grain.bound.against, c.grain.bound.side, dp.squaredNorm(), out.force, out.deflection,
+                         out.stored_energy, out.dissipated_energy);
     }
 
     Contact contact;

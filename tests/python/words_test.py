@@ -9,8 +9,8 @@ from support import ROOT, TestCase
 from tactus._words import in_python
 
 # What the two libraries of the package are made of.
-FOLDERS = ("framework", "nodes", "host/base/assets", "host/devices/device_plugins", "host/devices/failsafe", "host/devices/hid", "host/devices/hid_link", "host/base/files", "host/devices/live", "host/base/platform", "host/code/plugins",
-           "host/devices/sessions")
+FOLDERS = ("framework", "nodes", *("host/base/" + name for name in ("assets", "files", "platform")), "host/code/plugins",
+           *("host/devices/" + name for name in ("device_plugins", "failsafe", "hid", "hid_link", "live", "sessions")))
 LITERAL = re.compile(r'R"\((.*?)\)"|"((?:[^"\\\n]|\\.)*)"')
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 C_NAME = re.compile(r"\btactus_(run|graph|session|messages|text|set|nodes)_?\w*")

@@ -74,7 +74,7 @@ assert.equal (reports.about.limits.max_force, 2);
 assert.equal (reports.about.limits.watchdog, 0.02);
 assert.equal (reports.about.device_watchdog, 0.02);
 
-// What a page cannot drive is refused, with the reason.
+// A device that a page cannot drive is refused, with the reason.
 await assert.rejects (open ({ limits: {} }), /tactus_board cannot be used/);
 await assert.rejects (open ({ inputs: [] }), /cannot be used/);
 for (const [changed, why] of [[{ init: [{ bytes: '00 01' }] }, /set up/], [{ quirks: ['only_changes'] }, /only changes/],

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
-// What the libraries call when they cannot go on. Their own functions print, for which the module would have to import a system. An exception ends the
-// module, too: the page then gets an error from the call, and no report.
+// The functions that the libraries call when they cannot go on. Those of the C library print, for which the module would have to import a system.
+// An exception ends the module, too: the page then gets an error from the call, and no report.
 extern "C" void __abort_message (const char*, ...) { __builtin_trap(); }
 extern "C" void __assert_fail (const char*, const char*, int, const char*) { __builtin_trap(); }
 extern "C" void* __cxa_allocate_exception (std::size_t) noexcept { __builtin_trap(); }
@@ -74,7 +74,7 @@ bool hasEffort (const Profile& p)
     return named (p.force) || named (p.torque);
 }
 
-/// Why a page cannot drive a device with this profile; empty if it can.
+/// The reason why a page cannot drive a device with this profile; empty if it can.
 std::string whyNot (const Profile& p)
 {
     if (p.outputs.size() != 1) return "it has " + std::to_string (p.outputs.size()) + " output reports; a page sends only one";
@@ -95,7 +95,7 @@ Json listOf (const std::vector<std::string>& all)
     return list;
 }
 
-/// What the page has to know of the device, as JSON. Limits that limit nothing are left out.
+/// The names, units and limits of the device for the page, as JSON, without limits that are not set.
 std::string about()
 {
     const auto& p = device->model.profile();
@@ -173,7 +173,7 @@ bool moduleOpen (int size)
     return false;
 }
 
-/// How well the profile fits a device, whose product name is the input.
+/// The fit of the profile to a device whose product name is the input: higher is better.
 EXPORT (fit)
 int moduleFit (int vid, int pid, int usage_page, int usage, int size)
 {
@@ -216,7 +216,8 @@ void moduleDrive (double passed_s, double age_s)
     last.age = age_s;
     const double rumble = device->rumble_guard (wanted, last, passed_s).signals[0];
 
-    HidEffort asked { Vec3 (effort.force[0], effort.force[1], effort.force[2]), Vec3 (effort.torque[0], effort.torque[1], effort.torque[2]), model.restEfforts() };
+    HidEffort asked { Vec3 (effort.force[0], effort.force[1], effort.force[2]), Vec3 (effort.torque[0], effort.torque[1], effort.torque[2]),
+                      model.restEfforts() };
     for (const auto& signal : model.profile().signals)
         if (const auto& names = model.effortNames(); ! signal.amplitude.empty())
             asked.efforts[static_cast<std::size_t> (std::ranges::find (names, signal.amplitude) - names.begin())] = rumble;

@@ -152,7 +152,8 @@ private:
             }
         }
         if (event.hasShape())
-            file.note (spot, "clip/changed", "its attack, decay and release are straight lines of as many seconds within its duration: Apple does not publish their shape",
+            file.note (spot, "clip/changed",
+                       "its attack, decay and release are straight lines of as many seconds within its duration: Apple does not publish their shape",
                        "draw them into a curve of HapticIntensityControl");
         (is_tap ? taps : events).push_back (event);
     }

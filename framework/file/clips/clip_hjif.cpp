@@ -92,7 +92,8 @@ private:
             gain = file.numberOr (channel, "gain", 1.0, -1e6, 1e6) * std::pow (10.0, exponent);
             for (const auto* key : { "mixing_coefficient", "mixing_weight" })
                 if (const auto weight = file.find (channel, key); weight && file.number (*weight) != 1.0)
-                    file.note (*weight, "clip/not_carried", quote (key) + " of " + numberText (file.number (*weight)) + " is left out: channels are not mixed here",
+                    file.note (*weight, "clip/not_carried",
+                               quote (key) + " of " + numberText (file.number (*weight)) + " is left out: channels are not mixed here",
                                "set the gain of the node that plays the channel");
             const auto all = file.find (channel, "bands");
             if (! all) continue;
@@ -251,7 +252,7 @@ private:
             return file.note (spot, "clip/not_carried", "the effect is left out: it has no duration after 0 s", "give it a keyframe at its end");
         if (band.kind == Band::Kind::wave)
         {
-            // What has no amplitude plays at 1, and the gain of the channel.
+            // An effect without an amplitude plays at 1, times the gain of the channel.
             if (effect.amplitude.empty() && gain != 1.0) effect.amplitude.push_back ({ 0.0, limited (spot, gain) });
             if (effect.isSilent())
                 return file.note (spot, "clip/not_carried", "the effect is left out: without a frequency, or at an amplitude of 0, it is silent",
@@ -275,10 +276,12 @@ private:
     {
         const double hertz = file.number (spot, 0.0, 1e5);
         if (band.kind == Band::Kind::transient && std::abs (hertz - transient_hertz) > 1.0)
-            file.note (spot, "clip/changed", "the transient is two cycles of " + numberText (hertz) + " Hz; MPEG's own software plays two cycles of 90.9 Hz instead",
+            file.note (spot, "clip/changed",
+                       "the transient is two cycles of " + numberText (hertz) + " Hz; MPEG's own software plays two cycles of 90.9 Hz instead",
                        "no action is needed");
         if (band.kind == Band::Kind::wave && band.high > band.low && (hertz < band.low || hertz > band.high))
-            file.note (spot, "clip/changed", numberText (hertz) + " Hz is outside the limits of its band; it is played as it is", "correct the limits of the band");
+            file.note (spot, "clip/changed", numberText (hertz) + " Hz is outside the limits of its band; it is played as it is",
+                       "correct the limits of the band");
         return hertz;
     }
 
@@ -380,7 +383,11 @@ private:
                 if (p.value >= 0.0 && time >= 0.0)
                     taps.taps.push_back ({ time, p.value, onScale (hertz, clip.voice.tap_lowest, clip.voice.tap_highest) });
                 else   // upside down, or cut off by the start
-                    addWave (band, HjifEffect { .timescale = 1.0, .start = time, .length = 2.0 / hertz, .amplitude = { { 0.0, p.value } }, .hertz = { { 0.0, hertz } } }.wave());
+                    addWave (
+                        band,
+                        HjifEffect {
+                            .timescale = 1.0, .start = time, .length = 2.0 / hertz, .amplitude = { { 0.0, p.value } }, .hertz = { { 0.0, hertz } } }
+                            .wave());
             }
         std::ranges::stable_sort (taps.taps, {}, &ClipTap::time);
         if (! taps.taps.empty()) clip.tracks.push_back (std::move (taps));

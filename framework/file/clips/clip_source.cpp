@@ -139,7 +139,8 @@ private:
     {
         std::vector<Key> keys;
         for (const auto* frame : elements (member (effect, "keyframes")))
-            keys.push_back ({ numberIn (frame, "relative_position").value_or (0.0), numberIn (frame, "amplitude_modulation"), numberIn (frame, "frequency_modulation") });
+            keys.push_back ({ numberIn (frame, "relative_position").value_or (0.0), numberIn (frame, "amplitude_modulation"),
+                              numberIn (frame, "frequency_modulation") });
         if (keys.size() == 1) keys[0].at = narrow (keys[0].at);
         for (std::size_t i = keys.size(); i-- > 1;)
             if (keys[i - 1].at > keys[i].at) keys[i - 1].at -= 65536.0;
@@ -196,7 +197,8 @@ private:
         const auto rise = [&] (long k) { return (*set[at (k + 1)].amplitude - *set[at (k)].amplitude) / (set[at (k + 1)].at - set[at (k)].at); };
         const auto m = [&] (long k) {
             if (k >= 0 && k < n - 1) return rise (k);
-            return k < 0 ? rise (0) + static_cast<double> (-k) * (rise (0) - rise (1)) : rise (n - 2) + static_cast<double> (k - n + 2) * (rise (n - 2) - rise (n - 3));
+            return k < 0 ? rise (0) + static_cast<double> (-k) * (rise (0) - rise (1))
+                         : rise (n - 2) + static_cast<double> (k - n + 2) * (rise (n - 2) - rise (n - 3));
         };
         const auto slope = [&] (long k) {
             const double w = std::abs (m (k + 1) - m (k)), v = std::abs (m (k - 1) - m (k - 2));
@@ -444,7 +446,9 @@ ChannelSamples renderHaptic (const Json& root, const ClipVoice& voice, const Sam
         {
             while (sharp < frequency.size() && numberIn (frequency[sharp], "time").value_or (0.0) <= last)
                 ++sharp;
-            const auto at = [&] (std::size_t i) { return std::pair { numberIn (frequency[i], "time").value_or (0.0), numberIn (frequency[i], "frequency").value_or (0.5) }; };
+            const auto at = [&] (std::size_t i) {
+                return std::pair { numberIn (frequency[i], "time").value_or (0.0), numberIn (frequency[i], "frequency").value_or (0.5) };
+            };
             const double until = sharp < frequency.size() ? std::min (t, at (sharp).first) : t;
             const auto f = [&] (double when) {
                 if (frequency.empty()) return hertz (0.5);

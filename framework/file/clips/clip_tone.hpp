@@ -11,8 +11,8 @@ namespace tactus::readers
 /// The value at t, of a line that is held beyond its ends. Where it steps, `before` selects the value before the step.
 double heldAt (const std::vector<ClipPoint>& points, double t, bool before, double otherwise);
 
-/// A stretch of a track that sounds: from silence, or a phase that is set, to the next silence or phase. Formats whose effects or events begin
-/// anew hold a track as these.
+/// A stretch of a track that sounds: from silence, or a phase that is set, to the next silence or phase. A format that restarts the phase with each
+/// effect or event stores a track as such stretches.
 struct ClipTone
 {
     double from = 0.0, to = 0.0;                         ///< s

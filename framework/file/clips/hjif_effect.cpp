@@ -102,7 +102,9 @@ std::vector<ClipPoint> HjifEffect::wave() const
         for (double at = (std::floor (s.cycles * grid) + 1.0) / grid; at < s.cycles + cycles; at = (std::round (at * grid) + 1.0) / grid)
         {
             // The time at which the phase, a parabola, reaches `at`.
-            const double more = at - s.cycles, since = std::clamp (2.0 * more / (s.hertz + std::sqrt (std::max (0.0, s.hertz * s.hertz + 2.0 * slope * more))), 0.0, length);
+            const double more = at - s.cycles,
+                         since =
+                             std::clamp (2.0 * more / (s.hertz + std::sqrt (std::max (0.0, s.hertz * s.hertz + 2.0 * slope * more))), 0.0, length);
             put (since, at, true);
             put (since, at, false);
         }
@@ -158,7 +160,7 @@ std::vector<ClipPoint> curveOf (const HjifEffect& effect, HjifCurve curve)
         }
     }
 
-    // What is before 0 s is not played.
+    // Nothing before 0 s is played.
     if (drawn.front().time < 0.0)
     {
         const auto after = std::ranges::upper_bound (drawn, 0.0, {}, &ClipPoint::time);

@@ -28,7 +28,7 @@ struct ClipMoment
 ///     value (t) = sum over tracks  duck (t) A (t) sin (2 pi integral_0^t f)  +  sum over transients  a sin (2 pi f (t - t_i))
 ///     f = lowest + sharpness (highest - lowest)
 ///
-/// Where a track sets a phase, its integral begins there, and the phase is added.
+/// The integral begins again where a track sets a phase, and the phase is added.
 ///
 /// A is straight between its points, and so is f: the phase is a parabola in each stretch, and exact.
 ///

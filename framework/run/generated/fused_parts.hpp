@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What fused code (host/code/fuse) calls for the steps of a plan that are not nodes. Each of them gives the same bits as its counterpart in
+/// The functions that fused code (host/code/fuse) calls for the steps of a plan that are not nodes. Each of them gives the same bits as its counterpart in
 /// framework/plan/steps/ops.hpp and running_section.hpp, and works on the same memory. Nothing here allocates, throws or locks. [tick thread]
 
 #include "driven.hpp"

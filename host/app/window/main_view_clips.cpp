@@ -66,7 +66,8 @@ void MainView::saveClipAs (const fs::path& file)
     if (! read)
         return tell (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".");
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
-    chooseOwnFile (file.stem().string() + other, [this, source = *read] (const fs::path& to) { static_cast<void> (writeClip (source.clip, {}, {}, to, &source)); });
+    chooseOwnFile (file.stem().string() + other,
+                   [this, source = *read] (const fs::path& to) { static_cast<void> (writeClip (source.clip, {}, {}, to, &source)); });
 }
 
 /// Asks where to save a file of the user. The clips of presets are in a folder that may be read-only.

@@ -234,10 +234,11 @@ Result<SavedClip> saveText (const Clip& clip, const fs::path& path, readers::Sam
     const bool is_mixed = extension == ".haptic" || extension == ".ahap";
     auto rendered = readers::renderFile (made->text, name, ClipVoice {}, times);
     samples = rendered ? std::move (*rendered) : readers::renderSamples (back->clip, times);
-    return SavedClip { std::move (made->losses), extension == ".ahap" ? lossesOfAhap (clip, back->clip, name) : lossesOf (clip, back->clip, is_mixed), is_mixed };
+    return SavedClip { std::move (made->losses), extension == ".ahap" ? lossesOfAhap (clip, back->clip, name) : lossesOf (clip, back->clip, is_mixed),
+                       is_mixed };
 }
 
-/// When to compare: away from the round times at which drawn envelopes step, and no more samples than take a moment.
+/// The times of a comparison: away from the round times at which drawn envelopes step, and no more samples than take a moment.
 readers::SampleTimes comparisonOf (const Clip& clip, double& seconds)
 {
     constexpr double rate_hz = 8000.0, offset = 0.4142, longest_s = 600.0, most = 1e7;
@@ -260,7 +261,7 @@ Result<SavedClip> saveClip (const Clip& clip, const fs::path& path, double rate_
                                                                                                             : saveText (clip, path, times, written);
     if (! saved) return saved;
     if (extension == ".csv") written = readers::renderSamples (clip, times);   // the rows are the clip, number by number
-    // What the clip was read from counts, and not what was read, unless the clip is another one by now.
+    // The comparison is with the file that the clip was read from, unless the clip has been edited since.
     const bool is_same = source != nullptr && source->clip == clip;
     const auto original = is_same ? readers::renderFile (source->text, source->name, ClipVoice {}, times) : std::nullopt;
     saved->samples = readers::compareSamples (original ? *original : readers::renderSamples (clip, times), written, saved->is_mixed);

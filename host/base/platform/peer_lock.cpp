@@ -194,7 +194,7 @@ std::string wordsFor (pid_t process)
     return " (process " + std::to_string (process) + (name.empty() ? ")" : ", " + name + ")");
 }
 
-/// Why a lock counts; empty if it does not.
+/// The reason why a lock counts; empty if it does not.
 std::string whyCounts (const Holder& holder, const Peer& peer)
 {
     if (holder.isMine()) return "another role or another instance of Tactus is using it" + wordsFor (holder.process);
@@ -217,7 +217,7 @@ PeerLock::Attempt PeerLock::take (int connected_socket, std::string_view part)
         const LockName name ("tactus " + (number > 0 ? std::to_string (number) + " " : "") + peer.name + " " + std::string (part));
         const int file = ::socket (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
         if (file < 0) return { .why = "it cannot be locked" };
-        if (::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // whoever connects learns from the kernel who listens
+        if (::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // the kernel tells a process that connects which process listens
         {
             for (auto& slot : locks)
                 if (int none = 0; slot.compare_exchange_strong (none, file + 1)) return { PeerLock (&slot) };
@@ -227,7 +227,7 @@ PeerLock::Attempt PeerLock::take (int connected_socket, std::string_view part)
         ::close (file);
         if (auto why = whyCounts (Holder (name), peer); ! why.empty()) return { .why = std::move (why) };
     }
-    return { PeerLock (nullptr) };   // nobody who has a connection holds a lock
+    return { PeerLock (nullptr) };   // no process with a connection to the device holds a lock
 }
 
 PeerLock::~PeerLock()

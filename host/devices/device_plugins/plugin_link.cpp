@@ -77,8 +77,8 @@ ReadingFault faultOf (std::uint32_t told) noexcept
 
 PluginDevice::Link::Link (std::unique_ptr<OpenedDevice> d, std::optional<Failsafe> armed, const Options& o)
     : options (o), longest_silence (toDuration (isFinite (o.silence_s) && o.silence_s > 0.0 ? o.silence_s : GuardLimits::default_watchdog)),
-      called (d->driver().name()), driver (d->driver().shared_from_this()), description (d->description()), about (d->about()), watch (about.rate_hz, about.stamps),
-      device (std::move (d)), failsafe (std::move (armed)), limiter (about.limits)
+      called (d->driver().name()), driver (d->driver().shared_from_this()), description (d->description()), about (d->about()),
+      watch (about.rate_hz, about.stamps), device (std::move (d)), failsafe (std::move (armed)), limiter (about.limits)
 {
     for (auto& slew : slews)
         slew = GuardLimits::none;

@@ -92,7 +92,7 @@ void ReadingJudge::judge (Nanoseconds arrival, std::uint64_t lost) noexcept
     arrived_last = arrival;
 }
 
-/// What keeps the reading from being valid, other than its content.
+/// The fault that keeps the reading from being valid, other than its content.
 ReadingFault ReadingJudge::fault (bool is_connected) const noexcept
 {
     if (! is_connected) return ReadingFault::unplugged;

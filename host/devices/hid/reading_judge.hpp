@@ -39,7 +39,7 @@ public:
     /// The time at which a tick asks for the reading, and what the tick knows.
     struct Tick
     {
-        double period_s = 0.0;      ///< 0: whoever asks has no ticks of its own, and only the clock counts
+        double period_s = 0.0;      ///< 0: the caller has no ticks, and only the clock counts
         Nanoseconds now = 0;        ///< on the clock of the arrivals
         double driven_s = 0.0;      ///< how long the motors have been driven
         bool is_connected = true;   ///< false: no reading is valid
@@ -52,7 +52,7 @@ public:
     /// Nothing has been heard, as before the first tick. Counts stay.
     void prepare() noexcept;
 
-    /// What follows comes over another connection: the device's clocks and counters start again.
+    /// A new connection: the device's clocks and counters start again.
     void reconnect() noexcept;
 
     /// So many reports were dropped before they could be taken. The gaps that they leave in the numbers are not losses of the device.
@@ -65,7 +65,7 @@ public:
 
     Reading reading (const Tick&) noexcept;
 
-    /// When the last report arrived that was taken since begin(); 0: none.
+    /// The arrival of the last report that was taken since begin(); 0: none.
     Nanoseconds latest() const noexcept { return newest; }
 
     const ReadingCounts& counts() const noexcept { return tally; }

@@ -115,7 +115,8 @@ std::string namesOf (const std::vector<ConnectedDevice>& devices)
 {
     std::string names;
     for (const auto& d : devices)
-        addToList (names, (d.product.empty() ? "a device without a name" : d.product) + (d.serial.empty() ? "" : " (serial " + d.serial + ")") + " at " + d.path);
+        addToList (names, (d.product.empty() ? "a device without a name" : d.product) + (d.serial.empty() ? "" : " (serial " + d.serial + ")")
+                              + " at " + d.path);
     return names;
 }
 

@@ -74,7 +74,7 @@ long thisProcess() noexcept
 class SessionsOfProcess
 {
 public:
-    /// Those of this process. The child of a fork begins with none: it has copies of those of its parent, and perhaps a copy of a locked mutex.
+    /// The sessions of this process. The child of a fork begins with none: it only has copies of its parent's sessions, and perhaps of a locked mutex.
     static SessionsOfProcess& here()
     {
         static std::atomic<SessionsOfProcess*> current { nullptr };   // never deleted, because threads may use it until the process has ended

@@ -103,7 +103,8 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
     return {};
 }
 
-/// The ports whose arms went away while they were open. No motor moves such an arm when it comes back: nobody has asked for it then.
+/// The ports whose arms went away while they were open. Such an arm is not calibrated by its motors when it comes back: the person did not ask for
+/// that motion.
 std::set<std::string>& gonePorts()
 {
     static std::set<std::string> ports;   // [opening thread]
@@ -357,12 +358,13 @@ private:
         if (own > 0.0) most = std::min (most, own);
         // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
         char guard[512];
-        std::snprintf (guard, sizeof guard,
-                       R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g, "energy_window": 1,
+        std::snprintf (
+            guard, sizeof guard,
+            R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g, "energy_window": 1,
                        "max_still": 1, "still_force": 0.5, "watchdog": 0.02%s%s})",
-                       most, 250.0 * most, 5.0 * most, 0.02 * most,
-                       turns ? R"(, "max_torque": 0.2, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)" : "",
-                       grips ? R"(, "max_axis_effort": 8, "max_axis_slew": 2000, "max_axis_impulse": 40)" : "");
+            most, 250.0 * most, 5.0 * most, 0.02 * most,
+            turns ? R"(, "max_torque": 0.2, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)" : "",
+            grips ? R"(, "max_axis_effort": 8, "max_axis_slew": 2000, "max_axis_impulse": 40)" : "");
         limits = guard;
         if (drives) about.guard = limits.c_str();
     }
@@ -485,6 +487,7 @@ private:
 constexpr const char* keys[] { "port", "calibrate" };
 }   // namespace
 
-const tactus_device_driver driver = driverTable<Arm> ("forcedimension", "The arms of Force Dimension (omega, delta, sigma, lambda), through the library of their maker.", keys);
+const tactus_device_driver driver =
+    driverTable<Arm> ("forcedimension", "The arms of Force Dimension (omega, delta, sigma, lambda), through the library of their maker.", keys);
 
 }   // namespace tactus::host::forcedimension

@@ -102,8 +102,9 @@ Result<FittedGraph> texture (const Columns& c, const std::string& file, const Fi
                        .preset = texturePreset (*fit, orElse (s.mass, 0.01), from, sourceOf (FitKind::texture, file, fit->report)),
                        .nodes = { "grain" } };
     for (std::size_t i = 0; i < fit->models.size(); ++i)
-        made.details.push_back ("model " + std::to_string (i + 1) + "   " + roundedText (fit->models[i].speed, 3) + " m/s, " + roundedText (fit->models[i].force, 3)
-                                + " N, " + std::to_string (fit->models[i].rows) + " rows at " + roundedText (fit->rate, 3) + " Hz");
+        made.details.push_back ("model " + std::to_string (i + 1) + "   " + roundedText (fit->models[i].speed, 3) + " m/s, "
+                                + roundedText (fit->models[i].force, 3) + " N, " + std::to_string (fit->models[i].rows) + " rows at "
+                                + roundedText (fit->rate, 3) + " Hz");
     made.report = std::move (fit->report);
     if (fit->rate > made.preset.rate_hz)
         made.report.notes.push_back ("the preset runs at " + roundedText (1e-3 * made.preset.rate_hz, 3) + " kHz, so it lacks frequencies above "

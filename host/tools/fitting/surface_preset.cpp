@@ -83,7 +83,8 @@ graph::Graph surfacePreset (const UniformBody& body, const std::string& name, co
     for (auto& node : graph.root.nodes)
         if (node.name == "body") node.settings["surface"].update (curvesOf (body));
     graph.extra["ui"]["sources"] = { { "body.curves.z", source },
-                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + roundedText (body.mu, 3) + " at every depth: guess" } };
+                                     { "body.curves.x",
+                                       "the z curve, scaled so that drag over push is " + roundedText (body.mu, 3) + " at every depth: guess" } };
     return graph;
 }
 

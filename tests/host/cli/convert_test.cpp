@@ -199,7 +199,9 @@ TEST_CASE ("convert: what the reader left out is a loss, and two tones that beco
     const auto beat = scratch.write ("beat.ahap", "{ \"Pattern\": [ " + event ("0.8") + ", " + event ("0.82") + " ] }");
     CHECK (has (converted ({ beat, scratch.path ("b.haptic") }).out, "loss: all channels: the samples differ by "));
     auto ran = converted ({ beat, scratch.path ("b.ahap") });
-    CHECK (has (ran.out, "loss: none in the rendered envelope and frequency; the samples differ by less than 0.1 % from an independent rendering of beat.ahap"));
+    CHECK (
+        has (ran.out,
+             "loss: none in the rendered envelope and frequency; the samples differ by less than 0.1 % from an independent rendering of beat.ahap"));
 
     const auto sound = scratch.write ("sound.ahap", "{ \"Pattern\": [ " + event ("0.8") + R"(, { "Event": { "Time": 0, "EventType": "AudioCustom",
         "EventWaveformPath": "x.wav" } } ] })");

@@ -207,7 +207,12 @@ TEST_CASE ("anisotropic: with nearly equal coefficients it is nearly friction.el
         const auto adhesion = static_cast<int> (seed % 4);
         const double ratio = dice.uniform() < 0.5 ? 1.0 : 1.2 + dice.uniform();
         grained.params = { 0.4, 0.4 + 1e-12, 0.4 + 2e-12, 1e-4, ratio, 0.6, 4e3, static_cast<Adhesion> (adhesion), 1.0 };
-        plain.params = { .mu = 0.4, .d_max = 1e-4, .static_ratio = ratio, .break_away = 0.6, .stiffness = 4e3, .adhesion = static_cast<ElastoPlastic::Adhesion> (adhesion) };
+        plain.params = { .mu = 0.4,
+                         .d_max = 1e-4,
+                         .static_ratio = ratio,
+                         .break_away = 0.6,
+                         .stiffness = 4e3,
+                         .adhesion = static_cast<ElastoPlastic::Adhesion> (adhesion) };
         const double angle = 2.0 * M_PI * dice.uniform(), step = 1e-5 * std::pow (10.0, 3.0 * dice.uniform() - 2.0);
         Vec3 p = Vec3::Zero(), way { std::cos (angle), std::sin (angle), 0.0 };
         for (int k = 0; k < 400; ++k)

@@ -16,7 +16,9 @@ using tactus::test::Golden;
 TEST_CASE ("grain: each form of friction on a grain, and of a soft tip, matches the golden columns", "[nodes][friction][anisotropic][partial_slip][golden]")
 {
     const Golden golden ("friction_grain");
-    const auto vector = [&] (std::size_t i, const std::string& name) { return Vec3 { golden (i, name + "_x"), golden (i, name + "_y"), golden (i, name + "_z") }; };
+    const auto vector = [&] (std::size_t i, const std::string& name) {
+        return Vec3 { golden (i, name + "_x"), golden (i, name + "_y"), golden (i, name + "_z") };
+    };
     const auto meets = [&] (const std::string& form, auto tick) {
         using Outputs = decltype (tick (0));
         std::vector<Outputs> outputs;

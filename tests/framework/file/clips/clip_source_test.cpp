@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a reader makes of a file sounds as the file does: the samples of the clip against a rendering of the file that shares no rule with the reader.
+// A clip sounds like the file that it was read from: the samples of the clip against a rendering of the file that shares no rule with the reader.
 #include <support/property.hpp>
 #include <tactus/file/clips/clip_difference.hpp>
 #include <tactus/file/clips/clip_file.hpp>
@@ -32,7 +32,7 @@ readers::ClipFile read (const std::string& text, const std::string& name)
     return std::move (*clip);
 }
 
-/// How far the clip is from its file, and the written file from the first, relative to the first.
+/// The differences of the clip from its file, and of the written file from that file, relative to the file.
 double distance (const readers::ChannelSamples& a, const readers::ChannelSamples& b, bool mixed = false)
 {
     double worst = 0.0;
@@ -115,11 +115,13 @@ std::string randomHjif()
         {
             static const std::vector<const char*> bases { "Sine", "Square", "Triangle", "SawToothUp", "SawToothDown" };
             if (kind == 0)   // transients
-                effects.push_back (effect (std::max (0, at), Json::array ({ keyframe (0, part (-0.15, 0.15), std::nullopt), keyframe (pick (30, 90), 0.1, std::nullopt) })));
+                effects.push_back (effect (
+                    std::max (0, at), Json::array ({ keyframe (0, part (-0.15, 0.15), std::nullopt), keyframe (pick (30, 90), 0.1, std::nullopt) })));
             else if (kind == 1 && pick (0, 3) == 0)
                 effects.push_back (Json { { "effect_type", "Reference" }, { "position", at }, { "id", 7 } });
             else
-                effects.push_back (effect (at, randomKeyframes (kind == 3, kind != 3 && count == 1 && many == 1), part (-7.0, 7.0), bases[static_cast<std::size_t> (pick (0, 1) * pick (0, 4))]));
+                effects.push_back (effect (at, randomKeyframes (kind == 3, kind != 3 && count == 1 && many == 1), part (-7.0, 7.0),
+                                           bases[static_cast<std::size_t> (pick (0, 1) * pick (0, 4))]));
             at += pick (100, 500);
         }
         auto made = band (kind == 0 ? "Transient" : kind == 3 ? "Curve"
@@ -217,7 +219,8 @@ TEST_CASE ("HJIF: a keyframe belongs to its own effect, and what has no amplitud
         REQUIRE (samples[k] == Approx (0.5 * wanted).margin (1e-9));
     }
 
-    const auto sweep = hjif (Json::array ({ band ("VectorialWave", Json::array ({ effect (0, Json::array ({ keyframe (0, {}, 100), keyframe (1000, {}, 200) })) })) }));
+    const auto sweep = hjif (
+        Json::array ({ band ("VectorialWave", Json::array ({ effect (0, Json::array ({ keyframe (0, {}, 100), keyframe (1000, {}, 200) })) })) }));
     const auto swept = readers::renderSamples (read (sweep, "a.hjif").clip, usual).at (1);
     for (std::size_t k = 0; k < usual.count; ++k)
         REQUIRE (swept[k] == Approx (usual[k] < 1.0 ? std::sin (2.0 * pi * (100.0 * usual[k] + 50.0 * usual[k] * usual[k])) : 0.0).margin (1e-9));
@@ -321,9 +324,11 @@ TEST_CASE ("AHAP: events that sound together stay so, and beat", "[clips]")
         return made.dump();
     };
     Json curve { { "ParameterID", "HapticIntensityControl" }, { "Time", 0.1 } };
-    curve["ParameterCurveControlPoints"] = Json::array ({ Json { { "Time", 0 }, { "ParameterValue", 1 } }, Json { { "Time", 0.9 }, { "ParameterValue", 0.2 } } });
-    for (const auto& text : { file (Json::array ({ event (0.0, 1.2, 0.7, 0.8), event (0.0, 1.2, 0.7, 0.82) })),
-                              file (Json::array ({ event (0.0, 0.8, 0.7, 0.8), event (0.3, 0.9, 0.5, 0.4), Json { { "ParameterCurve", std::move (curve) } } })) })
+    curve["ParameterCurveControlPoints"] =
+        Json::array ({ Json { { "Time", 0 }, { "ParameterValue", 1 } }, Json { { "Time", 0.9 }, { "ParameterValue", 0.2 } } });
+    for (const auto& text :
+         { file (Json::array ({ event (0.0, 1.2, 0.7, 0.8), event (0.0, 1.2, 0.7, 0.82) })),
+           file (Json::array ({ event (0.0, 0.8, 0.7, 0.8), event (0.3, 0.9, 0.5, 0.4), Json { { "ParameterCurve", std::move (curve) } } })) })
     {
         const auto written = readers::writeClip (read (text, "a.ahap").clip, "b.ahap");
         REQUIRE (written);

@@ -52,7 +52,9 @@ TEST_CASE ("an exported board says what the profile of the board reads", "[hid][
         RC_ASSERT ((said.rotation - reading.rotation).cwiseAbs().maxCoeff() <= 0.51e-6);
         RC_ASSERT (std::abs (said.pressure - reading.pressure) <= 0.51e-6);
         RC_ASSERT (said.buttons == reading.buttons);
-        const auto axis = [&] (const char* name) { return said.axes[static_cast<std::size_t> (std::ranges::find (host.axisNames(), name) - host.axisNames().begin())]; };
+        const auto axis = [&] (const char* name) {
+            return said.axes[static_cast<std::size_t> (std::ranges::find (host.axisNames(), name) - host.axisNames().begin())];
+        };
         RC_ASSERT (axis ("sequence") == state.number);
         RC_ASSERT (std::abs (axis ("time") - 1e-6 * state.us) < 1e-9);
         for (int i = 0; i < 4; ++i)

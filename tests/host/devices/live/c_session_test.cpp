@@ -316,7 +316,10 @@ TEST_CASE ("a session stops when the main thread has ended, although another one
         if (! eventually ([&] { return statusOf (session).force > 0.0; })) ::_exit (3);
         std::thread ([s = session.release()] {
             tactus_status status = TACTUS_STATUS;
-            ::_exit (eventually ([&] { return tactus_session_status (s, &status) == TACTUS_OK && status.phase == TACTUS_OVER && status.force == 0.0; }) ? 0 : 1);
+            ::_exit (
+                eventually ([&] { return tactus_session_status (s, &status) == TACTUS_OK && status.phase == TACTUS_OVER && status.force == 0.0; })
+                    ? 0
+                    : 1);
         }).detach();
         ::syscall (SYS_exit, 0);   // as pthread_exit, which would unwind the test
     }

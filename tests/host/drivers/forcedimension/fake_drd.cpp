@@ -110,7 +110,7 @@ void switchOff (Arm& arm, int cause)
     arm.cause = cause;
 }
 
-/// What happens while nobody looks: the watchdog, buttons, and the hand that moves the tool. [with the mutex held]
+/// Catches up with the time since the last call: the watchdog, buttons, and the hand that moves the tool. [with the mutex held]
 void live (Opened& o)
 {
     auto& arm = *o.arm;
@@ -506,7 +506,7 @@ EXPORTED int dhdGetWatchdog (unsigned char* to, char id)
         return 0;
     });
 }
-// What the driver must leave alone.
+// Functions that the driver must not call.
 EXPORTED int dhdSetWatchdog (unsigned char, char id)
 {
     return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });

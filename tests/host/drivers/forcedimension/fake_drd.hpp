@@ -8,8 +8,8 @@
 namespace tactus::test
 {
 
-/// Two simulated arms of Force Dimension, as they are in memory: the fake of their library maps the file that TACTUS_FAKE_DRD names, and whoever maps it
-/// too can watch, also after the program with the library has died. A file of this size with only zeros is two omega.3 that nobody has switched off.
+/// Two simulated arms of Force Dimension in shared memory. The fake of their library maps the file that TACTUS_FAKE_DRD names. A test maps it too, and can
+/// watch the arms even after the program with the library has died. A file of this size with only zeros is two omega.3, switched on.
 struct FakeArms
 {
     template <typename T>
@@ -17,7 +17,7 @@ struct FakeArms
 
     struct Arm
     {
-        // What the arm is. 0: as in the comment.
+        // The kind of arm. 0 means the value in the comment.
         Shared<int> type, serial;                                                // 33: an omega.3; 10001 and 10002
         Shared<int> left_handed, wrist, active_wrist, gripper, active_gripper;   // it has none
         Shared<int> status_count;                                                // 17
@@ -28,7 +28,7 @@ struct FakeArms
         Shared<int> ignores_silence;                                             // 1: its watchdog never bites, for tests on a busy computer
         Shared<double> max_force, max_speed;                                     // 100 N and 3 m/s; above, it saturates, and brakes
         Shared<double> mass;                                                     // 0.2 kg
-        Shared<int> is_stepped;                                                  // the tool is where `target` is, and its position is new only when `step` has changed
+        Shared<int> is_stepped;                                                  // the tool is at `target`, and its position is new when `step` changes
 
         // The hand, in the axes of the library.
         std::array<Shared<double>, 3> target;
@@ -44,7 +44,7 @@ struct FakeArms
         Shared<int> read_stall_ms, write_stall_ms, close_stall_ms;   // the next call takes so long; -1: until this is 0 again
         Shared<int> error_flag, has_no_power;
 
-        // What has come of it.
+        // The result of the driver's calls.
         Shared<int> is_open, is_enabled, is_braked, is_calibrated, cause, weight_is_carried;
         std::array<Shared<double>, 3> position, force, torque;   // of the tool; what the library was asked for last
         Shared<double> gripper_force;
@@ -56,7 +56,7 @@ struct FakeArms
     std::array<Arm, 2> arms;
     Shared<int> count;   // of arms; 0: one, -1: none
 
-    /// What acts on the tool of an arm at this time of the steady clock: nothing if the forces are off, or no command has come for the time of its watchdog.
+    /// The force on the tool of an arm at this time of the steady clock: nothing if the forces are off, or no command has come for the time of its watchdog.
     static double forceAt (const Arm& arm, std::int64_t now_ns, int axis)
     {
         const int set = arm.watchdog, units = set == 0 ? 255 : set;

@@ -153,7 +153,8 @@ TEST_CASE ("the wrist and the gripper of a left-handed arm turn, press and pull 
         {
             const int third = 3 - row - column;
             const double cross = row == column ? 0.0 : ((column - row + 3) % 3 == 1 ? -1.0 : 1.0) * axis[third];
-            arm.frame[static_cast<std::size_t> (3 * row + column)] = (row == column ? std::cos (angle) : 0.0) + (1.0 - std::cos (angle)) * axis[row] * axis[column] + std::sin (angle) * cross;
+            arm.frame[static_cast<std::size_t> (3 * row + column)] =
+                (row == column ? std::cos (angle) : 0.0) + (1.0 - std::cos (angle)) * axis[row] * axis[column] + std::sin (angle) * cross;
         }
     arm.buttons = 5;
     REQUIRE (lab.opens());
@@ -169,7 +170,9 @@ TEST_CASE ("the wrist and the gripper of a left-handed arm turn, press and pull 
     Effort effort;
     effort.torque = { 0.05, 0.0, -0.1 };
     effort.axes.set (0, 2.0);
-    CHECK (lab.ticksUntil ([&] { return arm.torque[1] == 0.05 && arm.torque[0] == 0.0 && arm.torque[2] == -0.1 && arm.gripper_force == (is_left ? -2.0 : 2.0); }, effort));
+    CHECK (lab.ticksUntil (
+        [&] { return arm.torque[1] == 0.05 && arm.torque[0] == 0.0 && arm.torque[2] == -0.1 && arm.gripper_force == (is_left ? -2.0 : 2.0); },
+        effort));
 }
 
 TEST_CASE ("an arm of Force Dimension counts a position only if it is new, and keeps its weight while nobody ticks", "[forcedimension][safety]")

@@ -94,7 +94,7 @@ public:
         return true;
     }
 
-    /// What is said about a description that is refused, or about an arm that is open.
+    /// The messages about a description that is refused, or about an arm that is open.
     std::string said (const Json& description = Json::object())
     {
         opens (description);
@@ -137,7 +137,7 @@ public:
         return effort;
     }
 
-    /// What acts on the tool now, along z.
+    /// The force on the tool now, along z.
     double acting() const
     {
         const auto now = std::chrono::duration_cast<std::chrono::nanoseconds> (fromNow (std::chrono::nanoseconds (0)).time_since_epoch()).count();
