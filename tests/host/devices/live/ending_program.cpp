@@ -40,8 +40,7 @@ tactus_session* started (const char* file, const char* device)
 
 void end (const std::string& way)
 {
-    const std::map<std::string, int> signals { { "SIGINT", SIGINT }, { "SIGTERM", SIGTERM }, { "SIGHUP", SIGHUP },
-                                               { "SIGQUIT", SIGQUIT }, { "SIGKILL", SIGKILL }, { "SIGSEGV", SIGSEGV } };
+    const std::map<std::string, int> signals { { "SIGINT", SIGINT }, { "SIGTERM", SIGTERM }, { "SIGHUP", SIGHUP }, { "SIGQUIT", SIGQUIT }, { "SIGKILL", SIGKILL }, { "SIGSEGV", SIGSEGV } };
     if (const auto s = signals.find (way); s != signals.end()) ::kill (::getpid(), s->second);
     if (way == "exit" || way == "exit, and a function of atexit that never returns") std::exit (3);   // NOLINT(concurrency-mt-unsafe)
     if (way == "exit of another thread") std::thread ([] { std::exit (3); }).join();                  // NOLINT(concurrency-mt-unsafe)
