@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the udev rules that allow the user who is logged in at the computer to open the devices that have a profile.
+"""Writes the udev rules that allow the user who is logged in at the computer to open the devices that have a profile, and those that only a driver
+knows.
 
 udev_rules.py PROFILES OUTPUT
 
@@ -8,6 +9,12 @@ Over Bluetooth, no parent of a device has idVendor, but the kernel's name for it
 import json
 import pathlib
 import sys
+
+DRIVERS = """
+# Arms of Force Dimension
+SUBSYSTEM=="usb", ATTRS{idVendor}=="1451", TAG+="uaccess"
+
+"""
 
 
 def rules(match):
@@ -29,8 +36,8 @@ def main(profiles, output):
         for match in profile.get("match", []):   # profiles that hold only numbers have none
             for rule in rules(match):
                 lines.setdefault(rule, []).append(profile["name"])
-    text = "# Tactus: the user who is logged in at the computer may open the haptic devices for which Tactus has a profile.\n"
-    text += 'ACTION=="remove", GOTO="tactus_end"\nKERNEL!="hidraw*", GOTO="tactus_end"\n'
+    text = "# Tactus: the user who is logged in at the computer may open the haptic devices for which Tactus has a profile or a driver.\n"
+    text += 'ACTION=="remove", GOTO="tactus_end"\n' + DRIVERS + 'KERNEL!="hidraw*", GOTO="tactus_end"\n'
     named = None
     for rule, names in lines.items():
         if names != named:

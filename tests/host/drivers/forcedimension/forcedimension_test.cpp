@@ -101,6 +101,8 @@ TEST_CASE ("dry wood on an arm of Force Dimension has the forces of its render a
         pushed += asked.isZero (0.0) ? 0 : 1;
     }
     CHECK (pushed > readings / 4);
+    CHECK (lab.limits.max_still == 1.0);   // its readings have neither a number nor a time
+    CHECK (lab.limits.still_force == 0.5);
     CHECK (lab.device->counts().readings == static_cast<std::uint64_t> (readings) + 1);   // each is new once
     CHECK (lab.device->counts().departures == 0);
 }
