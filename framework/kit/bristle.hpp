@@ -53,9 +53,8 @@ struct Bristle
     /// Fig. 2: how fast the bristle yields at a stretch of length r, in 1/m.
     double zeta (double r) const noexcept;
 
-    /// Moves the tool by dp, in a straight line. If the lengths depend on the direction, they are those in the direction of d + dp, and
-    /// `longer` is how many times as long they are as those in the direction of d.
-    Step stretch (const Vec3& d, const Vec3& dp, double longer = 1.0) const noexcept;
+    /// Moves the tool by dp, in a straight line.
+    Step stretch (const Vec3& d, const Vec3& dp) const noexcept;
 
     /// If d_max or d_stick has become too small for the stretch, shortens the stretch to the length at which the contact slides.
     /// Only the exponential form needs this: with eq. (3) and (4), the next call to `stretch` does it. Returns true if the stretch
@@ -65,8 +64,8 @@ struct Bristle
 private:
     static constexpr double eps_slip = margin (1e-9);   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 
-    Step stick (const Vec3& d, const Vec3& dp, double longer) const noexcept;
-    Step euler (const Vec3& d, const Vec3& dp, double longer) const noexcept;
+    Step stick (const Vec3& d, const Vec3& dp) const noexcept;
+    Step euler (const Vec3& d, const Vec3& dp) const noexcept;
     Step exponential (const Vec3& d, const Vec3& dp) const noexcept;
     Step drag (double from, const Vec3& d, double r, double hold) const noexcept;
     double afterSlip (double r) const noexcept;
@@ -75,10 +74,10 @@ private:
 //==============================================================================
 // Implementation below.
 
-inline auto Bristle::stretch (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
+inline auto Bristle::stretch (const Vec3& d, const Vec3& dp) const noexcept -> Step
 {
-    if (adhesion == Adhesion::stick) return stick (d, dp, longer);
-    return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp, longer);
+    if (adhesion == Adhesion::stick) return stick (d, dp);
+    return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp);
 }
 
 inline double Bristle::zeta (double r) const noexcept
@@ -102,20 +101,20 @@ inline double Bristle::zeta (double r) const noexcept
 }
 
 /// Eq. (3): d = d~ min (1, d_max / |d~|), with d~ = d + dp. Slips only beyond d_stick.
-inline auto Bristle::stick (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
+inline auto Bristle::stick (const Vec3& d, const Vec3& dp) const noexcept -> Step
 {
     const Vec3 pulled = d + dp;
     const double r = pulled.norm();
-    if (r > d_stick * (1.0 + eps_slip)) return drag (longer * d.norm(), pulled, r, d_stick);
+    if (r > d_stick * (1.0 + eps_slip)) return drag (d.norm(), pulled, r, d_stick);
     return { .d = pulled };
 }
 
 /// Eq. (4): d = d~ - |dp| zeta (|d~|) d~, with |dp| zeta clamped at 1. For the loss, the bristle first stretches to d~ and then yields there.
-inline auto Bristle::euler (const Vec3& d, const Vec3& dp, double longer) const noexcept -> Step
+inline auto Bristle::euler (const Vec3& d, const Vec3& dp) const noexcept -> Step
 {
     const Vec3 pulled = d + dp;
     const double r = pulled.norm(), z = zeta (r);
-    if (z * r > 1.0 + eps_slip) return drag (longer * d.norm(), pulled, r, 1.0 / z);
+    if (z * r > 1.0 + eps_slip) return drag (d.norm(), pulled, r, 1.0 / z);
 
     const double g = std::min (1.0, z * dp.norm());
     return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
