@@ -93,6 +93,12 @@ void PluginDevice::Link::note (const std::string& what)
     said = what;
 }
 
+void PluginDevice::Link::noteFailure (const std::string& what)
+{
+    const std::lock_guard lock (telling);
+    if (! is_lost.load (std::memory_order_acquire)) said = what;
+}
+
 std::string PluginDevice::Link::trouble() const
 {
     const auto now = nanoseconds (Clock::now());
@@ -174,8 +180,8 @@ void PluginDevice::Link::pause (std::chrono::milliseconds time)
 /// The device is gone, or must be opened again for another reason.
 void PluginDevice::Link::lose (const std::string& why)
 {
+    if (is_lost.exchange (true, std::memory_order_acq_rel)) return;   // for another reason, which counts
     note (why);
-    if (is_lost.exchange (true, std::memory_order_acq_rel)) return;
     departures.fetch_add (1, std::memory_order_relaxed);
     current_episode.fetch_add (1, std::memory_order_acq_rel);
 }
@@ -221,7 +227,7 @@ void PluginDevice::Link::readOn()
             break;
         default:
             read_errors.fetch_add (1, std::memory_order_relaxed);
-            note ("the driver cannot read: " + why.text());
+            noteFailure ("the driver cannot read: " + why.text());
             pause (after_failure);
         }
     }
@@ -419,7 +425,7 @@ void PluginDevice::Link::poll (Clock::time_point now)
     if (answer == TACTUS_DEVICE_GONE)
         lose ("the device is gone: " + why.text ("it was unplugged, or does not answer"));
     else
-        note ("the driver cannot write: " + why.text());
+        noteFailure ("the driver cannot write: " + why.text());
 }
 
 /// Asks the driver for rest. The device counts as driven until the driver says that it is at rest. [with `calling` held]
@@ -446,7 +452,7 @@ void PluginDevice::Link::quieten()
         if (answer == TACTUS_DEVICE_GONE)
             lose ("the device is gone: " + why.text ("it was unplugged, or does not answer"));
         else
-            note ("the device does not come to rest: " + why.text());
+            noteFailure ("the device does not come to rest: " + why.text());
     }
     if (failsafe && ! rest_fails) failsafe->beat (driven);
 }

@@ -111,6 +111,7 @@ private:
     void lookAgain();
     void pause (std::chrono::milliseconds);
     void lose (const std::string& why);
+    void noteFailure (const std::string& what);   // of a call; the reason why the device is gone stays
 
     bool serve();
     void poll (Clock::time_point now);
