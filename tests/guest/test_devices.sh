@@ -11,9 +11,9 @@ place=$(mktemp -d "/var/tmp/a folder for the guest.XXXXXX")
 trap 'rm -rf "$place"; [ -z "${KEEP:-}" ] && rm -rf "$results" || echo "$results"' EXIT
 
 tests/guest/make_guest.sh $guest
-mkdir -p "$place"/{tests/guest,host,build/release/bin}
+mkdir -p "$place"/{tests/guest,host/devices,build/release/bin}
 cp tests/guest/in_guest.sh "$place/tests/guest"
-cp -r host/devices/profiles "$place/host"
+cp -r host/devices/profiles "$place/host/devices"
 cp -r graphs "$place"
 cp tests/guest/own_script.py "$place/tests/guest"
 cp "$build"/bin/{tactus,force-guardian,guest_device,libtactus_live.so.0} "$place/build/release/bin"
