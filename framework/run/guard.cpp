@@ -10,6 +10,7 @@ namespace tactus
 namespace
 {
 constexpr double most_behind = 50.0;   // times the watchdog; a limit, so that a run that keeps up again recovers in the end
+constexpr double settles_in = 1.5;     // times the watchdog; more than 1, so that a reading that is on its way out does not count
 
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
@@ -407,6 +408,15 @@ bool Guard::isRecent (const Reading& reading) const noexcept
     return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);
 }
 
+/// True while readings have not been good for long enough since a stop because they were not.
+[[gnu::noinline]] bool Guard::settles (Stop cause, double passed_s) noexcept
+{
+    is_unsettled = limits.watchdog != GuardLimits::none;
+    good_s = cause == Stop::stale ? 0.0 : good_s + std::min (passed_s, dt);
+    if (good_s > settles_in * limits.watchdog) is_unsettled = false;
+    return is_unsettled;
+}
+
 /// The work in J that the last efforts have done on the axes that they push. `is_single`: only the last one was on the device since the
 /// last reading.
 [[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s, bool is_single) noexcept
@@ -488,7 +498,9 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
         countImpulse (passed, reading);
         watch (reading, is_usable, passed);
     }
-    const auto cause = causeOf (wanted, reading, is_usable);
+    auto cause = causeOf (wanted, reading, is_usable);
+    const bool is_bad = cause == Stop::stale && has_begun;
+    if ((is_bad || is_unsettled) && settles (cause, passed) && cause == Stop::none) cause = Stop::stale;
     // A stop that has begun continues while ticks are missing. A stop that begins now, and everything that rises, advances by one period at most.
     const double rising_s = rise (passed), step_s = reason != Stop::none && cause != Stop::none ? passed : rising_s;
 

@@ -85,7 +85,7 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 ///
 ///     stop        cause                                                       ends
 ///     not_finite  the graph asked for a value that is not a number            with its cause, then the ramp
-///     stale       no reading, or one that is old, frozen or not a number      with its cause, then the ramp
+///     stale       no reading, or one that is old, frozen or not a number      once readings have been good for 1.5 times the watchdog, then the ramp
 ///     starved     more time lost than ticked, by more than the watchdog       with its cause, then the ramp
 ///     released    the dead-man's switch is not held                           with its cause, then the ramp
 ///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
@@ -100,6 +100,8 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 /// Good to know
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
+///  - A reading counts as recent for as long as the watchdog allows, so without that wait a device that reports too rarely would get a pulse
+///    with each report.
 ///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows; after rearm(), within rearm_ramp_s.
 ///  - Limits count seconds, not ticks. Ticks that come too fast count as the time that has passed, so a device that reports faster than its
 ///    profile says gains nothing. Missing ticks count too: for the watchdog, impulse, energy, speed, and the end of a stop.
@@ -225,6 +227,7 @@ private:
     void watch (const Reading&, bool is_usable, double passed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s, bool is_single) noexcept;
     bool isRecent (const Reading&) const noexcept;
+    bool settles (Stop cause, double passed_s) noexcept;
     bool hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
     bool isFrozen() const noexcept
     {
@@ -251,9 +254,11 @@ private:
     double saved = 0.0;    // time that has passed and that no rising effort has used yet, in s
     double behind = 0.0;   // lost time that has not been made up by as much time with ticks, in s
     bool is_starved = false;
-    double enabled = 1.0;       // progress of the enable ramp, 0…1
-    bool has_rearmed = false;   // `enabled` is 0, or rises, after rearm()
-    double withheld = 0.0;      // fraction of `at_stop` that is still on the device, 1…0
+    bool is_unsettled = false;   // readings were bad, and have not been good for long enough since
+    double good_s = 0.0;         // the time for which they have been good since
+    double enabled = 1.0;        // progress of the enable ramp, 0…1
+    bool has_rearmed = false;    // `enabled` is 0, or rises, after rearm()
+    double withheld = 0.0;       // fraction of `at_stop` that is still on the device, 1…0
     Effort at_stop;
     Effort last;
     Stop reason = Stop::none;

@@ -487,6 +487,30 @@ TEST_CASE ("guard: a reading older than the watchdog time stops the force, but a
     CHECK (guard.isAtRest());
 
     CHECK (guard (pushing (1.0), { .age = not_a_number }).force.x() == 0.0);
+    for (int k = 0; k < 29; ++k)
+        REQUIRE (guard (pushing (1.0), fresh).force.x() == 0.0);
+    guard (pushing (1.0), fresh);   // 30 ms, but for rounding
+    CHECK (guard (pushing (1.0), fresh).force.x() == 1.0);
+}
+
+TEST_CASE ("guard: a device that reports too rarely gets no pulse with each report", "[framework][guard][safety]")
+{
+    const int apart = GENERATE (24, 35, 100, 1000), good = GENERATE (1, 2);   // ms between groups of reports, and reports in a group
+    auto guard = guardWith ({ .watchdog = 0.02 });
+    guard (pushing (1.0), fresh);
+    double most = 0.0;
+    for (int k = 1; k < 5000; ++k)
+    {
+        const int since = k % apart;
+        const double age = since < good ? 0.0 : 1e-3 * (since - good + 1);
+        const double force = guard (pushing (1.0), { .age = age }).force.x();
+        if (k > 40) most = std::max (most, force);
+    }
+    CHECK (most == 0.0);
+
+    // Reports that come in time again bring the force back.
+    for (int k = 0; k < 32; ++k)
+        guard (pushing (1.0), fresh);
     CHECK (guard (pushing (1.0), fresh).force.x() == 1.0);
 }
 

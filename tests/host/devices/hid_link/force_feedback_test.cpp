@@ -293,8 +293,11 @@ TEST_CASE ("a device that sends only changes keeps its force at rest if it says 
             REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == 0; }));
             CHECK (wheel.asked() == 1);
             CHECK (device.port().trouble().find ("Broken pipe") != std::string::npos);
-            wheel.moveTo (2000);
-            CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::none; }));
+            std::int16_t at = 2000;   // a single report would be a pulse of force
+            CHECK (run.until (push (2.0), [&] {
+                wheel.moveTo (at++);
+                return run.guard.stop() == Guard::Stop::none;
+            }));
         }
     }
 }
