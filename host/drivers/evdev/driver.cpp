@@ -11,8 +11,10 @@
 #include <atomic>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace tactus::host::evdev
 {
@@ -73,6 +75,14 @@ public:
         return known != all.end() ? std::optional (known->second) : std::nullopt;
     }
 
+    /// True if it is in the place of one that went away from another port.
+    bool hasElsewhere (const std::string& port, const EventDeviceInfo& info) const
+    {
+        const std::lock_guard lock (mutex);
+        return ! info.place.empty()
+               && std::ranges::any_of (all, [&] (const auto& one) { return one.first != port && one.second.isSameAs (info) && one.second.place == info.place; });
+    }
+
 private:
     mutable std::mutex mutex;
     std::map<std::string, EventDeviceInfo> all;
@@ -82,6 +92,47 @@ GoneDevices& gone()
 {
     static GoneDevices devices;
     return devices;
+}
+
+/// The devices that are open in this program, by the file that a path leads to: a link, such as those in /dev/input/by-id, is that device.
+class OpenPaths
+{
+public:
+    static std::string fileOf (const std::string& path)
+    {
+        std::error_code failed;
+        const auto real = std::filesystem::canonical (path, failed);
+        return failed ? path : real.string();
+    }
+
+    void add (const std::string& file)
+    {
+        const std::lock_guard lock (mutex);
+        all.insert (file);
+    }
+
+    void remove (const std::string& file)
+    {
+        const std::lock_guard lock (mutex);
+        if (const auto at = all.find (file); at != all.end()) all.erase (at);
+    }
+
+    bool has (const std::string& path) const
+    {
+        const auto file = fileOf (path);
+        const std::lock_guard lock (mutex);
+        return all.contains (file);
+    }
+
+private:
+    mutable std::mutex mutex;
+    std::multiset<std::string> all;
+};
+
+OpenPaths& openPaths()
+{
+    static OpenPaths paths;
+    return paths;
 }
 
 /// The path of the only device that meets a condition. If there is none, `why` gets the reason.
@@ -107,8 +158,18 @@ std::string findPath (const std::string& port, std::string& why)
 {
     if (const auto before = gone().at (port))
     {
-        if (const auto path = onlyOne ([&] (const EventDeviceInfo& info) { return info.isSameAs (*before); }, quote (before->name), why); ! path.empty())
-            return path;
+        // An identical one that is in use, or in the place of another that went away, is not this one. Of several others, the one in its place is.
+        const auto isFree = [&] (const EventDeviceInfo& info) {
+            return info.isSameAs (*before) && ! openPaths().has (info.path) && ! gone().hasElsewhere (port, info);
+        };
+        const auto isInPlace = [&] (const EventDeviceInfo& info) { return isFree (info) && ! info.place.empty() && info.place == before->place; };
+        if (auto path = onlyOne (isInPlace, quote (before->name), why); ! path.empty()) return path;
+        if (auto path = onlyOne (isFree, quote (before->name), why); ! path.empty()) return path;
+        if (why.find ("devices are called") != why.npos)
+        {
+            why = "several devices like " + quote (before->name) + " have come: plug the one that was at this port in where it was";
+            return {};
+        }
         why = "the device " + quote (before->name) + ", which was at this port, is gone";
         return {};
     }
@@ -121,6 +182,7 @@ std::string findPath (const std::string& port, std::string& why)
 struct Opened
 {
     std::string port;
+    std::string file;   // as openPaths() knows it
     std::unique_ptr<ForceDevice> device;
     std::atomic<bool> is_gone = false;   // whichever function has found that out
 };
@@ -160,10 +222,13 @@ std::unique_ptr<Opened> open (const Wanted& wanted, std::string& why, std::strin
     }
     auto opened = std::make_unique<Opened>();
     opened->port = wanted.port;
+    opened->file = OpenPaths::fileOf (path);
     opened->device = std::make_unique<ForceDevice> (std::move (*events), calibration, wanted.most_hz);
     why = opened->device->prepare();
     if (! why.empty()) return nullptr;
+    if (const auto stays = opened->device->whatStaysChanged(); ! stays.empty()) remark += (remark.empty() ? "" : "; ") + stays;
     gone().found (wanted.port);
+    openPaths().add (opened->file);
     return opened;
 }
 
@@ -237,9 +302,10 @@ int32_t restPort (void* device, const tactus_plugin_report* report) noexcept
 void closePort (void* device) noexcept
 {
     const std::unique_ptr<Opened> opened (static_cast<Opened*> (device));
-    if (! opened->is_gone) return;
     try
     {
+        openPaths().remove (opened->file);
+        if (! opened->is_gone) return opened->device->restore();
         gone().add (opened->port, opened->device->device().info());
     }
     catch (const std::exception&)

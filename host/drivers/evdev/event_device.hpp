@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,12 @@ struct EventDeviceInfo
         bool is_down = false;
     };
 
-    std::string path, name, serial;
+    std::string path, name, serial, place;   ///< place: the port that it is plugged in at, as the kernel names it; empty: unknown
     std::uint16_t bus = 0, vid = 0, pid = 0;
     bool has_constant = false, has_rumble = false;   ///< effects: FF_CONSTANT, FF_RUMBLE
     bool has_gain = false, has_autocenter = false;
-    bool may_open = false;   ///< by this user, for reading and writing
+    std::optional<int> gain {}, autocenter {};   ///< from 0 to 65535, if the driver in the kernel tells them (sysfs); evdev itself cannot read them
+    bool may_open = false;                       ///< by this user, for reading and writing
     std::vector<Axis> axes {};
     std::vector<Button> buttons {};   ///< at most 32
     double update_interval_s = 0.0;   ///< the least time between two reports to it on its bus; 0: unknown

@@ -85,6 +85,16 @@ std::uint16_t hexIn (const fs::path& file)
     return number;
 }
 
+/// What a driver in the kernel tells of its wheel, such as hid-logitech-new: a file in the folder of the HID device.
+std::optional<int> levelIn (const fs::path& file)
+{
+    const auto line = textIn (file);
+    int level = 0;
+    const auto [end, wrong] = std::from_chars (line.data(), line.data() + line.size(), level);
+    const bool is_level = wrong == std::errc() && end == line.data() + line.size() && level >= 0 && level <= 0xffff;
+    return is_level ? std::optional (level) : std::nullopt;
+}
+
 /// A bit in a map of sysfs: words of the size of a long in hexadecimal, the highest first.
 bool bitIn (const std::string& map, unsigned bit)
 {
@@ -142,6 +152,9 @@ EventDeviceInfo look (const std::string& path)
     info.path = path;
     info.name = textIn (at / "name");
     info.serial = textIn (at / "uniq");
+    info.place = textIn (at / "phys");
+    info.gain = levelIn (at / "device/gain");
+    info.autocenter = levelIn (at / "device/autocenter");
     info.bus = hexIn (at / "id/bustype");
     info.vid = hexIn (at / "id/vendor");
     info.pid = hexIn (at / "id/product");

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace tactus::host::evdev
@@ -100,6 +101,8 @@ ForceDevice::ForceDevice (std::unique_ptr<EventDevice> d, const hid::PidCalibrat
         if (info.buttons[i].is_down) buttons |= 1u << i;
 
     if (pushes) hid::limitForce (guard, calibration, travel_driven, quantum);
+    const bool moves_across = travel_driven <= 0.0 && std::ranges::any_of (tool, [] (int axis) { return axis >= 0; });   // y, but no x
+    if (pushes && ! calibration.turns && moves_across) hid::limitStill (guard, calibration, GuardLimits::none);
     if (rumbles)
     {
         guard.max_signal = 1.0;
@@ -128,6 +131,30 @@ std::string ForceDevice::prepare()
     if (info.has_gain) static_cast<void> (events->tell (FF_GAIN, 0xffff));                    // if this fails, the force is weaker, which is no danger
     if (info.has_autocenter && pushes) static_cast<void> (events->tell (FF_AUTOCENTER, 0));   // if this fails, the spring can be felt
     return {};
+}
+
+void ForceDevice::restore()
+{
+    const auto& info = events->info();
+    if (info.has_gain && info.gain) static_cast<void> (events->tell (FF_GAIN, *info.gain));   // the device may be gone
+    if (! info.has_autocenter || ! pushes) return;
+    // In steps, so that the spring does not begin with a jolt.
+    constexpr int steps = 20;
+    for (int step = 1; info.autocenter.value_or (0) > 0 && step <= steps; ++step)
+    {
+        if (events->tell (FF_AUTOCENTER, *info.autocenter * step / steps) != 0) return;
+        if (step < steps) std::this_thread::sleep_for (std::chrono::milliseconds (20));
+    }
+}
+
+std::string ForceDevice::whatStaysChanged() const
+{
+    const auto& info = events->info();
+    const bool gain = info.has_gain && ! info.gain, spring = info.has_autocenter && pushes && ! info.autocenter;
+    if (! gain && ! spring) return {};
+    return std::string ("the kernel does not tell ") + (gain ? "the gain" : "") + (gain && spring ? " and " : "") + (spring ? "the centring spring" : "") + " of "
+           + printableName (info.name) + ", so after the program " + (gain ? "the gain stays full" : "") + (gain && spring ? " and " : "")
+           + (spring ? "the spring stays off" : "") + ", until another program sets " + (gain && spring ? "them" : "it") + " or the device is plugged in again";
 }
 
 void ForceDevice::describe (tactus_device_about& to)

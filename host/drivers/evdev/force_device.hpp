@@ -40,6 +40,12 @@ public:
     /// Uploads the effects, without a force. Returns the reason if it fails; empty if it succeeds. [opening thread]
     std::string prepare();
 
+    /// Gives the wheel back the gain and the centring spring that it had, if they are known. The effects must rest. [opening thread]
+    void restore();
+
+    /// What the person must set again after the program, because the kernel does not tell what it was; empty if nothing.
+    std::string whatStaysChanged() const;
+
     /// The description of the device. Refers to this object.
     void describe (tactus_device_about&);
 

@@ -15,6 +15,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -120,7 +121,10 @@ TEST_CASE ("a wheel at an event device is turned and pushed by a run, and rests 
         return w.opened->counts().reached_hz > 0.0;
     }));
     w.opened.reset();
-    CHECK (w.events.told (w.on).back().level == 0);
+    const auto told = w.events.told (w.on);
+    const auto last = std::find_if (told.rbegin(), told.rend(), [] (const FakeEvents::Told& t) { return t.what == "upload"; });
+    REQUIRE (last != told.rend());
+    CHECK (last->level == 0);
     CHECK (w.events.acting (w.on) == 0);
     CHECK_FALSE (w.events.with ([&] { return w.on.is_open; }));
 }
@@ -196,6 +200,96 @@ TEST_CASE ("a wheel that is unplugged is found again under another number, and n
     CHECK (w.opened->counts().departures == 1);
     w.opened.reset();
     CHECK (w.events.acting (again) == 0);
+}
+
+TEST_CASE ("one of two identical wheels that is plugged in again is found, although the other one is in use", "[evdev]")
+{
+    const bool has_places = GENERATE (true, false);
+    Wheel w;
+    auto twin = FakeEvents::wheel();
+    twin.path = "/nowhere/event6";
+    if (has_places) w.on.info.place = "usb-1/input0", twin.place = "usb-2/input0";
+    auto& second = w.events.add (twin);
+    w.open();
+    Messages found;
+    auto in_use = w.driver->open ({ { "driver", "evdev" }, { "port", "/nowhere/event6" }, { "calibration", calibration } }, found);
+    REQUIRE (in_use);
+    w.events.move (w.on, 1);
+    REQUIRE (w.pushes (1.0));
+    w.events.change (w.on, false);
+    REQUIRE (eventually ([&] {
+        w.tick (1.0);
+        return ! w.opened->isConnected();
+    }));
+    auto back = w.on.info;
+    back.path = "/dev/null";   // the guardian must be able to open it
+    auto& again = w.events.add (back);
+    const bool is_back = eventually ([&] { return w.opened->isConnected(); });
+    INFO (w.opened->trouble());
+    REQUIRE (is_back);
+    w.events.move (again, 65535);
+    CHECK (w.pushes (1.0, again));
+    CHECK (w.events.acting (second) == 0);
+
+    // Both go, and the other one comes first.
+    w.events.change (second, false);
+    w.events.change (again, false);
+    REQUIRE (eventually ([&] {
+        w.tick (1.0);
+        return ! w.opened->isConnected();
+    }));
+    tactus_reading reading;
+    tactus_device_stamp stamp;
+    host::DriverReport why;
+    REQUIRE (in_use->read (1ms, reading, stamp, why) == TACTUS_DEVICE_GONE);
+    in_use.reset();
+    if (! has_places) return;   // nothing tells them apart
+    twin.path = "/dev/zero";
+    back.path = "/dev/full";
+    auto& other = w.events.add (twin);
+    REQUIRE (eventually ([&] { return w.opened->trouble().find ("which was at this port, is gone") != std::string::npos; }));
+    CHECK (w.events.told (other).empty());
+    auto& own = w.events.add (back);
+    REQUIRE (eventually ([&] { return w.opened->isConnected(); }));
+    w.events.move (own, 65535);
+    CHECK (w.pushes (1.0, own));
+    CHECK (w.events.told (other).empty());
+}
+
+TEST_CASE ("a wheel gets its gain and its centring spring back, and the person is told of what the kernel does not tell", "[evdev]")
+{
+    Wheel w;
+    w.open();
+    CHECK (w.messages.empty());
+    w.events.move (w.on, 1);
+    REQUIRE (w.pushes (1.0));
+    w.opened.reset();
+    const auto last = [&] (const char* what) {
+        int level = -1;
+        for (const auto& t : w.events.told (w.on))
+            if (t.what == what) level = t.level;
+        return level;
+    };
+    CHECK (last ("gain") == 0x9000);
+    CHECK (last ("autocenter") == 0x4000);
+    int before = 0, largest = 0;   // the spring comes back in steps
+    for (const auto& t : w.events.told (w.on))
+        if (t.what == "autocenter") largest = std::max (largest, t.level - std::exchange (before, t.level));
+    CHECK (largest <= 0x4000 / 10);
+    CHECK (w.events.acting (w.on) == 0);
+
+    w.events.with ([&] {
+        w.on.info.gain.reset();
+        w.on.info.autocenter.reset();
+    });
+    w.open();
+    REQUIRE (w.messages.size() == 1);
+    CHECK (w.messages[0].id == "device/remark");
+    CHECK (w.messages[0].text.find ("the kernel does not tell the gain and the centring spring of Test wheel") != std::string::npos);
+    CHECK (w.messages[0].text.find ("so after the program the gain stays full and the spring stays off") != std::string::npos);
+    w.opened.reset();
+    CHECK (last ("gain") == 0xffff);
+    CHECK (last ("autocenter") == 0);
 }
 
 TEST_CASE ("a wheel that only a write finds to be gone is remembered, too, so that no other device takes its place", "[evdev][safety]")

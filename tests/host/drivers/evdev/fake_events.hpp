@@ -53,6 +53,8 @@ public:
         info.vid = 0x046d;
         info.pid = 0xc24f;
         info.has_constant = info.has_gain = info.has_autocenter = true;
+        info.gain = 0x9000;
+        info.autocenter = 0x4000;
         info.may_open = true;
         info.axes = { { .code = ABS_X, .name = "x", .minimum = 0, .maximum = 65535, .value = 32768 },
                       { .code = ABS_Z, .name = "z", .minimum = 0, .maximum = 255, .value = 255 } };
