@@ -35,7 +35,7 @@ void noteEfforts (const Plan& plan, RunStatus& now) noexcept
 }   // namespace
 
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
-    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
+    : engine (e), clock (c), options (o), period_s (1.0 / rate_hz), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
       passed_time (1.0 / rate_hz),
       node_costs (c)
 {
@@ -74,7 +74,9 @@ bool Runner::tick (double late_s) noexcept
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
     is_real_time = clock.isRealTime();
-    if (is_real_time) engine.passTime (passed_time (begin, clock.block_s()));
+    const double passed_s = is_real_time ? passed_time (begin, clock.block_s()) : period_s;
+    if (is_real_time) engine.passTime (passed_s);
+    elapsed_s += passed_s;
     if (options.hooks) options.hooks->before (k);
     engine.tick ([this] (Plan& plan) noexcept {
         noteEfforts (plan, now);
@@ -95,6 +97,7 @@ RunStatus::End Runner::whyItEnds() const noexcept
     if (is_real_time && ticks_so_far.isOverrun()) return RunStatus::End::overrun;
     if (asked.load (std::memory_order_relaxed) || (options.stop_wanted && options.stop_wanted())) return RunStatus::End::asked;
     if (options.length && ticks_so_far.ticks() >= *options.length) return RunStatus::End::length;
+    if (options.length_s && elapsed_s > 0.0 && elapsed_s + 0.5 * period_s >= *options.length_s) return RunStatus::End::length;
     return RunStatus::End::none;
 }
 

@@ -48,6 +48,7 @@ public:
     struct Options
     {
         std::optional<std::uint64_t> length {};     ///< in ticks; empty: the run lasts until it is stopped
+        std::optional<double> length_s {};          ///< in s: of wall time, however many ticks are lost, or of the ticks if they have no deadlines
         std::optional<int> core {};                 ///< the CPU core to pin the tick thread to
         bool (*stop_wanted)() noexcept = nullptr;   ///< called on each tick, so that a signal takes effect no matter how busy other threads are
         TickHooks* hooks = nullptr;
@@ -92,6 +93,7 @@ private:
     Engine& engine;
     TickClock& clock;
     const Options options;
+    const double period_s;
     const std::uint64_t longest_halt;   // in ticks
     std::atomic<bool> asked = false;
     TickAccount ticks_so_far;
@@ -104,6 +106,7 @@ private:
     std::array<std::uint64_t, RunStatus::most_roles> seen {};   // by role: Guard::changes() when its name and latest stop were published
     std::uint64_t halted_at = 0;                                // tick number
     bool is_real_time = false;                                  // the clock's answer on the last tick: there are deadlines
+    double elapsed_s = 0.0;                                     // as Options::length_s counts
 
     std::jthread thread;   // declared last: it uses the other members
 };

@@ -176,14 +176,25 @@ void CommandRun::decideLength (Pace pace)
     // A small file must not keep the computer busy for hours. A user who gives --duration wants a run of that length.
     constexpr auto most_unasked = static_cast<double> (Replay::most_ticks_unasked);
     const double by_files = feed ? static_cast<double> (feed->ticks()) : seconds * rate();
-    if (pace == Pace::offline && options.duration_s == 0.0 && by_files > most_unasked)
+    if (pace == Pace::offline && options.duration_s == 0.0 && options.ticks == 0 && by_files > most_unasked)
     {
         const auto asks = (feed ? "the feed lasts " : "a device's path lasts ") + numberText (std::ceil (by_files)) + " ticks";
         fail ("run/too_long", asks + "; without --duration, a run has at most " + numberText (most_unasked), "give a --duration in s or a lower --rate");
     }
 
     if (feed) count = feed->ticks();
+    if (options.ticks > 0)
+    {
+        const auto wanted = static_cast<std::size_t> (options.ticks);
+        count = std::min (count.value_or (wanted), wanted);
+        return;
+    }
     if (options.watch && options.duration_s == 0.0) return;
+    if (pace == Pace::live && options.duration_s > 0.0)
+    {
+        wall_s = options.duration_s;   // a feed may end it before
+        return;
+    }
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
     {
         const double wanted = std::ceil (seconds * rate() - 1e-6);
@@ -196,7 +207,7 @@ std::size_t CommandRun::ticksOrFail() const
 {
     if (! count)
         fail ("run/no_length", "the length of the run is unknown: there is no feed, trace or gesture",
-              "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
+              "give --duration S, --ticks N, --feed IN.csv, or --device ROLE=gesture:NAME");
     return *count;
 }
 

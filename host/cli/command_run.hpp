@@ -43,7 +43,8 @@ public:
 
     /// The length of the run, in ticks; empty if no option, feed or device gives one.
     std::optional<std::size_t> ticks() const noexcept { return count; }
-    std::size_t ticksOrFail() const;   ///< the command ends if the length is unknown
+    std::optional<double> seconds() const noexcept { return wall_s; }   ///< of wall time, in real time
+    std::size_t ticksOrFail() const;                                    ///< the command ends if the length is unknown
 
     /// Reads the graph file again and swaps it in; what both versions contain keeps running. If the file has errors,
     /// prints them and returns false, and the previous graph keeps running. Roles keep their devices; a new role gets
@@ -93,6 +94,7 @@ private:
     std::optional<hid::LoadedProfiles> loaded_profiles;
     PortProbes port_probes;
     std::optional<std::size_t> count;
+    std::optional<double> wall_s;
     std::unique_ptr<LiveSession> playing;   // declared last: it uses the other members
 };
 

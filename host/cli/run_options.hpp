@@ -24,6 +24,7 @@ struct RunOptions
     std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": the session's choice, or else any card
     std::string capture;   ///< the WAV file for the signal to the sound card; "": none
     double rate_hz = 0.0, duration_s = 0.0;
+    int ticks = 0;   ///< the length of the run instead of duration_s: a live run that loses ticks lasts longer; 0: not given
 
     /// `Files::chosen`: adds --record and --out, too.
     enum class Files

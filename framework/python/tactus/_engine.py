@@ -243,7 +243,7 @@ class Engine:
 
     @_checks.arguments
     def start(self, duration: Optional[float] = None, core: Optional[int] = None, buffer: float = 10.0) -> None:
-        """Ticks in real time on its own thread, which Python never delays, until stop() or for `duration` in s.
+        """Ticks in real time on its own thread, which Python never delays, until stop() or for the ticks of `duration`, in s.
 
         core: the CPU core of the tick thread. buffer: how many s of records are kept until you collect them; 0 for none. Call collect()
         several times a second: it also frees memory that the tick thread no longer uses."""

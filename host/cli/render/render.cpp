@@ -164,7 +164,7 @@ void addRender (const Command& app)
     command.get ("graph").required (false);
     const auto replayed = command.addOption ("--replay", options->replay,
                                              "Repeat a run from a log written by `tactus play --log`; uses the graph of the log unless one is given");
-    for (const auto* other : { "--feed", "--device", "--rate" })
+    for (const auto* other : { "--feed", "--device", "--rate", "--ticks" })
         replayed.excludes (command.get (other));
     options->plot.addTo (command);
     command.addOption ("--listen", options->listen,

@@ -298,7 +298,7 @@ tactus_session* open (const tactus_graph& g, const tactus_session_options& given
     if (const double ticks = std::ceil (given.buffer_s * live.rate()); ticks > 0.0 && ! made->records.empty())
         made->recorder.ring = std::make_unique<tactus::SpscRing<double>> (static_cast<std::size_t> (ticks), made->records.size());
     if (given.fuses != 0) live.fuse (Fuser::Options { .compiler = { .cache = FusionCompiler::usualCache() } });
-    if (given.duration_s > 0.0) made->start.length = static_cast<std::uint64_t> (std::ceil (given.duration_s * live.rate() - 1e-6));
+    if (given.duration_s > 0.0) made->start.length_s = given.duration_s;
     if (given.core > 0) made->start.core = given.core - 1;
     return made.release();
 }

@@ -147,7 +147,7 @@ std::vector<std::string> LiveSession::start (const Start& how)
 {
     auto& ticks = clock();
     watch = HealthWatch { clock_role };
-    return running->start (ticks, { .length = how.length, .core = how.core, .stop_wanted = how.stop_wanted });
+    return running->start (ticks, { .length = how.length, .length_s = how.length_s, .core = how.core, .stop_wanted = how.stop_wanted });
 }
 
 //==============================================================================

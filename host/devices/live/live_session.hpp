@@ -79,6 +79,7 @@ public:
     struct Start
     {
         std::optional<std::uint64_t> length {};     ///< in ticks
+        std::optional<double> length_s {};          ///< in s, as for Runner
         std::optional<int> core {};                 ///< the CPU core for the tick thread
         bool (*stop_wanted)() noexcept = nullptr;   ///< see Runner::Options
     };

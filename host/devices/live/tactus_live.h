@@ -43,7 +43,7 @@ typedef struct tactus_session_options
     const char* session;     /**< which file binds the other roles to devices: NULL: the user's session, "off": none, or the name of a file */
     const char* clock;       /**< what ticks the run: a role (its device), or "timer"; NULL: as the session says, or the first device that can */
     double rate_hz;          /**< 0: that of the clock, or else the graph's */
-    double duration_s;       /**< 0: until it is stopped */
+    double duration_s;       /**< in s of wall time, however many ticks are lost; 0: until it is stopped */
     int32_t core;            /**< CPU core for the tick thread, plus 1; 0: any */
     int32_t is_strict;       /**< 1: a missing device of the session is an error. 0: its role gets no force until the device is there */
     int32_t fuses;           /**< 1: compiled code replaces the plan while it runs (docs/fusion.md) */

@@ -137,6 +137,51 @@ TEST_CASE ("a run that is stopped in any way brings the force to zero smoothly a
     CHECK (play (again).peak > 0.5);   // in a new run, a halted engine delivers force again
 }
 
+TEST_CASE ("a run of some seconds lasts as long by the clock, also if it loses ticks or is ticked faster than it says", "[runtime]")
+{
+    /// A clock with deadlines whose time the test makes.
+    struct MadeClock final : TickClock
+    {
+        void drive (Ticked& ticked) noexcept override
+        {
+            for (bool more = true; more; ++ticks)
+            {
+                time += ticks == stall_at ? stall_s : step_s;
+                more = ticked.tick (0.0);
+            }
+        }
+        double now() const noexcept override { return time; }
+
+        double time = 1000.0, step_s = 1.0 / rate_hz, stall_s = 4.0;
+        std::uint64_t ticks = 0, stall_at = std::numeric_limits<std::uint64_t>::max();
+    };
+    struct Way
+    {
+        double step = 1.0;   // in periods
+        bool stalls = false;
+        std::uint64_t ticks = 0;   // within the 10 s, but not those of the end
+    };
+    const auto all = static_cast<std::uint64_t> (10.0 * rate_hz), lost = static_cast<std::uint64_t> (4.0 * rate_hz);
+    const auto way = GENERATE_COPY (Way { 1.0, false, all }, Way { 1.0, true, all - lost + 1 }, Way { 2.0, false, all / 2 }, Way { 0.5, false, 2 * all });
+    Rubbed run;
+    MadeClock clock;
+    clock.step_s *= way.step;
+    if (way.stalls) clock.stall_at = all / 4;
+    Notes notes { 4 * all };
+    Runner runner { run.engine, clock, rate_hz, { .length_s = 10.0, .hooks = &notes } };
+    const auto end = play (runner);
+    CHECK (end.end == End::length);
+    const auto ran = static_cast<double> (std::ranges::count (notes.halts, false));
+    CHECK (std::abs (ran - static_cast<double> (way.ticks)) <= 3.0);
+
+    // Without deadlines, the ticks are the time.
+    Rubbed free;
+    Notes more { 2000 };
+    Runner fast { free.engine, free.clock, rate_hz, { .length_s = 1000.0 / rate_hz, .hooks = &more } };
+    CHECK (play (fast).end == End::length);
+    CHECK (std::ranges::count (more.halts, false) == 1000);
+}
+
 TEST_CASE ("a run of length zero does not tick", "[runtime]")
 {
     Rubbed run;

@@ -23,11 +23,11 @@ namespace
 bool says (const std::string& text, const std::string& words) { return text.find (words) != std::string::npos; }
 
 /// Logs a second of a stroke over a board. Returns the log.
-std::string loggedBoard (const Scratch& scratch, const std::string& preset = "dry_wood", const std::string& duration = "1")
+std::string loggedBoard (const Scratch& scratch, const std::string& preset = "dry_wood", const std::string& ticks = "4000")
 {
     const auto log = scratch.path ("run.jsonl");
-    const auto played = runTactus ({ "play", std::string (TACTUS_SOURCE_DIR) + "/graphs/" + preset + ".json", "--session", "off", "--osc", "off", "--duration",
-                                     duration, "--log", log });
+    const auto played = runTactus ({ "play", std::string (TACTUS_SOURCE_DIR) + "/graphs/" + preset + ".json", "--session", "off", "--osc", "off", "--ticks",
+                                     ticks, "--log", log });
     INFO (played.err);
     REQUIRE (played.status == 0);
     return log;
@@ -149,7 +149,7 @@ TEST_CASE ("capture: a test of a graph with files finds them from its own folder
 TEST_CASE ("capture: wrong options and files are refused", "[cli][capture]")
 {
     const Scratch scratch;
-    const auto log = loggedBoard (scratch, "dry_wood", "0.2"), out = scratch.path ("o.jsonl"), clip = scratch.path ("o.json");
+    const auto log = loggedBoard (scratch, "dry_wood", "800"), out = scratch.path ("o.jsonl"), clip = scratch.path ("o.json");
     checkRefused ({ "capture", log }, 2, "--clip, --gesture or --test is required", out);
     checkRefused ({ "capture", log, "--clip", clip }, 2, "--record PORT", clip);
     checkRefused ({ "capture", log, "--from", "0.1", "--until", "0.1", "--test", out }, 2, "--until", out);

@@ -306,7 +306,7 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     INFO (fake.err());
     REQUIRE (is_there);
     const auto device = "stylus=serial:tactus_board@" + link;
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "3" });   // it takes 6 s
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "9" });   // longer than two spans of 2 s
     INFO (ran.err);
     CHECK (ran.err.find (" reports/s, its profile says 1000: the graph runs at ") != std::string::npos);
     CHECK (ran.err.find ("[device/rate]") != std::string::npos);

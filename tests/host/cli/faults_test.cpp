@@ -76,7 +76,7 @@ private:
 /// Plays with a limit on the size of files, in units of 512 bytes. It fails like a full disk and needs no disk.
 test::Ran playWithLimit (const std::string& limit, const std::vector<std::string>& options)
 {
-    std::vector<std::string> all { "-c", "ulimit -f " + limit + "; exec \"$0\" \"$@\"", TACTUS_PROGRAM, "play", wood, "--osc", "off", "--duration", "1" };
+    std::vector<std::string> all { "-c", "ulimit -f " + limit + "; exec \"$0\" \"$@\"", TACTUS_PROGRAM, "play", wood, "--osc", "off", "--ticks", "4000" };
     all.insert (all.end(), options.begin(), options.end());
     return test::runProgram ("sh", all);
 }
@@ -121,7 +121,7 @@ TEST_CASE ("a full disk ends a log after a complete line, but does not end the r
 TEST_CASE ("a flood of OSC changes no bit of the force and uses no memory", "[cli][osc][safety]")
 {
     const Scratch scratch;
-    Running play { { "play", wood, "--osc", "0", "--duration", "2", "--record", ports, "--out", scratch.path ("live.csv") } };
+    Running play { { "play", wood, "--osc", "0", "--ticks", "8000", "--record", ports, "--out", scratch.path ("live.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto text = play.err();
     const std::string before = "OSC on 127.0.0.1:";

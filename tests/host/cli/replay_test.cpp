@@ -132,7 +132,7 @@ TEST_CASE ("a run with late answers of async queries is repeated byte for byte",
     REQUIRE (found);
     graph["rate_hz"] = 8000;
     const auto file = scratch.write ("g.json", graph.dump());
-    const auto live = runTactus ({ "play", file, "--osc", "off", "--duration", "1", "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") });
+    const auto live = runTactus ({ "play", file, "--osc", "off", "--ticks", "8000", "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") });
     INFO (live.err);
     REQUIRE (live.status == 0);
     CHECK (linesWith (scratch.path ("run.jsonl"), "\"late\"") > 0);
@@ -175,7 +175,7 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     const Scratch scratch;
     const auto file = scratch.write ("g.json", board());
     scratch.write ("grain.json", grain (800.0));
-    Running play { { "play", file, "--osc", "0", "--log", scratch.path ("run.jsonl"), "--duration", "0.5" } };
+    Running play { { "play", file, "--osc", "0", "--log", scratch.path ("run.jsonl"), "--ticks", "1000" } };
     CHECK (runTactus ({ "set", "drag.mu=0.3", "--osc", portOf (play) }).status == 0);
     REQUIRE (play.finish().status == 0);
     const auto log = textOf (scratch.path ("run.jsonl"));

@@ -104,7 +104,7 @@ TEST_CASE ("probing does not change a single bit of the recording", "[cli][osc]"
 {
     const Scratch scratch;
     CHECK (runTactus ({ "render", wood, "--duration", "1", "--out", scratch.path ("r.csv") }).status == 0);
-    Running play { { "play", wood, "--osc", "0", "--duration", "1", "--out", scratch.path ("p.csv") } };
+    Running play { { "play", wood, "--osc", "0", "--ticks", "4000", "--out", scratch.path ("p.csv") } };
     const auto port = portOf (play);
     runTactus ({ "probe", "drag.deflection", "--osc", port, "--duration", "0.1" });
     runTactus ({ "probe", "board.depth", "--osc", port, "--duration", "0.1" });

@@ -99,7 +99,7 @@ TEST_CASE ("a recording and a log survive kill -9 up to their last second, and t
 
     const auto kept_csv = textOf (left_csv), kept_wav = textOf (left_wav);
     auto arguments = play;
-    arguments.insert (arguments.end(), { "--duration", "0.1" });
+    arguments.insert (arguments.end(), { "--ticks", "50" });
     const auto next = runTactus (arguments);
     INFO (next.err);
     CHECK (next.status == 0);
@@ -119,7 +119,7 @@ TEST_CASE ("the recording of a run that is still going is not reported as left o
     const std::vector<std::string> play { "play", graph, "--osc", "off", "--record", "count.out", "--out", scratch.path ("run.csv") };
     auto longer = play, shorter = play;
     longer.insert (longer.end(), { "--duration", "600" });
-    shorter.insert (shorter.end(), { "--duration", "0.1" });
+    shorter.insert (shorter.end(), { "--ticks", "50" });
     Running first { longer };
     REQUIRE (first.says ("Ctrl-C stops"));
     const auto second = runTactus (shorter);
