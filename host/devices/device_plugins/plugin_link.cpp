@@ -21,6 +21,8 @@ constexpr auto read_timeout = 50ms;
 constexpr auto longest_read = 2 * read_timeout + 50ms;
 constexpr auto longest_between_beats = 20ms;   // several times within Failsafe::patience
 constexpr auto between_slew_steps = 500us;
+constexpr auto longest_write = 20ms;    // as tactus_device.h says
+constexpr int most_slow_writes = 8;     // in a row; a busy computer makes some calls longer
 constexpr auto longest_leave = 200ms;   // for how long a device that does not come to rest is asked again, before it is closed
 constexpr auto between_tries = 5ms;
 constexpr auto longest_takeover = 15s;   // the guardian tries for 10 s
@@ -361,23 +363,28 @@ bool PluginDevice::Link::serve()
     const auto now = Clock::now();
     const bool fails = failing_since && now - *failing_since > longest_silence;
     if (isConnected() && ! fails) poll (now);
-    if (driven && isConnected() && (fails || now - given > longest_silence))
+    if (driven && isConnected() && (fails || rest_fails || now - given > longest_silence))
     {
         if (! std::exchange (is_silent, true))
         {
             silences.fetch_add (1, std::memory_order_relaxed);
             current_episode.fetch_add (1, std::memory_order_acq_rel);
         }
+        const bool failed_before = rest_fails;
         quieten();
+        if (failed_before && ! rest_fails) current_episode.fetch_add (1, std::memory_order_acq_rel);   // the force starts again from zero
     }
     else if (driven && ! isConnected())
         quieten();   // until the reading thread closes it
-    if (failsafe && ! rest_fails && ! failsafe->beat (driven))
-    {
-        lose ("the program or the computer was suspended, so the device is opened again");
-        if (driven) quieten();   // a write that had begun before may have put its effort back
-    }
+    if (failsafe && ! rest_fails && ! failsafe->beat (driven)) loseSuspended();
     return limiter.isBehind();
+}
+
+/// [with `calling` held]
+void PluginDevice::Link::loseSuspended()
+{
+    lose ("the program or the computer was suspended, so the device is opened again");
+    if (driven) quieten();   // a write that had begun before may have put its effort back
 }
 
 /// Writes what is offered. [with `calling` held]
@@ -389,10 +396,11 @@ void PluginDevice::Link::poll (Clock::time_point now)
     if (is_new)
     {
         given = now;
-        is_silent = false;
+        is_silent = is_silent && rest_fails;   // a device that did not come to rest gets no effort before it has
     }
     if (latest.number == 0 || latest.episode != episode() || is_silent || (! is_new && ! limiter.isBehind())) return;
-    if (! about.takesEfforts() || (failsafe && ! failsafe->beat (true))) return;
+    if (! about.takesEfforts() || rest_fails) return;
+    if (failsafe && ! failsafe->beat (true)) return loseSuspended();
 
     Effort wanted {};   // with what the driver has named: nothing else has a limit
     wanted.force = about.renderedForce (Vec3 { latest.effort.force });
@@ -419,6 +427,8 @@ void PluginDevice::Link::poll (Clock::time_point now)
         answer = device->write (effort, latest.effort.is_withheld != 0, max_signal, why);
     }
     writes.fetch_add (1, std::memory_order_relaxed);
+    slow_writes = Clock::now() - now > longest_write ? slow_writes + 1 : 0;
+    if (slow_writes == most_slow_writes) noteFailure ("`write` of the driver takes longer than 20 ms again and again: a stop comes up to twice as late");
     if (answer == TACTUS_DEVICE_OK) return failing_since.reset();
     if (! failing_since) failing_since = now;
     write_errors.fetch_add (1, std::memory_order_relaxed);

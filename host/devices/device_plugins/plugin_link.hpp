@@ -116,6 +116,7 @@ private:
     bool serve();
     void poll (Clock::time_point now);
     void quieten();
+    void loseSuspended();
     void leaveDevice();
     void leaveFailsafe();
 
@@ -147,6 +148,7 @@ private:
     Clock::time_point given;                          // when it came   [writing thread]
     Clock::time_point written;                        // when the last effort was written   [writing thread]
     std::optional<Clock::time_point> failing_since;   // the driver has not written anything since   [writing thread]
+    int slow_writes = 0;                              // in a row           [writing thread]
     bool rest_fails = false;                          // it has said last that the device is not at rest; with `calling` held
     bool is_silent = true;                            // nothing has been offered for too long   [writing thread]
 

@@ -70,7 +70,7 @@ public:
 
     // How the functions behave from now on.
     std::atomic<bool> opens = true, is_gone = false, spins = false, read_hangs = false, write_hangs = false, close_hangs = false, rest_fails = false;
-    std::atomic<int> write_answer = TACTUS_DEVICE_OK;
+    std::atomic<int> write_answer = TACTUS_DEVICE_OK, write_takes_ms = 0;
 
     std::shared_ptr<const host::DeviceDriver> driver;
     const Stopwatch watch;
@@ -222,6 +222,7 @@ private:
     static std::int32_t write (void*, const tactus_effort* effort, const tactus_plugin_report* report) noexcept
     {
         auto& self = *now;
+        if (self.write_takes_ms > 0) letPass (std::chrono::milliseconds (self.write_takes_ms));
         std::unique_lock lock (self.mutex);
         if (self.write_hangs) self.changed.wait (lock, [&self] { return ! self.write_hangs; });
         self.log.push_back ({ "force", effort->force[0], self.watch.s() });

@@ -320,6 +320,48 @@ TEST_CASE ("if no effort is offered any more, the device is brought to rest, aga
     run.push();
 }
 
+TEST_CASE ("a device that did not come to rest gets no effort before it has, although the run goes on, and then starts from zero", "[plugins][safety]")
+{
+    FakeDriver fake;
+    auto options = FakeDriver::usual();
+    options.silence_s = 0.2;
+    Pushed run (fake, options);
+    run.push();
+    fake.rest_fails = true;
+    const auto rests = fake.count ("rest");
+    REQUIRE (eventually ([&] { return fake.count ("rest") > rests; }));   // the run does not tick
+    const auto forces = fake.count ("force");
+    for (int k = 0; k < 500; ++k)
+    {
+        fake.send (1e-6 * ++run.k);
+        run.tick();
+    }
+    CHECK (fake.count ("force") == forces);
+    CHECK (run.device->isDriven());
+    CHECK (run.device->trouble() == "the device does not come to rest: it is stuck");
+    fake.rest_fails = false;
+    REQUIRE (eventually ([&] { return ! run.device->isDriven(); }));
+    fake.send (1e-6 * ++run.k);
+    run.tick();
+    CHECK_FALSE (run.reading.valid);
+    run.push();
+    CHECK (fake.count ("force") > forces);
+}
+
+TEST_CASE ("a driver whose writes take long is named", "[plugins]")
+{
+    FakeDriver fake;
+    Pushed run (fake);
+    run.push();
+    fake.write_takes_ms = 40;
+    REQUIRE (eventually ([&] {
+        fake.send (1e-6 * ++run.k);
+        run.tick();
+        return run.device->trouble().find ("`write` of the driver takes longer than 20 ms") == 0;
+    }));
+    fake.write_takes_ms = 0;
+}
+
 TEST_CASE ("a driver that cannot write any more brings the device to rest, and if it cannot, the guardian does", "[plugins][safety]")
 {
     const TemporaryFolder folder;
