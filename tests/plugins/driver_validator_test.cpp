@@ -138,7 +138,8 @@ TEST_CASE ("check-plugin catches a driver that does not keep the times", "[plugi
 {
     catches ("lying", "early", { "timeout: `read` returns without a reading long before the 10 ms have passed" });
     catches ("lying", "late", { "timeout: `read` takes at least " });
-    catches ("lying", "slow", { "rest: `write` takes 1" });
+    catches ("lying", "slow", { "rest: `write` usually takes 1" });
+    catches ("lying", "slow_rest", { "rest: `rest` usually takes " });
     catches ("lying", "blocks", { "threads: `write` usually takes " });
 }
 

@@ -40,7 +40,7 @@ using Driver = std::shared_ptr<const DeviceDriver>;
 
 constexpr int most_cpu_seconds = 120;          // a driver may spin while it waits
 constexpr unsigned longest_examination = 20;   // s; far longer than any examination takes on a busy computer
-constexpr auto longest_read = 50ms, late = 50ms, longest_write = 100ms;
+constexpr auto longest_read = 50ms, late = 50ms, longest_write = 20ms;
 constexpr auto far_too_often = 20e3;   // calls per s that return at once
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
@@ -324,12 +324,20 @@ std::string checkReadings (const Device& device, double seconds)
 }
 
 /// The fault of an answer of write or rest; empty if there is none.
-std::string faultOf (const char* function, int answer, Clock::duration took, const DriverReport& said)
+std::string faultOf (const char* function, int answer, const DriverReport& said)
 {
     const auto name = std::string ("`") + function + "` ";
     if (answer == TACTUS_DEVICE_GONE) return name + "says that the device is gone: " + said.text();
     if (answer != TACTUS_DEVICE_OK) return name + "fails" + (said.text ("").empty() ? " and does not say why" : ": " + said.text());
-    return took > longest_write ? name + "takes " + milliseconds (took) : "";
+    return {};
+}
+
+/// The fault of a function whose calls usually take longer than they may: a busy computer makes some of them longer. Empty if there is none.
+std::string slowFault (const char* function, std::vector<Clock::duration>& times)
+{
+    std::ranges::nth_element (times, times.begin() + static_cast<std::ptrdiff_t> (times.size() / 2));
+    const auto usual = times[times.size() / 2];
+    return usual > longest_write ? std::string ("`") + function + "` usually takes " + milliseconds (usual) : "";
 }
 
 int writeNothing (OpenedDevice& to, DriverReport& said) { return to.write (Effort {}, false, GuardLimits::none, said); }
@@ -340,23 +348,15 @@ std::string checkRest (const Device& device, int times)
     std::string why;
     const auto opened = device.open (why);
     if (! opened) return why;
-    std::string slow;
-    int slow_ones = 0;
-    const auto judge = [&] (const char* function, auto call) {
+    std::vector<Clock::duration> writes, rests;
+    const auto judge = [&] (const char* function, std::vector<Clock::duration>& times_of, auto call) {
         DriverReport said;
         int answer = TACTUS_DEVICE_OK;
-        const auto took = timeOf (function, [&] { answer = call (said); });
-        auto fault = faultOf (function, answer, took, said);
-        if (answer == TACTUS_DEVICE_OK && ! fault.empty())
-        {
-            ++slow_ones;
-            slow = std::move (fault);
-            return std::string();
-        }
-        return fault;
+        times_of.push_back (timeOf (function, [&] { answer = call (said); }));
+        return faultOf (function, answer, said);
     };
-    const auto write = [&] { return judge ("write", [&] (DriverReport& said) { return writeNothing (*opened, said); }); };
-    const auto rest = [&] { return judge ("rest", [&] (DriverReport& said) { return opened->rest (said); }); };
+    const auto write = [&] { return judge ("write", writes, [&] (DriverReport& said) { return writeNothing (*opened, said); }); };
+    const auto rest = [&] { return judge ("rest", rests, [&] (DriverReport& said) { return opened->rest (said); }); };
     for (int i = 0; i < times; ++i)
     {
         std::string fault;
@@ -365,7 +365,8 @@ std::string checkRest (const Device& device, int times)
         if (const auto after = rest(); ! after.empty()) fault += (fault.empty() ? "" : "; then ") + after;
         if (! fault.empty()) return fault;
     }
-    return 2 * slow_ones > 6 * times ? slow : "";   // a busy computer makes some calls longer
+    const auto slow_write = slowFault ("write", writes);
+    return slow_write.empty() ? slowFault ("rest", rests) : slow_write;
 }
 
 /// Reads and writes at the same time: a read that waits must not hold up a write.
@@ -403,10 +404,9 @@ std::string checkThreads (const Device& device, double seconds)
     is_over = true;
     Stage::enter ("read");
     reads.join();
-    std::ranges::nth_element (times, times.begin() + static_cast<std::ptrdiff_t> (times.size() / 2));
-    const auto usual = times[times.size() / 2];
-    if (fault.empty() && usual > 20ms) return "`write` usually takes " + milliseconds (usual) + " while `read` waits";
-    return fault;
+    if (! fault.empty()) return fault;
+    const auto slow = slowFault ("write", times);
+    return slow.empty() ? slow : slow + " while `read` waits";
 }
 
 //==============================================================================

@@ -179,6 +179,7 @@ static int32_t write_device (void* device_, const tactus_effort* effort, const t
 static int32_t rest_device (void* device_, const tactus_plugin_report* report)
 {
     device* d = device_;
+    if (lies (d, "slow_rest")) wait_ms (60);
     if ((lies (d, "no_rest") || lies (d, "dead")) && d->is_driven)
     {
         say (report, "it is stuck");
