@@ -122,7 +122,9 @@ ForceDevice::ForceDevice (std::unique_ptr<EventDevice> d, const hid::PidCalibrat
 std::string ForceDevice::prepare()
 {
     const auto& info = events->info();
-    if (const int failed = events->upload (effect); failed != 0)
+    const int failed = events->upload (effect);
+    uploaded = effect;
+    if (failed != 0)
     {
         if (failed == ENOSPC) return "the device has no room for another effect: close other programs that use its force feedback";
         return std::string ("the device does not take an effect: ") + std::strerror (failed);
@@ -239,10 +241,14 @@ std::int32_t ForceDevice::read (std::chrono::milliseconds timeout, tactus_readin
             stamp.reached_hz = reached_hz.load (std::memory_order_relaxed);
         return int { TACTUS_DEVICE_OK };
     };
-    const auto wait = std::min<std::chrono::milliseconds> (timeout, state_again);
+    const auto until = Clock::now() + std::min<std::chrono::milliseconds> (timeout, state_again);
     EventDevice::Event event;
     for (;;)
-        switch (events->next (event, static_cast<int> (wait.count())))
+    {
+        // Events that say nothing about an axis or a button must not hold this up.
+        const auto left = std::chrono::ceil<std::chrono::milliseconds> (until - Clock::now());
+        if (left.count() < 0) return has_come && ! in_frame ? answer (0.0) : int { TACTUS_DEVICE_NONE };
+        switch (events->next (event, static_cast<int> (left.count())))
         {
         case EventDevice::Got::gone:
             return TACTUS_DEVICE_GONE;
@@ -254,6 +260,7 @@ std::int32_t ForceDevice::read (std::chrono::milliseconds timeout, tactus_readin
             has_come = true;
             return answer (frame_age);
         }
+    }
 }
 
 //==============================================================================
@@ -266,6 +273,7 @@ int ForceDevice::send (Clock::time_point now, bool must_start, bool is_update)
     if (is_update)
     {
         if (const int failed = events->upload (effect); failed != 0) return failed;
+        uploaded = effect;
         ++reports;
     }
     if (must_start)
@@ -299,9 +307,9 @@ int ForceDevice::pushTo (double effort, Clock::time_point now)
     const bool must_start = level != 0 && (! started || now - *started >= Seconds (hid::effect_restarts));
     if (! is_update && ! must_start) return 0;
     if (level != 0 && busy_until && now < *busy_until) return 0;   // a newer one follows
-    const auto before = std::exchange (effect.u.constant.level, level);
+    effect.u.constant.level = level;
     const int failed = send (now, must_start, is_update);
-    if (failed != 0) effect.u.constant.level = before;
+    if (failed != 0) effect = uploaded;   // a start may fail after the upload
     return failed;
 }
 
@@ -323,10 +331,9 @@ int ForceDevice::rumble (const double* signals, bool is_withheld, Clock::time_po
     const bool must_start = ! is_zero && (! started || now - *started >= Seconds (hid::effect_restarts));
     if (! is_update && ! must_start) return 0;
     if (! is_zero && ((busy_until && now < *busy_until) || (updated && now - *updated < between_rumbles))) return 0;
-    const auto before = sent;
     sent = { wanted[0], wanted[1] };
     const int failed = send (now, must_start, is_update);
-    if (failed != 0) sent = before;
+    if (failed != 0) effect = uploaded;
     return failed;
 }
 
@@ -342,6 +349,7 @@ int ForceDevice::rest()
     const int not_stopped = events->tell (static_cast<std::uint16_t> (effect.id), 0);
     effect.u = {};
     const int not_zeroed = events->upload (effect);
+    if (not_zeroed == 0) uploaded = effect;
     started.reset();
     busy_until.reset();
     updated.reset();

@@ -101,7 +101,7 @@ private:
     double frame_age = 0.0;
 
     // [writing thread]
-    ff_effect effect {};   // as the kernel has it, once it has been uploaded
+    ff_effect effect {}, uploaded {};   // as wanted; as the kernel has it
     std::optional<Clock::time_point> busy_until, started, updated, tracked;
     double mean_interval = 0.0;
     int intervals = 0;   // in that mean
