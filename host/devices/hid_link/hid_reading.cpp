@@ -15,9 +15,10 @@ using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 using Kind = ReportFile::Outcome::Kind;
 
-constexpr auto longest_read = 20ms;            // short, so that a stop request is noticed promptly
-constexpr std::size_t most_at_once = 256;      // a device that sends faster than it can be read must not keep the run from ticking
-constexpr Clock::time_point without_waiting;   // has passed
+constexpr auto longest_farewell = 200ms, between_farewells = 5ms;   // for how long the neutral reports are tried when a device is lost
+constexpr auto longest_read = 20ms;                                 // short, so that a stop request is noticed promptly
+constexpr std::size_t most_at_once = 256;                           // a device that sends faster than it can be read must not keep the run from ticking
+constexpr Clock::time_point without_waiting;                        // has passed
 
 bool isOf (const InputReport& described, std::span<const std::uint8_t> report)
 {
@@ -225,7 +226,9 @@ void HidPort::lose (Transport& t, const std::string& why)
     }
     const std::lock_guard lock (writing);
     current_episode.fetch_add (1, std::memory_order_acq_rel);
-    quieten (t);
+    const auto end = Clock::now() + longest_farewell;
+    while (! quieten (t) && Clock::now() < end)   // the bus may be busy, as after the computer has slept
+        std::this_thread::sleep_for (between_farewells);
     driven = false;   // regardless of the reports that it took: the force starts again from zero
 }
 
