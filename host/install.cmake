@@ -51,7 +51,7 @@ endforeach ()
 install (TARGETS tactus ${check_plugin} ${optional} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
     FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
-foreach (driver haply bhaptics evdev forcedimension)
+foreach (driver haply bhaptics evdev forcedimension falcon)
     if (TARGET ${driver})
         install (TARGETS ${driver} LIBRARY DESTINATION lib/tactus/plugins COMPONENT program)
     endif ()

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// A device driver for the Novint Falcon on a serial port, without any software of its maker. Written from a public description of the protocol; no Falcon
+// has been tried. See docs/known_devices.md.
+#include "device.hpp"
+#include "kinematics.hpp"
+#include "serial_port.hpp"
+
+#include <host/drivers/driver_table.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/object_reader.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tactus::host::falcon
+{
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto until_asked = 2ms;   // after an answer without a new force
+constexpr auto until_late = 20ms;   // without an answer: a packet was lost
+constexpr auto longest_patience = 160ms, prompt = 5ms;
+constexpr double motor_per_torque = -10'000.0, most_motor = 4096.0;
+constexpr double middle = 0.150;   // in front of the base, in m
+constexpr Packet at_rest = packetOf ({}, homing);
+
+struct Wanted
+{
+    std::string port, firmware;
+};
+
+std::string read (const tactus_device_description& given, Wanted& wanted)
+{
+    Messages messages;
+    const auto json = readJson (given.json != nullptr && given.json[0] != 0 ? given.json : "{}").root;
+    ObjectReader in (json, "", messages);
+    in.ignore ("port");
+    wanted.firmware = in.text ("firmware");
+    in.finish();
+    if (const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity); wrong != messages.end())
+        return wrong->where + ": " + wrong->text + "; " + wrong->remedy;
+    wanted.port = given.port != nullptr ? given.port : "";
+    return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
+}
+
+/// A Falcon at a serial port. It answers each packet with one, and sends none by itself. At most one is on its way, but for that of `rest`.
+/// `times`: its promises about a Falcon that does not answer take so many times longer, for tests on busy computers.
+template <int times>
+class Falcon
+{
+    static constexpr auto until_gone = times * 500ms;            // without an answer
+    static constexpr auto longest_wait = times * 160ms;          // of a force until it is sent
+    static constexpr auto longest_kept = times * 100ms;          // a force without a newer one: the program was frozen, or its writing thread is
+    static constexpr int most_questions = times > 1 ? 40 : 10;   // when it is opened
+
+public:
+    static std::string check (const tactus_device_description& given)
+    {
+        Wanted wanted;
+        return falcon::read (given, wanted);
+    }
+
+    static std::unique_ptr<Falcon> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
+    {
+        Wanted wanted;
+        said = falcon::read (given, wanted);
+        if (! said.empty()) return nullptr;
+        auto device = std::make_unique<Falcon> (wanted.port);
+        said = device->line.open (wanted.port);
+        if (said.empty()) said = device->start (wanted.firmware);
+        if (! said.empty()) return nullptr;
+        said = device->line.remark();
+        device->describe (about);
+        return device;
+    }
+
+    explicit Falcon (std::string p) : port (std::move (p)) {}
+
+    std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
+    {
+        const auto until = Clock::now() + std::chrono::milliseconds (timeout_ms);
+        for (;;)
+        {
+            if (const auto report = line.next())
+            {
+                hear();
+                take (*report, to, stamp);
+                return TACTUS_DEVICE_OK;
+            }
+            const auto now = Clock::now();
+            Clock::time_point wake;
+            {
+                std::unique_lock lock (mutex);
+                if (line.isGone() || (silent_since && now - *silent_since > until_gone))
+                {
+                    why = line.isGone() ? "it was unplugged" : "it does not answer";
+                    return TACTUS_DEVICE_GONE;
+                }
+                if (in_flight && now >= sent + patience)   // bytes were lost on one of the ways. If it is only slow, packets must not queue up
+                {
+                    in_flight = was_prompt = false;
+                    is_doubtful = true;
+                    patience = std::min<Clock::duration> (2 * patience, longest_patience);
+                }
+                if (now >= until) return TACTUS_DEVICE_NONE;
+                if (is_doubtful && now >= answered + prompt && was_prompt) is_doubtful = false;
+                if (in_flight)
+                    wake = std::min (until, sent + patience);
+                else if (is_doubtful && now < answered + prompt)
+                    wake = std::min (until, answered + prompt);
+                else
+                {
+                    changed.wait_until (lock, std::min (until, std::max (answered, sent) + until_asked), [this] { return is_new; });
+                    if (! in_flight) send();   // rest() has not sent one meanwhile
+                    wake = in_flight ? std::min (until, sent + patience) : now + 1ms;
+                }
+            }
+            line.await (wake - Clock::now());
+        }
+    }
+
+    std::int32_t write (const tactus_effort& effort, std::string& why)
+    {
+        const std::lock_guard lock (mutex);
+        force = { effort.force[0], effort.force[2], -effort.force[1] };   // x right, y up and z towards the person are the axes of the Falcon
+        given = Clock::now();
+        if (! std::exchange (is_new, true)) waits_since = given;
+        changed.notify_one();
+        if (given - waits_since <= longest_wait) return TACTUS_DEVICE_OK;
+        why = "the last force has not been sent for 160 ms, because the Falcon has not answered";
+        return TACTUS_DEVICE_FAILED;
+    }
+
+    std::int32_t rest (std::string& why)
+    {
+        const std::lock_guard lock (mutex);
+        force = {};
+        is_new = false;
+        why = put (at_rest);
+        return why.empty() ? TACTUS_DEVICE_OK : TACTUS_DEVICE_FAILED;
+    }
+
+private:
+    bool answers()   // a packet that asks for nothing
+    {
+        bool does = false;
+        for (int tries = 0; tries < most_questions && ! does; ++tries)
+        {
+            line.send (at_rest);
+            for (const auto end = Clock::now() + 50ms; Clock::now() < end && ! does; does = line.next().has_value())
+                line.await (5ms);
+        }
+        const auto is_late = [this] {   // an answer to one of the tries
+            line.await (prompt);
+            return line.next().has_value();
+        };
+        for (int answers = 0; does && answers < most_questions && is_late(); ++answers)
+        {
+        }
+        return does;
+    }
+
+    /// Makes sure that the firmware runs, which the Falcon forgets without power.
+    std::string start (const std::string& firmware)
+    {
+        line.goNormal();
+        if (answers()) return {};
+        if (firmware.empty())
+            return "it does not answer: its firmware does not run, or this is no Falcon. Give the file that has its firmware with the key \"firmware\"";
+        std::string why;
+        for (int tries = 0; tries < 3; ++tries)   // people report that the first one often fails
+        {
+            why = line.load (firmware);
+            line.goNormal();
+            if (why.empty() && answers()) break;
+            if (why.empty()) why = "the firmware is loaded, but does not answer";
+        }
+        return why;
+    }
+
+    void describe (tactus_device_about& about)
+    {
+        about.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_FORCE;
+        about.about = "A Novint Falcon.";
+        static constexpr const char* buttons[] { "plus", "forward", "center", "minus" };
+        static constexpr const char* axes[] { "saturated" };
+        about.axes = axes;
+        about.axis_count = std::size (axes);
+        about.buttons = buttons;
+        about.button_count = std::size (buttons);
+        // 8 N is what CHAI3D allows. The others are guesses in the manner of docs/safety.md, "The limits of presets and profiles".
+        about.guard = R"({"max_force": "8 N", "max_slew": "2000 N/s", "max_speed": "2 m/s", "max_impulse": "40 N*s", "impulse_window": "10 s",
+            "max_energy": "160 mJ", "energy_window": "1 s", "max_still": "1 s", "still_force": "0.5 N", "watchdog": "20 ms"})";
+        about.rest_file = port.c_str();
+        static const tactus_device_bytes last { sizeof last, at_rest.data(), at_rest.size() };
+        static const tactus_device_bytes* const lasts[] { &last, &last };   // the first one may meet half a packet
+        about.rest_reports = lasts;
+        about.rest_report_count = std::size (lasts);
+    }
+
+    void take (const Report& report, tactus_reading& to, tactus_device_stamp& stamp)
+    {
+        const bool knows = (report.bits & homed) == homed;
+        const auto place = knows ? legs.placeOf (Kinematics::anglesOf (report.counts)) : std::nullopt;
+        if (place)
+        {
+            to.position[0] = (*place)[0];
+            to.position[1] = middle - (*place)[2];
+            to.position[2] = (*place)[1];
+        }
+        to.axes[0] = is_saturated ? 1.0 : 0.0;
+        to.axis_count = 1;
+        to.buttons = report.bits & 0xfu;
+        to.valid = 1;
+        stamp.fault = ! knows ? TACTUS_DEVICE_NOT_HOMED : ! place ? TACTUS_DEVICE_BROKEN
+                                                                  : 0;
+        has_place = place.has_value();
+    }
+
+    void hear()
+    {
+        const std::lock_guard lock (mutex);
+        answered = Clock::now();
+        was_prompt = answered - sent < prompt;
+        if (was_prompt) patience = until_late;
+        in_flight = false;
+        silent_since.reset();
+    }
+
+    /// Sends the newest force, turned into torques at the newest place. Without a place, or without a newer one for long, a force is given up: it would come
+    /// back as a step. [reading thread, with the mutex held]
+    void send()
+    {
+        if (! line.isFree()) return;   // the last packet is not out yet; tried again
+        if (! has_place || Clock::now() - given > longest_kept) force = {};
+        auto values = legs.torquesOf (force);
+        double largest = 0.0;
+        for (double& value : values)
+        {
+            value *= motor_per_torque;
+            largest = std::max (largest, std::abs (value));
+        }
+        is_saturated = largest > most_motor;
+        std::array<int, 3> motors {};
+        for (std::size_t i = 0; i < 3; ++i)   // together, so that the direction stays
+            motors[i] = static_cast<int> (std::lround (values[i] * (is_saturated ? most_motor / largest : 1.0)));
+        if (put (packetOf (motors, homing | (has_place ? green : red))).empty()) is_new = false;
+    }
+
+    /// [with the mutex held]
+    std::string put (const Packet& packet)
+    {
+        auto why = line.send (packet);
+        if (! why.empty()) return why;
+        is_doubtful = is_doubtful || in_flight;
+        in_flight = true;
+        sent = Clock::now();
+        if (! silent_since) silent_since = sent;
+        return {};
+    }
+
+    const std::string port;
+    SerialPort line;
+
+    // [reading thread]
+    Kinematics legs;
+    bool has_place = false, is_saturated = false;
+
+    std::mutex mutex;   // of what follows; never held while waiting
+    std::condition_variable changed;
+    Triple force {};
+    bool is_new = false;
+    Clock::time_point given, waits_since;   // the newest force, and the first one that was not sent
+    Clock::time_point sent, answered;       // the last packet of each direction
+    bool in_flight = false;                 // it has not been answered
+    bool is_doubtful = false;               // there may be another one: nothing is sent until answers are prompt, and no further one has come
+    bool was_prompt = false;                // the last answer
+    Clock::duration patience = until_late;
+    std::optional<Clock::time_point> silent_since;   // packets are not answered
+};
+
+constexpr const char* keys[] { "port", "firmware" };
+constexpr auto name = "falcon", about_it = "The Novint Falcon on a serial port.";
+}   // namespace
+
+const tactus_device_driver driver = driverTable<Falcon<1>> (name, about_it, keys);
+const tactus_device_driver patient_driver = driverTable<Falcon<300>> (name, about_it, keys);
+
+}   // namespace tactus::host::falcon

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/tactus_device.h>
+
+namespace tactus::host::falcon
+{
+
+/// The driver for the Novint Falcon on a serial port. See docs/known_devices.md.
+extern const tactus_device_driver driver;
+
+/// The same with longer promises about a Falcon that does not answer, so that a busy computer does not look like one.
+extern const tactus_device_driver patient_driver;
+
+}   // namespace tactus::host::falcon

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "serial_port.hpp"
+
+#include <asm/termbits.h>
+#include <fcntl.h>
+#include <linux/serial.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <vector>
+
+namespace tactus::host::falcon
+{
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+constexpr unsigned normal_baud = 1'500'000, hello_baud = 9600, loading_baud = 142'857;
+constexpr std::uint8_t hello[] { 0x0a, 0x43, 0x0d }, hello_answer[] { 0x0a, 0x44, 0x2c, 0x0d }, ready[] { 0x41 };
+constexpr std::size_t block_size = 62, most_firmware = 65'536;
+
+std::string textOf (int error) { return std::generic_category().message (error); }
+}   // namespace
+
+SerialPort::~SerialPort()
+{
+    if (file >= 0) ::close (file);
+}
+
+std::string SerialPort::open (const std::string& path)
+{
+    name = path;
+    file = ::open (path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return textOf (errno) + (errno == EACCES ? ": join the group of " + path + " (on Debian: sudo adduser $USER dialout)" : std::string());
+    termios2 how {};
+    if (::ioctl (file, TCGETS2, &how) != 0) return path + " is no serial port";
+    lock = FileLock::takeExisting (path);   // not TIOCEXCL: the guardian opens it, too
+    if (! lock) return "another role or another instance of Tactus is using it";
+    return {};
+}
+
+/// How long an adapter of FTDI keeps answers: 1 ms, or 16 ms. A pseudo-terminal has no such setting.
+void SerialPort::setLowLatency (bool is_low)
+{
+    serial_struct serial {};
+    if (::ioctl (file, TIOCGSERIAL, &serial) != 0) return;
+    serial.flags = (serial.flags & ~static_cast<int> (ASYNC_LOW_LATENCY)) | (is_low ? static_cast<int> (ASYNC_LOW_LATENCY) : 0);
+    static_cast<void> (::ioctl (file, TIOCSSERIAL, &serial));
+}
+
+std::string SerialPort::remark() const
+{
+    std::error_code failed;
+    const auto port = std::filesystem::canonical (name, failed).filename();
+    const auto setting = "/sys/bus/usb-serial/devices/" + port.string() + "/latency_timer";
+    int ms = 1;
+    if (std::ifstream in (setting); ! (in >> ms) || ms <= 1) return {};
+    return "the adapter keeps answers for up to " + std::to_string (ms) + " ms, so forces are slow and stiff walls buzz: sudo sh -c 'echo 1 > " + setting + "'";
+}
+
+void SerialPort::setSpeed (unsigned baud)
+{
+    termios2 how {};
+    how.c_cflag = BOTHER | CS8 | CLOCAL | CREAD;
+    how.c_cc[VMIN] = 1;   // 0 bytes are the end of the line, and not silence
+    how.c_ispeed = how.c_ospeed = baud;
+    static_cast<void> (::ioctl (file, TCSETS2, &how));
+}
+
+void SerialPort::setLines (int rts_and_dtr)
+{
+    const int off = ~rts_and_dtr & (TIOCM_RTS | TIOCM_DTR);
+    static_cast<void> (::ioctl (file, TIOCMBIC, &off));   // a pseudo-terminal has no such lines
+    static_cast<void> (::ioctl (file, TIOCMBIS, &rts_and_dtr));
+}
+
+void SerialPort::purge()
+{
+    static_cast<void> (::ioctl (file, TCFLSH, TCIOFLUSH));
+    count = used = 0;
+    finder = {};
+}
+
+void SerialPort::goNormal()
+{
+    setLowLatency (true);
+    setSpeed (normal_baud);
+    purge();
+}
+
+bool SerialPort::put (std::span<const std::uint8_t> all)
+{
+    for (const auto end = Clock::now() + 1s; ! all.empty() && Clock::now() < end;)
+    {
+        const auto done = ::write (file, all.data(), all.size());
+        if (done > 0)
+            all = all.subspan (static_cast<std::size_t> (done));
+        else if (done < 0 && errno != EAGAIN && errno != EINTR)
+            return false;
+        pollfd wait { file, POLLOUT, 0 };
+        if (! all.empty()) static_cast<void> (::poll (&wait, 1, 10));
+    }
+    return all.empty();
+}
+
+/// Some systems put a 0 in front of an answer.
+bool SerialPort::expects (std::span<const std::uint8_t> all, std::chrono::milliseconds within)
+{
+    bool is_first = true;
+    for (const auto end = Clock::now() + within; ! all.empty() && Clock::now() < end && ! is_gone;)
+    {
+        if (used == count) await (5ms);
+        for (; used < count && ! all.empty(); is_first = false)
+        {
+            const auto byte = bytes[used++];
+            if (byte == all.front())
+                all = all.subspan (1);
+            else if (! is_first || byte != 0)
+                return false;
+        }
+    }
+    return all.empty();
+}
+
+std::string SerialPort::load (const std::string& from)
+{
+    std::ifstream in (from, std::ios::binary);
+    std::vector<std::uint8_t> image { std::istreambuf_iterator<char> (in), {} };
+    if (image.empty() || image.size() > most_firmware) return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
+    setLowLatency (false);   // people report that loading fails otherwise
+    setSpeed (hello_baud);
+    purge();
+    setLines (0);
+    setLines (TIOCM_DTR);
+    bool is_there = false;
+    for (int tries = 0; tries < 40 && ! is_there && ! is_gone; ++tries, count = used = 0)
+        is_there = put (hello) && expects (hello_answer, 50ms);
+    if (! is_there) return "it does not answer, neither its firmware nor what loads it: check its power and its cable";
+    setLines (0);
+    setSpeed (loading_baud);
+    if (! put (ready) || ! expects (ready, 1s)) return "it is not ready for its firmware";
+    for (std::span<const std::uint8_t> left = image; ! left.empty();)
+    {
+        const auto block = left.first (std::min (left.size(), block_size));
+        if (! put (block) || ! expects (block, 1s)) return "it does not repeat the firmware as it was sent, after " + std::to_string (image.size() - left.size()) + " bytes";
+        left = left.subspan (block.size());
+    }
+    return {};
+}
+
+bool SerialPort::isFree() const
+{
+    int waiting = 0;
+    return ::ioctl (file, TIOCOUTQ, &waiting) != 0 || waiting == 0;
+}
+
+std::string SerialPort::send (const Packet& packet)
+{
+    const auto done = ::write (file, packet.data(), packet.size());
+    if (done == static_cast<ssize_t> (packet.size())) return {};
+    if (done < 0 && errno != EAGAIN && errno != EINTR) is_gone = true;
+    return done < 0 ? textOf (errno) : "only a part of a packet is out";
+}
+
+bool SerialPort::receive()
+{
+    const auto got = ::read (file, bytes.data(), bytes.size());
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) is_gone = true;
+    count = got > 0 ? static_cast<std::size_t> (got) : 0;
+    used = 0;
+    return count > 0;
+}
+
+std::optional<Report> SerialPort::next()
+{
+    do
+        while (used < count)
+            if (const auto report = finder.take (bytes[used++])) return report;
+    while (receive());
+    return std::nullopt;
+}
+
+void SerialPort::await (Clock::duration time)
+{
+    pollfd wait { file, POLLIN, 0 };
+    const auto us = std::max<std::int64_t> (0, std::chrono::duration_cast<std::chrono::microseconds> (time).count());
+    if (::poll (&wait, 1, static_cast<int> ((us + 999) / 1000)) > 0 && used == count) receive();
+}
+
+}   // namespace tactus::host::falcon

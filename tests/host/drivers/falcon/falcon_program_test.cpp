@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Programs that play on a fake Falcon, and what it gets when they end or are killed.
+
+#include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
+
+#include <host/cli/program.hpp>
+#include <host/cli/running.hpp>
+#include <host/drivers/falcon/fake_falcon.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <filesystem>
+
+using namespace tactus;
+using host::FakeFalcon;
+using test::eventually;
+using test::Running;
+
+TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a force", "[falcon][safety]")
+{
+    const TemporaryFolder folder;
+    folder.write ("wall.json", R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+        "nodes": { "hand": { "type": "device.position", "role": "stylus" },
+                   "wall": { "type": "deform.plane", "params": { "stiffness": 500 } },
+                   "motor": { "type": "device.force", "role": "stylus" } },
+        "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })");
+    FakeFalcon falcon;
+    falcon.target[1] = -0.006;
+    falcon.tremor = 2e-4;   // a position that stays the same would count as frozen
+    const int end = GENERATE (SIGKILL, SIGSTOP, SIGINT);
+    Running program ({ "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + falcon.port() });
+    const bool pushes = test::soon ([&] { return falcon.pushes > 100 && ! falcon.isAtRest(); });
+    INFO (program.err());
+    REQUIRE (pushes);
+    program.signal (end);
+    CHECK (eventually ([&] { return falcon.isAtRest(); }));
+    CHECK ((falcon.bits & 1u) == 1u);
+    if (end == SIGSTOP)
+    {
+        const auto pushes = falcon.pushes.load(), packets = falcon.packets.load();
+        program.signal (SIGCONT);
+        CHECK (eventually ([&] { return falcon.packets > packets + 5; }));
+        CHECK (falcon.pushes == pushes);   // the force from before does not come back as a step
+        static_cast<void> (program.stop());
+    }
+    else
+        static_cast<void> (program.finish());
+    CHECK (falcon.isAtRest());
+    CHECK (falcon.without_homing == 0);
+}
+
+TEST_CASE ("check-plugin finds no fault in the driver of the Falcon", "[falcon]")
+{
+    FakeFalcon falcon;
+    const auto plugin = std::filesystem::path (TACTUS_PROGRAM).parent_path().parent_path() / "lib/tactus/plugins/falcon.tactus-device";
+    const auto ran = test::runTactus ({ "check-plugin", plugin.string(), "--open", R"({"port": ")" + falcon.port() + R"("})" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+}

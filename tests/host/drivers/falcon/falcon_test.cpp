@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: MIT
+// The driver of the Novint Falcon against a fake at the other end of a pseudo-terminal. Both are ours; no Falcon has been tried.
+
+#include "support/rounds.hpp"
+#include "support/sketch.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/waiting.hpp"
+
+#include <host/devices/device_plugins/device_driver.hpp>
+#include <host/devices/device_plugins/plugin_device.hpp>
+#include <host/drivers/falcon/device.hpp>
+#include <host/drivers/falcon/fake_falcon.hpp>
+#include <host/drivers/falcon/kinematics.hpp>
+#include <host/drivers/falcon/packets.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/engine.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using host::FakeFalcon;
+using host::falcon::Kinematics;
+using test::eventually;
+namespace falcon_legs = host::falcon_legs;
+using falcon_legs::Place;
+using Fault = FakeFalcon::Fault;
+
+namespace
+{
+bool contains (const std::string& text, const char* part) { return text.find (part) != std::string::npos; }
+
+double distance (const Place& a, const Place& b) { return std::hypot (a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// A Falcon and the driver on it.
+struct Desk
+{
+    explicit Desk (bool has_firmware = true, std::size_t image_size = 0) : falcon ({}, has_firmware, image_size) {}
+
+    bool opens (Json description = Json::object(), double silence_s = 60.0)
+    {
+        description["driver"] = "falcon";
+        if (! description.contains ("port")) description["port"] = falcon.port();
+        messages.clear();
+        device.reset();
+        const auto driver = host::DeviceDriver::within (is_patient ? host::falcon::patient_driver : host::falcon::driver);
+        REQUIRE (driver);
+        auto there = (*driver)->open (description, messages);
+        if (! there) return false;
+        limits = there->about().limits;
+        rest_file = there->about().rest_file;
+        const host::PluginDevice::Options options { .silence_s = silence_s, .look_again = 2ms, .patience = 60s, .real_time = false };
+        device = std::make_unique<host::PluginDevice> (std::move (there), std::nullopt, options);
+        device->prepare (1e-3);
+        return true;
+    }
+
+    std::string said (const Json& description = Json::object())
+    {
+        opens (description);
+        return test::text (messages);
+    }
+
+    template <typename F>
+    bool ticksUntil (F&& so, const Vec3& force = Vec3::Zero())
+    {
+        return eventually ([&] {
+            reading = device->read();
+            Effort effort;
+            if (reading.valid) effort.force = force;
+            device->write (effort);
+            return so();
+        });
+    }
+
+    bool reads()
+    {
+        return ticksUntil ([&] { return reading.valid; });
+    }
+
+    bool pushes()
+    {
+        const auto before = falcon.pushes.load();
+        return ticksUntil ([&] { return falcon.pushes > before + 5; }, { 0.0, 0.0, 1.0 });
+    }
+
+    FakeFalcon falcon;
+    bool is_patient = true;   // a busy computer does not look like a Falcon that does not answer
+    GuardLimits limits;
+    std::string rest_file;
+    Messages messages;
+    std::unique_ptr<host::PluginDevice> device;
+    Reading reading;
+};
+}   // namespace
+
+TEST_CASE ("the legs of the Falcon meet where its equations say, to 1 nm", "[falcon]")
+{
+    Kinematics legs;
+    const auto at = [&] (const std::array<int, 3>& counts) {
+        const auto place = legs.placeOf (Kinematics::anglesOf (counts));
+        REQUIRE (place);
+        return *place;
+    };
+    CHECK (distance (at ({ 0, 0, 0 }), { 0.0, 0.0, 0.13460 }) < 1e-5);
+    CHECK (distance (at ({ 500, 500, 500 }), { 0.0, 0.0, 0.15686 }) < 1e-5);
+    CHECK (distance (at ({ -500, -500, -500 }), { 0.0, 0.0, 0.11075 }) < 1e-5);
+    CHECK (distance (at ({ 1000, 1000, 1000 }), { 0.0, 0.0, 0.17360 }) < 1e-5);
+    CHECK (distance (at ({ -1000, -1000, -1000 }), { 0.0, 0.0, 0.08961 }) < 1e-5);
+    CHECK (distance (at ({ 300, 0, 0 }), { 0.00388, -0.01288, 0.13849 }) < 1e-5);
+    CHECK (distance (at ({ 0, 300, 0 }), { -0.01310, 0.00308, 0.13849 }) < 1e-5);
+    CHECK (distance (at ({ 0, 0, 300 }), { 0.00922, 0.00980, 0.13849 }) < 1e-5);
+    at ({ 0, 0, 0 });
+    const auto motorsFor = [&] (const host::falcon::Triple& force) {
+        const auto torques = legs.torquesOf (force);
+        return std::array { std::lround (-1e4 * torques[0]), std::lround (-1e4 * torques[1]), std::lround (-1e4 * torques[2]) };
+    };
+    CHECK (motorsFor ({ 1.0, 0.0, 0.0 }) == std::array { -193l, 651l, -458l });
+    CHECK (motorsFor ({ 0.0, 1.0, 0.0 }) == std::array { 640l, -153l, -487l });
+    CHECK (motorsFor ({ 0.0, 0.0, 1.0 }) == std::array { -249l, -249l, -249l });
+
+    // The whole workspace, back and forth. The angles come from the other direction, and the torques from differences of it.
+    double worst = 0.0, worst_force = 0.0;
+    int places = 0;
+    for (int i = 0; i < 9; ++i)
+        for (int j = 0; j < 9; ++j)
+            for (int k = 0; k < 9; ++k)
+            {
+                const Place place { 0.01 * (i - 4), 0.01 * (j - 4), 0.095 + 0.009 * k };
+                const auto angles = falcon_legs::anglesAt (place);
+                if (! std::isfinite (angles[0] + angles[1] + angles[2])) continue;
+                const auto found = legs.placeOf (angles);
+                INFO (place[0] << ", " << place[1] << ", " << place[2]);
+                REQUIRE (found);
+                worst = std::max (worst, distance (*found, place));
+                const Place force { 1.0, -2.0, 3.0 };
+                worst_force = std::max (worst_force, distance (falcon_legs::forceOf (legs.torquesOf (force), place), force));
+                ++places;
+            }
+    CHECK (places > 600);
+    CHECK (worst < 1e-9);
+    CHECK (worst_force < 1e-4);   // differences are coarse at the edge of the workspace
+
+    CHECK_FALSE (legs.placeOf ({ 3.0, -2.0, 0.1 }));                       // the legs do not meet
+    CHECK_FALSE (legs.placeOf (Kinematics::anglesOf ({ 16384, 0, 0 })));   // they would, after more than a turn
+    const auto place = at ({ 100, 110, 90 });
+    at ({ 1000, 900, 1100 });
+    CHECK (at ({ 100, 110, 90 }) == place);   // to the last bit: otherwise a frozen sensor would not be seen
+}
+
+TEST_CASE ("packets of a Falcon are found among any bytes, and nothing else is", "[falcon]")
+{
+    std::mt19937 random (1);
+    const auto upTo = [&] (unsigned most) { return static_cast<unsigned> (random() % (most + 1)); };
+    host::falcon::PacketFinder finder;
+    std::vector<std::uint8_t> past;
+    int found = 0, hidden = 0;
+    for (int round = 0; round < 20'000; ++round)
+    {
+        const std::array<int, 3> counts { static_cast<std::int16_t> (random()), static_cast<std::int16_t> (random()), static_cast<std::int16_t> (random()) };
+        const auto packet = host::falcon::packetOf (counts, upTo (0x7f));
+        std::vector<std::uint8_t> bytes (packet.begin(), packet.end());
+        const bool is_whole = upTo (2) > 0;
+        if (! is_whole) bytes.erase (bytes.begin() + upTo (15));
+        for (unsigned noise = upTo (20); noise > 0; --noise)   // of the bytes that packets have, and others
+            bytes.push_back (upTo (1) == 0 ? static_cast<std::uint8_t> (upTo (255)) : static_cast<std::uint8_t> ("<>A"[upTo (2)]));
+        bool has_come = false;
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+        {
+            past.push_back (bytes[i]);
+            const auto report = finder.take (bytes[i]);
+            if (! report) continue;
+            ++found;
+            // What was found is what has just come, byte for byte.
+            REQUIRE (past.size() >= packet.size());
+            const auto again = host::falcon::packetOf (report->counts, report->bits);
+            CHECK (std::equal (again.begin(), again.begin() + 14, past.end() - 16));
+            CHECK (past.back() == '>');
+            has_come = has_come || (is_whole && i + 1 == packet.size() && report->counts == counts);
+        }
+        hidden += is_whole && ! has_come ? 1 : 0;
+    }
+    CHECK (found > 12'000);
+    CHECK (hidden == 0);   // noise alone makes no packet in which one could be lost
+}
+
+TEST_CASE ("a Falcon is read and pushed in the axes of Tactus, one packet at a time", "[falcon]")
+{
+    Desk desk;
+    auto& falcon = desk.falcon;
+    REQUIRE (desk.opens());
+    CHECK (desk.limits.max_force == 8.0);
+    CHECK (desk.rest_file == falcon.port());
+    falcon.target[0] = 0.01;
+    falcon.target[1] = 0.005;
+    falcon.target[2] = 0.13;
+    const auto is_at = [&] (const Vec3& place) { return desk.reading.valid && (desk.reading.position - place).norm() < 1e-4; };
+    const Vec3 middle { 0.01, 0.02, 0.005 };
+    REQUIRE (desk.ticksUntil ([&] { return is_at (middle); }));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double newtons : { 1.0, -1.0 })
+        {
+            Vec3 force = Vec3::Zero(), place = middle;
+            force[axis] = newtons;
+            place[axis] += newtons / 300.0;
+            const bool is_there = desk.ticksUntil ([&] { return is_at (place); }, force);
+            INFO ("axis " << axis << ", " << newtons << " N, " << desk.reading.position.transpose());
+            REQUIRE (is_there);
+        }
+    CHECK (falcon.malformed == 0);
+    CHECK (falcon.without_homing == 0);
+    CHECK (desk.ticksUntil ([&] { return falcon.bits == (1u | 2u); }));   // homing, and green
+    falcon.buttons = 9;
+    CHECK (desk.ticksUntil ([&] { return desk.reading.buttons == 9; }));
+    CHECK (desk.device->layout().buttons == std::vector<std::string> { "plus", "forward", "center", "minus" });
+
+    // More than the motors can do: all of them less, and told.
+    CHECK (desk.device->layout().axes == std::vector<std::string> { "saturated" });
+    CHECK (desk.reading.axes[0] == 0.0);
+    falcon.hold ({ 0.01, 0.005, 0.13 }, 0);
+    CHECK (desk.ticksUntil ([&] { return desk.reading.axes[0] == 1.0; }, { 30.0, 0.0, 0.0 }));
+    CHECK (falcon.largest_motor == 4096);
+    const Place pushed = falcon_legs::forceOf ({ -1e-4 * falcon.motors[0], -1e-4 * falcon.motors[1], -1e-4 * falcon.motors[2] }, falcon.place());
+    CHECK (std::hypot (pushed[1], pushed[2]) < 0.01 * pushed[0]);   // along x, as asked for
+    CHECK (desk.ticksUntil ([&] { return desk.reading.axes[0] == 0.0; }, { 1.0, 0.0, 0.0 }));
+
+    // One packet at a time, also after those of a rest, and after answers that were so late that they counted as lost.
+    falcon.looks_ms = 1;
+    CHECK (desk.ticksUntil ([&] { return falcon.alone > 50; }));
+    falcon.fault = Fault::late;
+    const auto answers = desk.device->counts().readings;
+    CHECK (desk.ticksUntil ([&] { return desk.device->counts().readings > answers + 5; }));
+    falcon.fault = Fault::none;
+    CHECK (desk.ticksUntil ([&] { return falcon.alone > 50; }));
+
+    desk.device.reset();
+    CHECK (eventually ([&] { return falcon.isAtRest(); }));
+}
+
+TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions that its encoders have rounded", "[falcon]")
+{
+    /// A device that reads what it is told, and keeps what it gets.
+    struct ToldDevice final : Device
+    {
+        void prepare (double) override {}
+        Reading read() noexcept override { return next; }
+        void write (const Effort& effort) noexcept override { last = effort; }
+        Reading next;
+        Effort last;
+    };
+    Desk desk;
+    auto& falcon = desk.falcon;
+    REQUIRE (desk.opens());
+    REQUIRE (desk.reads());
+    CHECK (desk.limits.max_still == 1.0);   // its readings have neither a number nor a time
+    CHECK (desk.limits.still_force == 0.5);
+    auto file = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs/dry_wood.json");
+    REQUIRE_FALSE (hasErrors (file.messages));
+    const auto told_plan = compile (file.graph, catalogue()).plan, falcon_plan = compile (file.graph, catalogue()).plan;
+    REQUIRE (told_plan);
+    REQUIRE (falcon_plan);
+    ToldDevice told;
+    Engine offline { told_plan }, live { falcon_plan };
+    const GuardLimits limits { .max_force = desk.limits.max_force };
+    offline.attach ("stylus", told, limits);
+    live.attach ("stylus", *desk.device, limits);
+    Kinematics legs;
+    int pushed = 0;
+    const int readings = test::rounds (2000);
+    for (int k = 0; k < readings; ++k)
+    {
+        const double time = k / 4000.0;
+        const Vec3 at { 0.02 * std::sin (9.0 * time), 0.02 + 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };   // touches from the start
+        const auto number = static_cast<unsigned> (k % 15) + 1;                                                                              // tells this reading from the one before
+        falcon.hold ({ at.x(), at.z(), 0.15 - at.y() }, number);
+        REQUIRE (eventually (20us, [&] { return desk.device->read().buttons == number; }));
+        const auto place = legs.placeOf (Kinematics::anglesOf (falcon_legs::countsAt ({ at.x(), at.z(), 0.15 - at.y() })));
+        REQUIRE (place);
+        told.next.position = { (*place)[0], 0.15 - (*place)[2], (*place)[1] };
+        told.next.valid = k > 0;   // the first tick brings a device to rest
+        offline.tick();
+        live.tick();
+        const auto& asked = told.last.force;
+        std::array<int, 3> sent {};
+        const auto torques = legs.torquesOf ({ asked.x(), asked.z(), -asked.y() });
+        for (std::size_t i = 0; i < 3; ++i)
+            sent[i] = static_cast<int> (std::lround (-1e4 * torques[i]));
+        INFO ("reading " << k << " asks for " << asked.transpose() << "; motors " << falcon.motors[0] << ", " << falcon.motors[1] << ", " << falcon.motors[2]
+                         << " instead of " << sent[0] << ", " << sent[1] << ", " << sent[2]);
+        REQUIRE (eventually (20us, [&] { return falcon.hasGot (sent); }));
+        pushed += asked.isZero (0.0) ? 0 : 1;
+    }
+    CHECK (pushed > readings / 4);
+    CHECK (desk.device->counts().departures == 0);
+}
+
+TEST_CASE ("a Falcon whose position jumps, is impossible or is frozen under a push is not trusted", "[falcon][safety]")
+{
+    Desk desk;
+    auto& falcon = desk.falcon;
+    REQUIRE (desk.opens());
+    test::Sketch sketch;
+    sketch.node ("push", "signal.constant", { { "value", 0.8 } }).node ("motor", "device.force").wire ("push.out -> motor.force.y");
+    sketch.graph.root.nodes.back().role = "stylus";
+    const auto plan = sketch.compile().plan;
+    REQUIRE (plan);
+    Engine engine { plan };
+    auto limits = desk.limits;
+    limits.watchdog = GuardLimits::none;   // the ticks of this test are not those of a clock
+    limits.max_impulse = limits.max_energy = GuardLimits::none;
+    engine.attach ("stylus", *desk.device, limits);
+    const auto& guard = engine.guardOf ("stylus");
+    const auto ticksUntil = [&] (auto&& so) {
+        return eventually ([&] {
+            engine.tick();
+            return so();
+        });
+    };
+    auto pushes = [&, at = 50]() mutable {   // it moves all the time, at 0.1 m/s
+        return ticksUntil ([&] {
+            falcon.hold ({ 1e-4 * std::abs (at++ % 100 - 50), 0.0, 0.14 }, 0);
+            return ! falcon.isAtRest();
+        });
+    };
+    REQUIRE (pushes());
+    SECTION ("a byte has changed: the position jumps")
+    {
+        falcon.fault = Fault::changed;
+        CHECK (ticksUntil ([&] { return guard.isLatched(); }));
+        CHECK (ticksUntil ([&] { return falcon.isAtRest(); }));
+        falcon.fault = Fault::none;
+        const auto packets = falcon.packets.load();
+        CHECK (ticksUntil ([&] { return falcon.packets > packets + 200; }));
+        CHECK (falcon.isAtRest());   // until a person rearms
+    }
+    SECTION ("counts that no pose has")
+    {
+        falcon.fault = Fault::impossible;
+        CHECK (ticksUntil ([&] { return desk.device->read().fault == ReadingFault::failed && falcon.isAtRest(); }));
+        CHECK_FALSE (guard.isLatched());
+        falcon.fault = Fault::none;
+        CHECK (pushes());
+    }
+    SECTION ("frozen")
+    {
+        CHECK (ticksUntil ([&] { return falcon.isAtRest(); }));
+        CHECK_FALSE (guard.isLatched());
+        CHECK (pushes());
+    }
+}
+
+TEST_CASE ("a Falcon has no force until all its encoders have passed their marks", "[falcon][safety]")
+{
+    Desk desk;
+    desk.falcon.homed = 5;
+    REQUIRE (desk.opens());
+    CHECK (desk.ticksUntil ([&] { return desk.reading.fault == ReadingFault::not_homed; }, { 0.0, 0.0, 1.0 }));
+    CHECK (desk.ticksUntil ([&] { return desk.falcon.bits == (1u | 8u); }));   // homing, and red
+    CHECK (desk.falcon.pushes == 0);
+    desk.falcon.homed = 7;
+    CHECK (desk.pushes());
+    desk.falcon.fault = Fault::forgetful;
+    CHECK (desk.ticksUntil ([&] { return desk.reading.fault == ReadingFault::not_homed && desk.falcon.isAtRest(); }, { 0.0, 0.0, 1.0 }));
+    desk.falcon.fault = Fault::none;
+    desk.falcon.homed = 7;
+    CHECK (desk.pushes());
+}
+
+TEST_CASE ("bytes between the Falcon and the computer that are lost or added make no wrong reading", "[falcon][safety]")
+{
+    Desk desk;
+    auto& falcon = desk.falcon;
+    falcon.hold ({ 0.01, 0.0, 0.14 }, 0);
+    REQUIRE (desk.opens());
+    REQUIRE (desk.reads());
+    const auto known = desk.reading.position;
+    falcon.fault = GENERATE (Fault::shorter, Fault::shifted, Fault::noisy);
+    const auto before = desk.device->counts().readings;
+    CHECK (desk.ticksUntil ([&] {
+        CHECK ((desk.reading.position - known).norm() < 1e-9);
+        CHECK (desk.reading.buttons == 0);
+        return desk.device->counts().readings > before + 100;
+    }));
+    CHECK (desk.device->counts().departures == 0);
+}
+
+TEST_CASE ("a Falcon that answers late or not at all has no force for long, and is opened again", "[falcon][safety]")
+{
+    Desk desk;
+    auto& falcon = desk.falcon;
+    REQUIRE (desk.opens());
+    REQUIRE (desk.pushes());
+    SECTION ("each answer takes 30 ms: readings are old, and come all the same")
+    {
+        falcon.fault = Fault::late;
+        const auto before = desk.device->counts().readings;
+        CHECK (desk.ticksUntil ([&] { return desk.device->counts().readings > before + 10; }));
+        CHECK (desk.device->counts().oldest > 0.02);
+        falcon.fault = Fault::none;
+        CHECK (desk.pushes());
+    }
+    SECTION ("none comes")
+    {
+        desk.is_patient = false;
+        REQUIRE (desk.opens());
+        REQUIRE (desk.pushes());
+        falcon.fault = Fault::silent;
+        CHECK (desk.ticksUntil ([&] { return desk.reading.fault == ReadingFault::unplugged; }, { 0.0, 0.0, 1.0 }));
+        CHECK (contains (desk.device->trouble(), "it does not answer"));
+        CHECK (eventually ([&] { return falcon.isAtRest(); }));
+        falcon.fault = Fault::none;
+        CHECK (desk.pushes());
+    }
+    SECTION ("it is unplugged")
+    {
+        falcon.unplug();
+        CHECK (desk.ticksUntil ([&] { return desk.reading.fault == ReadingFault::unplugged; }, { 0.0, 0.0, 1.0 }));
+    }
+    SECTION ("nobody asks for a force any more: the last one does not stay")
+    {
+        REQUIRE (desk.opens (Json::object(), 0.02));
+        REQUIRE (desk.pushes());
+        CHECK (eventually ([&] { return falcon.isAtRest(); }));
+        CHECK (desk.device->counts().silences > 0);
+        CHECK (desk.device->counts().departures == 0);
+    }
+}
+
+TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what is wrong is said", "[falcon]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "firmware.bin").string();
+    std::vector<std::uint8_t> image (7324);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image[i] = static_cast<std::uint8_t> (i * 31 + (i >> 8));
+    std::ofstream (file, std::ios::binary).write (reinterpret_cast<const char*> (image.data()), static_cast<std::streamsize> (image.size()));
+
+    Desk desk { false, image.size() };
+    CHECK (contains (desk.said(), R"(Give the file that has its firmware with the key "firmware")"));
+    CHECK (contains (desk.said ({ { "firmware", (folder / "none.bin").string() } }), "it cannot be read"));
+    CHECK (desk.falcon.loaded == 0);
+    desk.falcon.first_tries_that_fail = 3;
+    REQUIRE (desk.opens ({ { "firmware", file } }));
+    CHECK (desk.falcon.image() == image);
+    CHECK (desk.pushes());
+    CHECK (desk.said().empty());   // it has its firmware until its power is cut
+    CHECK (contains (desk.said ({ { "port", "ttyUSB0" } }), "name the port: falcon:/dev/ttyUSB0"));
+    CHECK (contains (desk.said ({ { "port", "/dev/null" } }), "is no serial port"));
+    CHECK (contains (desk.said ({ { "port", "/dev/not_there" } }), "No such file"));
+    REQUIRE (desk.opens());
+    Desk other;
+    CHECK (contains (other.said ({ { "port", desk.falcon.port() } }), "another role or another instance of Tactus is using it"));
+}
