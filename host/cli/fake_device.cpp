@@ -3,6 +3,9 @@
 #include "commands.hpp"
 #include "report.hpp"
 
+#if defined(TACTUS_FAKE_FALCON)
+#include <host/drivers/falcon/fake_falcon.hpp>
+#endif
 #if defined(TACTUS_SERVICES)
 #include <host/drivers/bhaptics/fake_player.hpp>
 #include <host/drivers/haply/fake_inverse3.hpp>
@@ -33,7 +36,7 @@ namespace
 using namespace hid;
 using Clock = std::chrono::steady_clock;
 
-[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3", vest = "bhaptics_vest";
+[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3", vest = "bhaptics_vest", falcon = "falcon";
 
 struct FakeOptions
 {
@@ -109,12 +112,41 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     }
 }
 
-#if defined(TACTUS_SERVICES)
+#if defined(TACTUS_SERVICES) || defined(TACTUS_FAKE_FALCON)
 [[noreturn]] void cannot (const std::string& fault, const char* what)
 {
-    fail (Message::error ("fake/fault", fault, "this service does not have this fault", std::string ("choose ") + what));
+    fail (Message::error ("fake/fault", fault, "this device or service does not have this fault", std::string ("choose ") + what));
 }
 
+#endif
+
+#if defined(TACTUS_FAKE_FALCON)
+FakeFalcon::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeFalcon&)
+{
+    switch (kind)
+    {
+    case DeviceFault::Kind::stall:
+        return FakeFalcon::Fault::silent;
+    case DeviceFault::Kind::garbage:
+        return FakeFalcon::Fault::noisy;
+    case DeviceFault::Kind::half:
+        return FakeFalcon::Fault::shorter;
+    case DeviceFault::Kind::lost_byte:
+        return FakeFalcon::Fault::shifted;
+    case DeviceFault::Kind::lie:
+        return FakeFalcon::Fault::changed;
+    case DeviceFault::Kind::late:
+        return FakeFalcon::Fault::late;
+    case DeviceFault::Kind::reset:
+        return FakeFalcon::Fault::forgetful;
+    default:
+        cannot (text, "stall, garbage, half, lost_byte, late, lie or reset");
+    }
+}
+
+#endif
+
+#if defined(TACTUS_SERVICES)
 FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeInverse3&)
 {
     switch (kind)
@@ -151,7 +183,10 @@ FakePlayer::Fault faultOfService (DeviceFault::Kind kind, const std::string& tex
     }
 }
 
-/// Plays a service, whose messages no profile describes, until it must stop.
+#endif
+
+#if defined(TACTUS_SERVICES) || defined(TACTUS_FAKE_FALCON)
+/// Plays a device or a service, whose messages no profile describes, until it must stop.
 template <typename Service>
 void playService (Service& service, const FakeOptions& o)
 {
@@ -177,6 +212,38 @@ void playService (Service& service, const FakeOptions& o)
     }
 }
 
+#endif
+
+#if defined(TACTUS_FAKE_FALCON)
+void runFalcon (const FakeOptions& o)
+{
+    constexpr auto tick = std::chrono::milliseconds (1), longest = std::chrono::milliseconds (100);
+    constexpr double middle = 0.150;   // in front of the base, in m
+    const auto hand = handOf (o.hand);
+    hand->prepare (1e-3);
+    auto moved_to = Clock::now();
+    FakeFalcon device ([&] (const FakeFalcon::Place& grip, const FakeFalcon::Place& force) {
+        auto place = grip;
+        const auto now = Clock::now();
+        for (moved_to = std::max (moved_to, now - longest); moved_to + tick <= now; moved_to += tick)
+        {
+            const auto at = hand->read().position;
+            place = { at.x(), at.z(), middle - at.y() };   // its own axes: x right, y up, z towards the person
+            Effort effort;
+            effort.force = { force[0], -force[2], force[1] };
+            hand->write (effort);
+        }
+        return place;
+    });
+    std::cout << "a fake Falcon is at " << device.port() << "; play on it: --device ROLE=falcon:" << device.port() << "\n"
+              << std::flush;
+    playService (device, o);
+    std::cout << device.packets << " packets heard, " << device.pushes << " with a force of at most " << numberText (device.largest_force) << " N, "
+              << device.malformed << " bytes that were none of a packet\n";
+}
+#endif
+
+#if defined(TACTUS_SERVICES)
 void sayWhere (const char* what, const char* driver, int port)
 {
     std::cout << "a fake " << what << " is at localhost:" << port << "; play on it: --device ROLE=" << driver << ":localhost:" << port << "\n"
@@ -207,13 +274,14 @@ void runVest (const FakeOptions& o)
 void run (const FakeOptions& o)
 {
     watchForStop();
+    if ((o.profile == inverse3 || o.profile == vest || o.profile == falcon) && (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()))
+        throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
+#if defined(TACTUS_FAKE_FALCON)
+    if (o.profile == falcon) return runFalcon (o);
+#endif
 #if defined(TACTUS_SERVICES)
-    if (o.profile == inverse3 || o.profile == vest)
-    {
-        if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty())
-            throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
-        return o.profile == inverse3 ? runInverse3 (o) : runVest (o);
-    }
+    if (o.profile == inverse3) return runInverse3 (o);
+    if (o.profile == vest) return runVest (o);
 #endif
     const auto profile = profileOf (o.profile);
     FakeDevice::Options options { .wire = wireOf (o, *profile), .link = o.link, .port = o.port, .faults = {} };
@@ -258,7 +326,7 @@ void addFakeDevice (const Command& app)
     const auto command = app.add ("fake-device", "Simulate a device, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
-                    "The id of a profile, such as tactus_board; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
+                    "The id of a profile, such as tactus_board; or falcon; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
         .required();
     command
         .addOption ("--wire", options->wire,
@@ -283,6 +351,7 @@ void addFakeDevice (const Command& app)
                     "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1\n"
                     "  sudo tactus fake-device tactus_board --wire hid\n"
                     "  tactus fake-device haply_2diy --link arm --fault missed_byte@5:0.001\n"
+                    "  tactus fake-device falcon --fault stall@5:0.2\n"
                     "  tactus fake-device haply_inverse3 --port 10001\n"
                     "  tactus fake-device bhaptics_vest --port 15881");
     command.callback ([options] { run (*options); });

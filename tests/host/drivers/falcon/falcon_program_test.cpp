@@ -12,6 +12,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <string>
 
 using namespace tactus;
 using host::FakeFalcon;
@@ -49,6 +50,34 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
         static_cast<void> (program.finish());
     CHECK (falcon.isAtRest());
     CHECK (falcon.without_homing == 0);
+}
+
+TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")
+{
+    const TemporaryFolder folder;
+    folder.write ("push.json", R"({ "format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
+        "nodes": { "half": { "type": "signal.constant", "params": { "value": 0.5 } }, "motor": { "type": "device.force", "role": "stylus" } },
+        "wires": ["half.out -> motor.force.z"] })");
+    folder.write ("hand.json", R"({ "driver": "sim", "mass": "1000 kg" })");   // it does not move away
+    Running fake ({ "fake-device", "falcon", "--hand", (folder / "hand.json").string() });
+    REQUIRE (test::soon ([&] { return fake.out().find ('\n') != std::string::npos; }));
+    const auto told = fake.out();
+    const auto at = told.find ("ROLE=") + 5;
+    const auto ran = test::runTactus ({ "play", (folder / "push.json").string(), "--device", "stylus=" + told.substr (at, told.find ('\n', at) - at),
+                                        "--duration", "0.3", "--session", "off", "--osc", "off" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    const auto ended = fake.stop();
+    INFO (ended.out << ended.err);
+    CHECK (ended.status == 0);
+    const auto most = ended.out.find ("at most ");
+    REQUIRE (most != std::string::npos);
+    CHECK (std::stod (ended.out.substr (most + 8)) == Approx (0.5).epsilon (0.01));
+    CHECK (ended.out.find (" 0 bytes that were none of a packet") != std::string::npos);
+
+    const auto wrong = test::runTactus ({ "fake-device", "falcon", "--fault", "away@1:1" });
+    CHECK (wrong.status != 0);
+    CHECK (wrong.err.find ("choose stall, garbage, half, lost_byte, late, lie or reset") != std::string::npos);
 }
 
 TEST_CASE ("check-plugin finds no fault in the driver of the Falcon", "[falcon]")
