@@ -2,12 +2,14 @@
 #include "capture_device.hpp"
 #include "event_devices.hpp"
 #include "numbers_only.hpp"
+#include "probe_driver.hpp"
 
 #include <host/base/platform/signals.hpp>
 #include <host/base/platform/terminal.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/audio/card.hpp>
+#include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
 #include <host/devices/hid_link/open_device.hpp>
@@ -190,6 +192,11 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     if (! p.vid.empty()) text += "   " + p.vid + ":" + p.pid + "   " + (p.product.empty() ? "unnamed" : printableName (p.product));
     text += "\n    ";
     if (! p.may_open) return text + "may not be opened by this user: join the group of the port, such as dialout\n";
+    if (const auto* device = driverOf (p))
+    {
+        const auto slow = slowAdapter (p);
+        return text + device->what + ": --device ROLE=" + device->driver + ":" + printableName (p.path) + "\n" + (slow.empty() ? "" : "    " + printable (slow) + "\n");
+    }
     const auto fitting = profilesFor (p, profiles.profiles);
     std::string ids;
     for (const auto& profile : fitting)
@@ -401,6 +408,7 @@ void run (const DevicesOptions& options)
         capture.duration_s = options.duration_s;
         return captureDevice (capture);
     }
+    if (! options.capture.device.empty() && probeDriver (options.capture.device, options.duration_s, options.json)) return;
     const auto profiles = loadProfileLibrary();
     warnOfFiles (profiles.messages);
 
@@ -430,6 +438,7 @@ void run (const DevicesOptions& options)
     {
         for (const auto& port : ports)
             std::cout << textOf (port, profiles);
+        if (! options.probe) std::cout << withoutPort (ports);
         for (const auto& card : cards)
             std::cout << textOf (card);
     }
@@ -462,8 +471,9 @@ void addDevices (const Command& app)
                              .type ("FILE")
                              .excludes (probe);
     command.addOption ("--device", options->capture.device,
-                       "What to probe or record: hid:PROFILE, serial:PROFILE@PORT or udp:PROFILE@ADDRESS; or to record, the service of haply:HOST:PORT or "
-                       "bhaptics:HOST:PORT, or the path of a device, which need not have a profile; default: the only HID device with a profile");
+                       "What to probe or record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, haply:HOST:PORT or bhaptics:HOST:PORT; to probe, "
+                       "also DRIVER:PORT of any other driver; to record, also the path of a device, which need not have a profile; default: the only HID "
+                       "device with a profile");
     command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
         .check (within (300, 20000000))
         .needs (capture);
@@ -474,6 +484,7 @@ void addDevices (const Command& app)
                     "  tactus devices --probe\n"
                     "  tactus devices --probe --duration 2 --json\n"
                     "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"
+                    "  tactus devices --probe --device haply:localhost:10001\n"
                     "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });

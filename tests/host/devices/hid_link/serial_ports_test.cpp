@@ -3,6 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
+#include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/hid_link/serial_ports.hpp>
 
@@ -68,4 +69,32 @@ TEST_CASE ("a serial port could have a device of each profile that names a seria
     const auto of_board = idsFor ({ .path = "/dev/ttyACM0", .vid = "16c0", .pid = "0486" });
     CHECK (of_board == std::vector<std::string> { "tactus_board", "dualpanto", "haply_2diy" });
     CHECK (profilesFor ({ .path = "/dev/ttyS0" }, {}).empty());
+}
+
+TEST_CASE ("the port of a Falcon names its driver, and what makes it slow or hides it is told with the remedy", "[wires][falcon]")
+{
+    const TemporaryFolder folder;
+    folder.write ("ttyUSB3", "");
+    const SerialPort falcon { .path = (folder / "ttyUSB3").string(), .vid = "0403", .pid = "cb48" };
+    REQUIRE (driverOf (falcon) != nullptr);
+    CHECK (driverOf (falcon)->driver == std::string ("falcon"));
+    CHECK (driverOf ({ .path = "/dev/ttyUSB0", .vid = "0403", .pid = "6001" }) == nullptr);
+    CHECK (driverOf ({ .path = "/dev/ttyS0" }) == nullptr);
+
+    const auto adapters = folder / "adapters";
+    CHECK (slowAdapter (falcon, adapters).empty());
+    fs::create_directories (adapters / "ttyUSB3");
+    folder.write ("adapters/ttyUSB3/latency_timer", "16\n");
+    CHECK (slowAdapter (falcon, adapters)
+           == "its adapter keeps answers for up to 16 ms: sudo sh -c 'echo 1 > " + (adapters / "ttyUSB3/latency_timer").string() + "'");
+    folder.write ("adapters/ttyUSB3/latency_timer", "1\n");
+    CHECK (slowAdapter (falcon, adapters).empty());
+
+    const auto usb = folder / "usb";
+    CHECK (withoutPort ({}, usb).empty());
+    fs::create_directories (usb / "1-2");
+    folder.write ("usb/1-2/idVendor", "0403\n");
+    folder.write ("usb/1-2/idProduct", "cb48\n");
+    CHECK (withoutPort ({}, usb).find ("echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id") != std::string::npos);
+    CHECK (withoutPort (std::vector { falcon }, usb).empty());
 }

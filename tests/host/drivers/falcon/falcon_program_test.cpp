@@ -10,8 +10,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 using namespace tactus;
@@ -78,6 +80,28 @@ TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")
     const auto wrong = test::runTactus ({ "fake-device", "falcon", "--fault", "away@1:1" });
     CHECK (wrong.status != 0);
     CHECK (wrong.err.find ("choose stall, garbage, half, lost_byte, late, lie or reset") != std::string::npos);
+}
+
+TEST_CASE ("devices --probe shows the place and the buttons of a Falcon, and pushes nothing", "[falcon]")
+{
+    FakeFalcon falcon;
+    falcon.hold ({ 0.01, 0.005, 0.13 }, 9);
+    Running program ({ "devices", "--probe", "--device", "falcon:" + falcon.port() });
+    const bool is_asked = test::soon ([&] { return program.out().find ("pressed: plus minus") != std::string::npos; });
+    const auto ended = program.stop();
+    INFO (ended.out << ended.err);
+    CHECK (is_asked);
+    CHECK (ended.status == 0);
+    const std::string before = "position";
+    const auto at = ended.out.rfind (before);
+    REQUIRE (at != std::string::npos);
+    std::istringstream numbers (ended.out.substr (at + before.size()));
+    std::array<double, 3> mm {};
+    numbers >> mm[0] >> mm[1] >> mm[2];
+    CHECK (mm[0] == Approx (10.0).margin (0.1));   // a count is about 0.04 mm
+    CHECK (mm[1] == Approx (20.0).margin (0.1));
+    CHECK (mm[2] == Approx (5.0).margin (0.1));
+    CHECK (falcon.pushes == 0);
 }
 
 TEST_CASE ("check-plugin finds no fault in the driver of the Falcon", "[falcon]")

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "serial_ports.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace tactus::host::hid
+{
+
+/// A device at a serial port that a driver knows, and no profile.
+struct DriverPort
+{
+    const char* vid;
+    const char* pid;
+    const char* driver;   ///< as in --device ROLE=DRIVER:PORT
+    const char* what;     ///< for people: "a Novint Falcon"
+};
+
+/// The device at this port; null: no driver names it. [any thread]
+const DriverPort* driverOf (const SerialPort&);
+
+/// How to reduce the time for which the adapter of this port keeps answers; empty if that is 1 ms, or if the port has no such timer. [any thread]
+std::string slowAdapter (const SerialPort&, const std::filesystem::path& adapters = "/sys/bus/usb-serial/devices");
+
+/// What to do about devices of drivers that are plugged in, but have no serial port because the kernel does not know them; empty if there are none.
+/// [any thread]
+std::string withoutPort (std::span<const SerialPort>, const std::filesystem::path& usb = "/sys/bus/usb/devices");
+
+}   // namespace tactus::host::hid
