@@ -68,7 +68,8 @@ public:
 private:
     void serve (WebServer::Client& client, const std::stop_token& stop) override
     {
-        send (client, true);
+        bool is_first = true;
+        if (fault() != Fault::shy) send (client, std::exchange (is_first, false));
         auto pushed = Clock::now();
         while (! mustEnd (stop))
         {
@@ -82,7 +83,7 @@ private:
             if (fault() == Fault::silent || fault() == Fault::push) continue;
             // A message that comes before the answer has gone out was sent without waiting for it.
             if (client.says (delay_ms)) count ([] (Counts& n) { ++n.together; });
-            send (client, false);
+            send (client, std::exchange (is_first, false));
             count ([] (Counts& n) { ++n.answered; });
         }
     }
@@ -97,6 +98,7 @@ private:
         is_pushed = false;
         const auto read = readJson (text);
         const auto* arms = member (read.root, "inverse3");
+        if (arms == nullptr && member (member (read.root, "session"), "force_render_full_state") != nullptr) return;
         if (! read.messages.empty() || arms == nullptr || ! arms->is_array())
         {
             ++tally.refused;

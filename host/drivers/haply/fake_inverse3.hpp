@@ -26,6 +26,7 @@ public:
         silent,    ///< takes messages and answers nothing
         rename,    ///< its device has another id
         restart,   ///< closes the connection; afterwards it behaves well again
+        shy,       ///< says nothing to a new client before it is asked
         deaf,      ///< understands no force, so the arm stays idle
         garbage    ///< answers with something that is not JSON
     };

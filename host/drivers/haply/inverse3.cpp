@@ -55,7 +55,7 @@ public:
     std::string open (tactus_device_about& about)
     {
         std::string inventory;
-        if (auto why = exchange.open (address, "/", &inventory); ! why.empty()) return why;
+        if (auto why = exchange.open (address, "/", &inventory, Inverse3Messages::question); ! why.empty()) return why;
         if (auto why = messages.readInventory (inventory); ! why.empty()) return why;
         if (auto why = exchange.claim (messages.arm()); ! why.empty()) return why;   // the service adds up the forces of all programs
         if (auto why = hear (inventory); ! why.empty()) return why;

@@ -24,9 +24,9 @@ Exchange::Exchange (Partner& p, std::string called, Answer a, const Promises& wa
 {
 }
 
-std::string Exchange::open (const ServiceAddress& address, const std::string& path, std::string* first)
+std::string Exchange::open (const ServiceAddress& address, const std::string& path, std::string* first, const std::string& question)
 {
-    const auto why = socket.open (address.host, address.port, path, promises.connected, first);
+    const auto why = socket.open (address.host, address.port, path, promises.connected, first, question);
     return why.empty() ? why : service + " cannot be reached at " + address.host + ":" + address.port + ": " + why + ". Start it, or correct the address";
 }
 

@@ -82,8 +82,9 @@ public:
     /// `service` is what messages call it: "the service". The partner must outlive this.
     Exchange (Partner&, std::string service, Answer, const Promises&);
 
-    /// Connects, and waits for a message if `first` is not null. Returns why it cannot; empty if it can.
-    std::string open (const ServiceAddress&, const std::string& path, std::string* first);
+    /// Connects, and waits for a message if `first` is not null. If none has come after a second, sends `question`, if it is not empty: some services
+    /// only answer. Returns why it cannot; empty if it can.
+    std::string open (const ServiceAddress&, const std::string& path, std::string* first, const std::string& question = {});
 
     /// Makes sure that no other role or program drives this part of the open service. Returns why it cannot; empty if it can.
     std::string claim (std::string_view part);

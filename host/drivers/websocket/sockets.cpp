@@ -36,6 +36,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t longest_request = 8192;   // in bytes, as many servers have it
 constexpr auto longest_greeting = 2s;
+constexpr auto until_question = 1s;   // a service that speaks first has done so by then
 
 /// One end of a connection, and its messages.
 class End
@@ -66,20 +67,25 @@ public:
 
     /// Connects and shakes hands; reads the first message, too, if `reads`.
     void connect (const Tcp::resolver::results_type& where, const std::string& host, const std::string& target, Clock::duration longest, bool reads,
-                  std::function<void (error_code)> done)
+                  const std::string& question, std::function<void (error_code)> done)
     {
         opened = std::move (done);
         tcp().expires_after (longest);
-        tcp().async_connect (where, [this, host, target, reads] (error_code failed, const auto&) {
+        tcp().async_connect (where, [this, host, target, reads, question] (error_code failed, const auto&) {
             if (failed) return opened (failed);
             tcp().socket().set_option (Tcp::no_delay (true));
-            stream.async_handshake (host, target, [this, reads] (error_code refused) {
+            stream.async_handshake (host, target, [this, reads, question] (error_code refused) {
                 if (refused || ! reads) return opened (refused);
                 heard = [this] (const std::string& message) {
+                    notLater();
                     first = message;
                     return std::string();
                 };
                 hear (false);
+                if (question.empty()) return;
+                later (Clock::now() + until_question, [this, question] {
+                    if (first.empty()) say (question, [] {});
+                });
             });
         });
     }
@@ -208,14 +214,15 @@ void WebSocket::close()
     runAll();
 }
 
-std::string WebSocket::open (const std::string& host, const std::string& port, const std::string& target, Clock::duration longest, std::string* first)
+std::string WebSocket::open (const std::string& host, const std::string& port, const std::string& target, Clock::duration longest, std::string* first,
+                             const std::string& question)
 {
     Tcp::resolver resolver (inside->io);
     error_code failed;
     const auto found = resolver.resolve (host, port, failed);
     if (failed) return failed.message();
     std::optional<error_code> answer;
-    inside->end.connect (found, host, target, longest, first != nullptr, [&] (error_code e) { answer = e; });
+    inside->end.connect (found, host, target, longest, first != nullptr, question, [&] (error_code e) { answer = e; });
     runUntil (inside->io, Clock::now() + longest + 500ms, [&] { return answer.has_value(); });
     if (! answer || *answer == beast::error::timeout)
     {

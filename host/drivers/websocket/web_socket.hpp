@@ -24,8 +24,10 @@ public:
     /// Ends what is under way with an error. Call it in the destructor of the object that is called, when no other thread uses this any more.
     void close();
 
-    /// Connects, and waits for a message if `first` is not null. Returns why it cannot; empty if it can.
-    std::string open (const std::string& host, const std::string& port, const std::string& target, Clock::duration longest, std::string* first);
+    /// Connects, and waits for a message if `first` is not null. If none has come after a second, sends `question`, if it is not empty. Returns why it
+    /// cannot; empty if it can.
+    std::string open (const std::string& host, const std::string& port, const std::string& target, Clock::duration longest, std::string* first,
+                      const std::string& question = {});
 
     int descriptor();   ///< of the connection
 

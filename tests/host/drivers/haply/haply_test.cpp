@@ -5,6 +5,8 @@
 #include "support/rounds.hpp"
 #include "support/waiting.hpp"
 
+#include <host/cli/program.hpp>
+#include <host/cli/running.hpp>
 #include <host/drivers/haply/fake_inverse3.hpp>
 #include <host/drivers/haply/inverse3.hpp>
 #include <tactus/run/device/gestures.hpp>
@@ -235,6 +237,54 @@ TEST_CASE ("a service of the Inverse3 that pushes instead of answering is read, 
     CHECK (arm.rests());
     arm.opened.device.reset();
     CHECK (arm.service->force().isZero (0.0));
+}
+
+TEST_CASE ("a service of the Inverse3 that only answers is asked", "[haply][wires]")
+{
+    auto felt = std::make_shared<StillArm::Felt>();
+    auto made = host::FakeInverse3::make (0, std::make_unique<StillArm> (felt));
+    REQUIRE (made);
+    auto& service = **made;
+    service.fail (Fault::shy);
+    const auto driver = host::DeviceDriver::within (host::patient_haply_driver);
+    REQUIRE (driver);
+    Messages messages;
+    auto opened = (*driver)->open ({ { "driver", "haply" }, { "port", "localhost:" + std::to_string (service.port()) } }, messages);
+    INFO (test::text (messages));
+    REQUIRE (opened);
+    host::PluginDevice device { std::move (opened), std::nullopt, { .silence_s = 60.0, .patience = 60s, .real_time = false } };
+    device.prepare (1e-3);
+    CHECK (eventually ([&] {
+        const auto reading = device.read();
+        Effort effort;
+        if (reading.valid) effort.force.z() = 1.0;
+        device.write (effort);
+        return felt->force == 1.0;
+    }));
+    CHECK (device.counts().departures == 0);
+    CHECK (service.counts().refused == 0);
+    CHECK (service.counts().together == 0);
+}
+
+TEST_CASE ("devices --probe shows an Inverse3 whose service only answers, and pushes nothing", "[haply][wires]")
+{
+    auto felt = std::make_shared<StillArm::Felt>();
+    auto made = host::FakeInverse3::make (0, std::make_unique<StillArm> (felt));
+    REQUIRE (made);
+    auto& service = **made;
+    service.fail (Fault::shy);
+    test::Running program ({ "devices", "--probe", "--json", "--device", "haply:localhost:" + std::to_string (service.port()) });
+    const bool is_asked = test::soon ([&] { return service.counts().answered > 50; });
+    const auto ended = program.stop();
+    INFO (ended.out << ended.err);
+    REQUIRE (is_asked);
+    CHECK (ended.status == 0);
+    const auto json = Json::parse (ended.out);
+    REQUIRE (json.size() == 1);
+    CHECK (json[0]["valid"] == true);
+    CHECK (json[0]["position"] == Json { 0.01, 0.02, 0.03 });
+    CHECK (felt->steps == 0);
+    CHECK (service.counts().pushes == 0);
 }
 
 TEST_CASE ("an Inverse3 that stays idle although it is pushed is not trusted", "[haply][wires][safety]")
