@@ -6,12 +6,11 @@
 #include <tactus/node/generic.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace tactus::nodes
 {
 
-/// A general-purpose filter: seven responses from one second-order recursion.
+/// A general-purpose filter: seven responses from one state variable filter.
 ///
 ///     low, high    -3 dB at the cutoff with q = 0.7071 (Butterworth); a higher q rings there
 ///     band         gain 1 at the cutoff, q = cutoff over bandwidth
@@ -20,11 +19,12 @@ namespace tactus::nodes
 ///     low_shelf    gain_db below the cutoff, 0 dB above; high_shelf the other way round
 ///
 /// Bilinear transform, prewarped. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after
-/// a non-finite input. Parameters may move while it runs, slowly compared with the cutoff; a new kind takes effect immediately,
-/// with a click if there is a signal. High and band give 0 at rest: in a force path they drop the force on a hand that holds
+/// a non-finite input. Parameters may move while it runs, at any speed: the filter is a trapezoidal state variable filter, which stays
+/// stable. A new kind takes effect immediately, with a click if there is a signal. High and band give 0 at rest: in a force path they drop the force on a hand that holds
 /// still.
 ///
-/// Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter coefficients", with alpha from q.
+/// Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter coefficients", with alpha from q (the responses); V. Zavalishin,
+/// The Art of VA Filter Design, 2012 (the filter).
 struct BiquadFilter
 {
     enum class Kind
@@ -75,45 +75,36 @@ struct BiquadFilter
 
     void update() noexcept
     {
-        const double w = 2.0 * std::numbers::pi * usableCutoff (params.cutoff, rate) / rate;
-        const double c = math::cos (w);
-        const double rest = 2.0 * math::sin (0.5 * w) * math::sin (0.5 * w);   // 1 - cos w, without cancellation
-        const double alpha = math::sin (w) / (2.0 * params.q);
+        const double g = prewarped (params.cutoff, rate), k = 1.0 / params.q;
         const double a = math::pow (10.0, params.gain_db / 40.0);
-        const double s = 2.0 * std::sqrt (a) * alpha;
 
         switch (params.kind)
         {
         case Kind::low:
-            return set (0.5 * rest, rest, 0.5 * rest, 1.0 + alpha, -2.0 * c, 1.0 - alpha);
+            return set (g, k, 0.0, 0.0, 1.0);
         case Kind::high:
-            return set (0.5 * (1.0 + c), -(1.0 + c), 0.5 * (1.0 + c), 1.0 + alpha, -2.0 * c, 1.0 - alpha);
+            return set (g, k, 1.0, -k, -1.0);
         case Kind::band:
-            return set (alpha, 0.0, -alpha, 1.0 + alpha, -2.0 * c, 1.0 - alpha);
+            return set (g, k, 0.0, k, 0.0);
         case Kind::notch:
-            return set (1.0, -2.0 * c, 1.0, 1.0 + alpha, -2.0 * c, 1.0 - alpha);
+            return set (g, k, 1.0, -k, 0.0);
         case Kind::peak:
-            return set (1.0 + alpha * a, -2.0 * c, 1.0 - alpha * a, 1.0 + alpha / a, -2.0 * c, 1.0 - alpha / a);
+            return set (g, k / a, 1.0, k / a * (a * a - 1.0), 0.0);
         case Kind::low_shelf:
-            return set (a * (a + 1.0 - (a - 1.0) * c + s), 2.0 * a * (a - 1.0 - (a + 1.0) * c), a * (a + 1.0 - (a - 1.0) * c - s),
-                        a + 1.0 + (a - 1.0) * c + s, -2.0 * (a - 1.0 + (a + 1.0) * c), a + 1.0 + (a - 1.0) * c - s);
+            return set (g / std::sqrt (a), k, 1.0, k * (a - 1.0), a * a - 1.0);
         case Kind::high_shelf:
-            return set (a * (a + 1.0 + (a - 1.0) * c + s), -2.0 * a * (a - 1.0 + (a + 1.0) * c), a * (a + 1.0 + (a - 1.0) * c - s),
-                        a + 1.0 - (a - 1.0) * c + s, 2.0 * (a - 1.0 - (a + 1.0) * c), a + 1.0 - (a - 1.0) * c - s);
+            return set (g * std::sqrt (a), k, a * a, k * (1.0 - a) * a, 1.0 - a * a);
         }
     }
 
     Outputs tick (const Inputs& in) noexcept { return { .out = state (filter, in.in) }; }
 
 private:
-    void set (double b0, double b1, double b2, double a0, double a1, double a2) noexcept
-    {
-        filter = { b0 / a0, b1 / a0, b2 / a0, a1 / a0, a2 / a0 };
-    }
+    void set (double g, double k, double direct, double band, double low) noexcept { filter = stateVariable (g, k, direct, band, low); }
 
     double rate = 4000.0;   // Hz
-    Biquad filter;
-    BiquadState state;
+    StateVariable filter;
+    StateVariableState state;
 };
 
 }   // namespace tactus::nodes

@@ -15,7 +15,7 @@ namespace tactus::nodes
 /// discretised by the bilinear transform, prewarped so that the cutoff is exact. With a cutoff at or below the first resonance
 /// of a device, it keeps textures from exciting that resonance. A step overshoots by 4 %. The delay is about
 /// sqrt (2) / (2 pi cutoff) s at low frequencies. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from
-/// rest, even after a non-finite input. For a vector, such as the force of a motor, see filter.reconstruction.
+/// rest, even after a non-finite input. The cutoff may move at any speed. For a vector, such as the force of a motor, see filter.reconstruction.
 ///
 /// Source: Butterworth 1930; Hayward 2007, section 5 (reconstruction filter).
 struct Butterworth2
@@ -42,14 +42,14 @@ struct Butterworth2
 
     void prepare (const Setup& setup) noexcept { rate = setup.rate_hz; }
 
-    void update() noexcept { filter = butterworth2 (params.cutoff, rate); }
+    void update() noexcept { filter = movingButterworth2 (params.cutoff, rate); }
 
     Outputs tick (const Inputs& in) noexcept { return { .out = state (filter, in.in) }; }
 
 private:
     double rate = 4000.0;   // Hz
-    Biquad filter;
-    BiquadState state;
+    StateVariable filter;
+    StateVariableState state;
 };
 
 }   // namespace tactus::nodes

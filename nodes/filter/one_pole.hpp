@@ -50,8 +50,8 @@ struct OnePole
         a = (k - 1.0) / (k + 1.0);
     }
 
-    /// The same form as BiquadState, reduced to first order, and the same rule: a sample that would make the state non-finite
-    /// gives 0.
+    /// Transposed direct form II. In first order it is stable while the cutoff moves: |s| is at most the largest input, and |out| at most twice
+    /// that. A sample that would make the state non-finite gives 0.
     Outputs tick (const Inputs& in) noexcept
     {
         const double out = b * in.in + s;

@@ -48,7 +48,7 @@ struct Reconstruction
 
     void prepare (const Setup& setup) noexcept { rate = setup.rate_hz; }
 
-    void update() noexcept { filter = butterworth2 (params.cutoff, rate); }
+    void update() noexcept { filter = movingButterworth2 (params.cutoff, rate); }
 
     Outputs tick (const Inputs& in) noexcept
     {
@@ -60,8 +60,8 @@ struct Reconstruction
 
 private:
     double rate = 4000.0;   // Hz
-    Biquad filter;
-    BiquadState x, y, z;
+    StateVariable filter;
+    StateVariableState x, y, z;
 };
 
 }   // namespace tactus::nodes
