@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace tactus
 {
@@ -535,7 +536,25 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     }
     if (enabled == 1.0) has_rearmed = false;
     enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
+    countClipping (wanted, passed);
     return last;
+}
+
+/// A stop, and the rise after it, are no clipping: they have messages of their own.
+void Guard::countClipping (const Effort& wanted, double passed_s) noexcept
+{
+    constexpr double window_s = 1.0, part = 1e-3;   // of the effort: less is not felt
+    if (reason != Stop::none || enabled < 1.0) return;
+    const auto differs = [] (const auto& a, const auto& b) { return ! ((a - b).stableNorm() <= part * b.stableNorm()); };
+    bool is_clipped = differs (last.force, wanted.force) || differs (last.torque, wanted.torque);
+    for (const auto& [given, asked] : { std::pair { &last.axes, &wanted.axes }, std::pair { &last.signals, &wanted.signals } })
+        for (int i = 0; i < std::min (given->size(), asked->size()); ++i)
+            is_clipped = is_clipped || ! (std::abs ((*given)[i] - (*asked)[i]) <= part * std::abs ((*asked)[i]));
+    judged_s += passed_s;
+    if (is_clipped) clipped_s += passed_s;
+    if (judged_s < window_s) return;
+    clips = clipped_s > 0.5 * judged_s;
+    judged_s = clipped_s = 0.0;
 }
 
 /// Leaves out the parts of the effort that are limited to 0, rather than scaling the others to 0, and returns the share of the rest,

@@ -194,6 +194,10 @@ public:
     /// True during a stop that only rearm() can end, even if another cause is reported. [any thread that owns the guard]
     bool isLatched() const noexcept { return latched != Stop::none; }
 
+    /// True if in the last whole second without a stop most ticks asked for more than the limits of size and slew let through: what the graph asks
+    /// for is not what is felt. [any thread that owns the guard]
+    bool isClipping() const noexcept { return clips; }
+
     /// The reason why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
 
@@ -240,6 +244,7 @@ private:
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
     void note (Stop, const Effort& wanted, const Reading&) noexcept;
     void describeStale (Event&, const Reading&) const noexcept;
+    void countClipping (const Effort& wanted, double passed_s) noexcept;
     Effort crossfaded (const Effort& wanted) const noexcept;
     double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
     void approach (const Effort& to, double step_s) noexcept;
@@ -271,6 +276,8 @@ private:
     Event event;
     std::uint64_t count = 0, change_count = 0;   // of stops; of changes of `event`
     bool asked_to_halt = false;
+    double judged_s = 0.0, clipped_s = 0.0;   // time in this second, and the part of it in which the effort was clipped
+    bool clips = false;                       // most of the last second was
 
     bool is_watching = false;     // at least one limit needs the watches
     bool watches_turns = false;   // at least one limit needs the rotation

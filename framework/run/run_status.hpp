@@ -37,6 +37,7 @@ struct RunStatus
         double force = 0.0, torque = 0.0;       ///< magnitudes, in N and N m
         Guard::Stop stop = Guard::Stop::none;   ///< why the guard withholds the effort now
         bool is_latched = false;                ///< a stop lasts until rearm, even if another cause is reported
+        bool is_clipping = false;               ///< most ticks of the last second asked for more than the guard's limits let through
 
         // What follows rarely changes, so most ticks do not publish it.
         std::string_view name;   ///< lives as long as the engine

@@ -135,6 +135,7 @@ void Runner::publish() noexcept
         if (is_released) role.force = role.torque = 0.0;
         role.stop = guard.stop();
         role.is_latched = guard.isLatched();
+        role.is_clipping = guard.isClipping();
         // The name lives in the channel of the role, so a channel with another guard has another name.
         is_new[i] = role.name.data() != name.data() || seen[i] != guard.changes();
         if (! is_new[i]) continue;

@@ -36,9 +36,15 @@ void printStatus (const Runner& run, double rate_hz, bool over_the_last, const s
         { formatted ("   late p50 %.1f us, p99 %.1f us, max %.0f us", 1e6 * late.quantile (0.5), 1e6 * late.quantile (0.99), 1e6 * late.longest()), 4 },
         { formatted (", missed %zu of %zu ticks", static_cast<std::size_t> (now.misses), static_cast<std::size_t> (now.ticks)), 2 },
     };
-    if (now.phase == RunStatus::Phase::running)
-        for (const auto& role : now.shown())
-            if (role.stop != Guard::Stop::none) parts.push_back ({ "   " + printableName (role.name) + " stopped: " + describe (role.latestEvent()), 0 });
+    for (const auto& role : now.shown())
+    {
+        if (now.phase != RunStatus::Phase::running) break;
+        const auto name = "   " + printableName (role.name);
+        if (role.stop != Guard::Stop::none)
+            parts.push_back ({ name + " stopped: " + describe (role.latestEvent()), 0 });
+        else if (role.is_clipping)
+            parts.push_back ({ name + ": its guard clips most ticks, as the graph asks for more than its limits", 0 });
+    }
     parts.push_back ({ hardware, 1 });
     const auto line = statusLine (std::move (parts), over_the_last && ! is_last ? stderrColumns() : 0);
     std::fprintf (stderr, "%s%s%s", over_the_last ? "\r\033[K" : "", line.c_str(), is_last ? "\n" : "");

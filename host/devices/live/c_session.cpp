@@ -151,6 +151,7 @@ struct tactus_session
     std::map<std::string, std::string> warned;     // ids of warnings, by role, likewise
     Messages events;
     std::map<std::string, tactus::Guard::Stop> told;   // by role: the stop that the caller was told about
+    std::map<std::string, bool> clipping;              // by role: the caller was told that its guard clips most ticks
     bool is_over = false;
     bool misses_main = false;                   // the main thread of the program has ended
     std::atomic<bool> has_given_up { false };   // tactus_session_stop has waited long enough   [any thread]
@@ -185,6 +186,10 @@ void tactus_session::tellStops()
     {
         using Stop = tactus::Guard::Stop;
         const auto name = std::string (role.name);
+        if (! std::exchange (clipping[name], role.is_clipping) && role.is_clipping)
+            events.push_back (Message::warning ("run/clipped", "/devices/" + name,
+                                                "the guard clips most ticks: the graph asks for more force than its limits, or for a faster change",
+                                                "lower the gains, or look for a part that grows"));
         if (std::exchange (told[name], role.stop) == role.stop || role.stop == Stop::none || role.stop == Stop::halted) continue;
         events.push_back (Message::warning ("run/guard", "/devices/" + name, describe (role.latestEvent()),
                                             role.is_latched ? "find out what stops the run, then rearm" : ""));

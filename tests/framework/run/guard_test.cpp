@@ -566,3 +566,25 @@ TEST_CASE ("guard: the halt that ends a run does not hide the earlier reason for
     CHECK (guard.stop() == Guard::Stop::halted);
     CHECK (guard.latest().why == Guard::Stop::not_finite);
 }
+
+TEST_CASE ("guard: a graph that asks for more than the limits on most ticks of a second is reported, until it does not", "[guard]")
+{
+    auto guard = guardWith ({ .max_force = 1.0 });
+    const auto run = [&] (double seconds, double force, int of_ten) {
+        for (int k = 0; k < static_cast<int> (seconds / dt); ++k)
+            guard (pushing (k % 10 < of_ten ? force : 0.5), fresh);
+    };
+    run (3.0, 1.0, 10);   // just within the limit
+    CHECK_FALSE (guard.isClipping());
+    run (3.0, 5.0, 3);   // peaks
+    CHECK_FALSE (guard.isClipping());
+    run (2.5, 5.0, 8);
+    CHECK (guard.isClipping());
+    run (2.5, 0.5, 10);
+    CHECK_FALSE (guard.isClipping());
+    run (2.5, 5.0, 10);
+    CHECK (guard.isClipping());
+    guard.halt();   // a stop has a message of its own
+    run (2.5, 0.0, 10);
+    CHECK (guard.stop() == Guard::Stop::halted);
+}

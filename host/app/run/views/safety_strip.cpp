@@ -203,6 +203,12 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
         now.warned = true;
     }
     for (const auto& role : status.shown())
+        if (now.running && role.is_clipping)
+        {
+            now.guard = filled (TRANS ("%1: the guard clips most ticks"), juce::String (std::string (role.name)));
+            now.warned = true;
+        }
+    for (const auto& role : status.shown())
         if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
         {
             const auto event = role.latestEvent();
