@@ -224,7 +224,8 @@ struct ElasticSurface
         const auto& surface = *settings.surface;
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             return std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
-        return wrongSide (surface);
+        if (auto wrong = wrongSide (surface); ! wrong.empty()) return wrong;
+        return unevenForce (settings.surface);
     }
 
     void prepare (const Setup& setup)

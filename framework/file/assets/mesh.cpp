@@ -44,6 +44,66 @@ void checkBudget (double Budgets::*which, std::size_t count, std::size_t line)
     throw MeshProblem { std::move (over.id), std::move (over.text), line, std::move (over.remedy) };
 }
 
+namespace
+{
+constexpr std::size_t most_corners_cut = 1000;   // cutting ears takes the square of the number of corners, or more
+
+/// Twice the area of a polygon, times its normal. Source: Newell's method.
+Vec3 areaOf (const std::vector<Vec3>& points, const std::vector<int>& polygon)
+{
+    Vec3 sum = Vec3::Zero();
+    const auto& first = points[static_cast<std::size_t> (polygon[0])];
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+        sum += (points[static_cast<std::size_t> (polygon[i])] - first).cross (points[static_cast<std::size_t> (polygon[i + 1])] - first);
+    return sum;
+}
+
+Vec3 turnAt (const std::vector<Vec3>& points, int before, int here, int after)
+{
+    const auto at = [&] (int i) -> const Vec3& { return points[static_cast<std::size_t> (i)]; };
+    return (at (here) - at (before)).cross (at (after) - at (here));
+}
+
+bool isConvex (const std::vector<Vec3>& points, const std::vector<int>& polygon)
+{
+    const Vec3 normal = areaOf (points, polygon);
+    const auto n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i)
+        if (turnAt (points, polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]).dot (normal) < 0.0) return false;
+    return true;
+}
+
+/// Cuts a polygon into triangles at its ears: corners whose triangle has no other corner within. Source: Meisters, "Polygons have ears" (1975).
+std::vector<std::array<int, 3>> cutIntoTriangles (const std::vector<Vec3>& points, std::vector<int> polygon)
+{
+    const Vec3 normal = areaOf (points, polygon);
+    const auto at = [&] (int i) -> const Vec3& { return points[static_cast<std::size_t> (i)]; };
+    const auto isEar = [&] (std::size_t i) {
+        const auto n = polygon.size();
+        const int a = polygon[(i + n - 1) % n], b = polygon[i], c = polygon[(i + 1) % n];
+        if (! (turnAt (points, a, b, c).dot (normal) > 0.0)) return false;
+        for (const int p : polygon)
+            if (p != a && p != b && p != c && turnAt (points, a, b, p).dot (normal) >= 0.0 && turnAt (points, b, c, p).dot (normal) >= 0.0
+                && turnAt (points, c, a, p).dot (normal) >= 0.0 && at (p) != at (a) && at (p) != at (b) && at (p) != at (c))
+                return false;
+        return true;
+    };
+    std::vector<std::array<int, 3>> triangles;
+    while (polygon.size() > 3)
+    {
+        std::size_t ear = 0;
+        while (ear < polygon.size() && ! isEar (ear))
+            ++ear;
+        if (ear == polygon.size()) ear = 1;   // it crosses itself: any cut is as good as another
+        const auto n = polygon.size();
+        triangles.push_back ({ polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n] });
+        polygon.erase (polygon.begin() + static_cast<std::ptrdiff_t> (ear));
+    }
+    triangles.push_back ({ polygon[0], polygon[1], polygon[2] });
+    return triangles;
+}
+}   // namespace
+
 void MeshBuilder::point (const Vec3& at, std::size_t line)
 {
     if (! at.allFinite()) throw MeshProblem { "mesh/syntax", "a point is not finite", line };
@@ -60,13 +120,22 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
             throw MeshProblem { "mesh/no_such_point", "a face refers to a point that is not among the " + std::to_string (points()) + " points before it",
                                 line };
 
-    const auto at = [&] (std::size_t i) { return joined[static_cast<std::size_t> (corners[i])]; };
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        if (const std::array<int, 3> t { at (0), at (i - 1), at (i) }; t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-        {
-            made.triangles.push_back (t);
-            checkBudget (&Budgets::triangles, made.triangles.size(), line);
-        }
+    std::vector<int> polygon;
+    for (const auto corner : corners)
+        polygon.push_back (joined[static_cast<std::size_t> (corner)]);
+    const auto add = [&] (int a, int b, int c) {
+        if (a == b || b == c || c == a) return;
+        made.triangles.push_back ({ a, b, c });
+        checkBudget (&Budgets::triangles, made.triangles.size(), line);
+    };
+    if (polygon.size() < 4 || isConvex (made.points, polygon))
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            add (polygon[0], polygon[i - 1], polygon[i]);
+    else if (polygon.size() > most_corners_cut)
+        throw MeshProblem { "mesh/too_large", "a face that is not convex has " + std::to_string (polygon.size()) + " corners; at most " + std::to_string (most_corners_cut) + " are cut into triangles", line, "triangulate it in the program that made it" };
+    else
+        for (const auto& [a, b, c] : cutIntoTriangles (made.points, polygon))
+            add (a, b, c);
 }
 
 namespace

@@ -203,16 +203,6 @@ Spot MeshWalk::across (const Spot& spot, int corner) const noexcept
     return there;
 }
 
-bool isInsideOut (const Mesh& mesh)
-{
-    for (const auto& beside : neighboursOf (mesh))
-        if (std::ranges::min (beside) < 0) return false;
-    double volume = 0.0;
-    for (int t = 0; t < mesh.size(); ++t)
-        volume += mesh.corner (t, 0).dot (mesh.corner (t, 1).cross (mesh.corner (t, 2)));
-    return volume < 0.0;
-}
-
 std::vector<Vec3> normalsOf (const Mesh& mesh)
 {
     std::vector<Vec3> normals (mesh.points.size(), Vec3::Zero());

@@ -77,9 +77,6 @@ private:
     std::vector<int> first, sharing;              // the triangles that share point i: from sharing[first[i]] to just before sharing[first[i + 1]]
 };
 
-/// True for a closed mesh whose triangles run clockwise as seen from outside. An open mesh has no inside.
-bool isInsideOut (const Mesh&);
-
 /// The outward normal at each point: the mean of the normals of its triangles, weighted by their angles there. 0 for a point
 /// without triangles. Source: Baerentzen & Aanaes 2005.
 std::vector<Vec3> normalsOf (const Mesh&);

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
 #include "mesh_walk.hpp"
+#include "placed_surface.hpp"
+#include "surface_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace tactus
 {
@@ -44,17 +52,224 @@ std::string problemOf (const Surface& s)
     return badWeights (s);
 }
 
+namespace
+{
+std::string short3 (double v)
+{
+    char digits[32];
+    std::snprintf (digits, sizeof digits, "%.3g", v);
+    return digits;
+}
+
+std::string placeOf (const Mesh& mesh, int t)
+{
+    const auto [a, b, c] = cornersOf (mesh, t);
+    const Vec3 middle = (a + b + c) / 3.0;
+    return "triangle " + std::to_string (t) + ", around (" + short3 (middle.x()) + ", " + short3 (middle.y()) + ", " + short3 (middle.z()) + ") of the file";
+}
+
+/// Which triangles run the other way round than most of those that they are connected with, and the pieces of the mesh.
+struct Orientation
+{
+    std::vector<char> turned;    // by triangle
+    std::vector<int> piece;      // by triangle
+    std::vector<char> is_open;   // by piece
+    int pieces = 0;
+};
+
+Orientation orientationOf (const Mesh& mesh)
+{
+    struct Use
+    {
+        int triangle;
+        bool forwards;
+    };
+    std::map<std::pair<int, int>, std::vector<Use>> edges;
+    for (int t = 0; t < mesh.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const int a = mesh.triangles[at (t)][i], b = mesh.triangles[at (t)][(i + 1) % 3];
+            edges[std::minmax (a, b)].push_back ({ t, a < b });
+        }
+    std::vector<std::vector<std::pair<int, bool>>> beside (mesh.triangles.size());   // neighbour, and whether it runs the same way round
+    std::vector<char> has_rim (mesh.triangles.size());
+    for (const auto& [ends, uses] : edges)
+    {
+        if (uses.size() == 1) has_rim[at (uses[0].triangle)] = 1;
+        if (uses.size() != 2) continue;   // where three meet, no two of them are neighbours
+        const bool agrees = uses[0].forwards != uses[1].forwards;
+        beside[at (uses[0].triangle)].emplace_back (uses[1].triangle, agrees);
+        beside[at (uses[1].triangle)].emplace_back (uses[0].triangle, agrees);
+    }
+    Orientation made { std::vector<char> (mesh.triangles.size()), std::vector<int> (mesh.triangles.size(), -1), {}, 0 };
+    for (int first = 0; first < mesh.size(); ++first)
+    {
+        if (made.piece[at (first)] >= 0) continue;
+        std::vector<int> all { first };
+        made.piece[at (first)] = made.pieces;
+        bool is_open = false;
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+            const int t = all[i];
+            is_open = is_open || has_rim[at (t)] != 0;
+            for (const auto& [other, agrees] : beside[at (t)])
+                if (made.piece[at (other)] < 0)
+                {
+                    made.piece[at (other)] = made.pieces;
+                    made.turned[at (other)] = static_cast<char> (made.turned[at (t)] ^ (agrees ? 0 : 1));
+                    all.push_back (other);
+                }
+        }
+        // The way round that most of the area has is right.
+        double area[2] { 0.0, 0.0 };
+        for (const int t : all)
+            area[made.turned[at (t)] != 0 ? 1 : 0] += areaNormal (cornersOf (mesh, t)).norm();
+        if (area[1] > area[0])
+            for (const int t : all)
+                made.turned[at (t)] ^= 1;
+        made.is_open.push_back (is_open ? 1 : 0);
+        ++made.pieces;
+    }
+    return made;
+}
+
+/// How much a piece of a mesh is closed, and on which side it is: its volume as seen from its middle, and the sum of its normals over its area, which is 0
+/// if it is closed and 1 if it is flat.
+struct PieceShape
+{
+    double volume = 0.0, openness = 0.0;
+};
+
+PieceShape shapeOf (const Mesh& mesh, const Orientation& orientation, int piece)
+{
+    Vec3 middle = Vec3::Zero(), sum = Vec3::Zero();
+    double area = 0.0;
+    PieceShape made;
+    for (const bool second : { false, true })
+        for (int t = 0; t < mesh.size(); ++t)
+        {
+            if (orientation.piece[at (t)] != piece) continue;
+            const auto corners = cornersOf (mesh, t);
+            const Vec3 n = areaNormal (corners), centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            if (second)
+                made.volume += (centre - middle / area).dot (n);
+            else
+            {
+                area += n.norm();
+                middle += n.norm() * centre;
+                sum += n;
+            }
+        }
+    made.openness = sum.norm() / area;
+    return made;
+}
+
+/// What is wrong with the way round of the triangles of a mesh without frames.
+std::string wrongWayRound (const Mesh& mesh)
+{
+    const auto orientation = orientationOf (mesh);
+    if (const auto found = std::ranges::find (orientation.turned, 1); found != orientation.turned.end())
+    {
+        const auto count = std::ranges::count (orientation.turned, 1);
+        return placeOf (mesh, static_cast<int> (found - orientation.turned.begin()))
+               + (count > 1 ? " and " + std::to_string (count - 1) + " more run" : std::string (" runs"))
+               + " through an edge in the same direction as a neighbour, so the mesh faces inwards there, and cannot be felt from outside: reverse the order of the"
+                 " corners of these faces (\"recalculate normals outside\" in 3-D programs)";
+    }
+    constexpr int most_pieces = 64;          // each takes a pass over the mesh
+    constexpr double nearly_closed = 0.45;   // a hemisphere has 0.5, and may be a bowl
+    for (int piece = 0; piece < std::min (orientation.pieces, most_pieces); ++piece)
+    {
+        const auto shape = shapeOf (mesh, orientation, piece);
+        const bool is_open = orientation.is_open[at (piece)] != 0;
+        if (! (shape.volume < 0.0) || (is_open && shape.openness > nearly_closed)) continue;
+        const auto first = static_cast<int> (std::ranges::find (orientation.piece, piece) - orientation.piece.begin());
+        if (! is_open)
+            return "the surface faces inwards at node " + std::to_string (mesh.triangles[at (first)][0])
+                   + " and attracts there: reverse the triangles of the mesh, or u^z of the frame at this node";
+        return "the mesh is open, and its faces point to its middle, as at " + placeOf (mesh, first)
+               + ": it can be felt only from inside; reverse its triangles, unless it is a hollow that is meant to be felt from inside";
+    }
+    return {};
+}
+}   // namespace
+
 std::string wrongSide (const Surface& s)
 {
+    if (s.frames.empty()) return wrongWayRound (*s.mesh);
     const auto sentence = [] (std::size_t node) {
         const auto problem = "the surface faces inwards at node " + std::to_string (node) + " and attracts there";
         return problem + ": reverse the triangles of the mesh, or u^z of the frame at this node";
     };
-    if (s.frames.empty()) return isInsideOut (*s.mesh) ? sentence (0) : "";
     const auto normals = normalsOf (*s.mesh);
     for (std::size_t i = 0; i < s.frames.size(); ++i)
         if (s.frames[i].row (2).dot (normals[i % normals.size()].transpose()) > 0.0) return sentence (i % normals.size());
     return {};
+}
+
+std::string unevenForce (const std::shared_ptr<const Surface>& surface)
+{
+    constexpr double turned = 25.0, wrong = 0.25;   // degrees; of the force of the law
+    constexpr std::size_t most_presses = 200;       // triangles
+    const PlacedSurface body (surface, 1.0, Vec3::Zero(), Vec3::Zero());
+    const auto& mesh = body.walk().mesh();
+    auto tool = body.noTool();
+    body.choose (0.0, { 0, { { 1.0, 0.0, 0.0 }, mesh.corner (0, 0) } }, tool);
+
+    std::vector<std::pair<double, int>> turns;   // of the frames of a triangle against its normal, degrees
+    Vec3 low = mesh.points[0], high = low;
+    for (int t = 0; t < mesh.size(); ++t)
+    {
+        const auto corners = cornersOf (mesh, t);
+        const Vec3 out = direction (areaNormal (corners));
+        double least = 1.0;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            std::array<double, 3> weights {};
+            weights[i] = 1.0;
+            least = std::min (least, -body.frameAt ({ t, { weights, corners[i] } }, tool).row (2).dot (out.transpose()));
+            low = low.cwiseMin (corners[i]);
+            high = high.cwiseMax (corners[i]);
+        }
+        if (const double degrees = std::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi; degrees > turned) turns.emplace_back (degrees, t);
+    }
+    if (turns.empty()) return {};
+    const auto count = std::min (turns.size(), most_presses);
+    std::ranges::partial_sort (turns, turns.begin() + static_cast<std::ptrdiff_t> (count), std::greater {});
+    turns.resize (count);
+
+    const double deepest = 0.02 * (high - low).norm();
+    constexpr double of_size = 0.1;   // of a triangle: a body may be thin where its triangles are small
+    double least = 1.0, most = 1.0, depth_there = deepest;
+    int worst = -1;
+    for (const auto& [degrees, t] : turns)
+    {
+        const double depth = std::min (deepest, of_size * std::sqrt (areaNormal (cornersOf (mesh, t)).norm()));
+        for (const std::array<double, 3> weights : { std::array { 1.0 / 3, 1.0 / 3, 1.0 / 3 }, std::array { 0.6, 0.2, 0.2 }, std::array { 0.2, 0.6, 0.2 },
+                                                     std::array { 0.2, 0.2, 0.6 } })
+        {
+            const auto corners = cornersOf (mesh, t);
+            const Vec3 out = direction (areaNormal (corners)), on = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+            const Vec3 p = on - depth * out;
+            // The law of the face: that of its corners, at the depth below it.
+            PlacedSurface::ContactSample flat = body.feel ({ t, { weights, on } }, p, nullptr, tool);
+            const double at_depth = flat.d.z() > 0.0 ? flat.f.z() / flat.d.z() * depth : 0.0;   // exact if the law is linear
+            if (! (at_depth > 0.0)) continue;
+            const auto felt = begun (body, tool, { t, { weights, on } }, true, p);
+            const double share = felt.touch.foot.triangle < 0 ? 0.0 : forceOf (body, tool, felt, p).dot (out) / at_depth;
+            if (std::abs (share - 1.0) > std::max (most - 1.0, 1.0 - least))
+            {
+                worst = t;
+                depth_there = depth;
+            }
+            least = std::min (least, share);
+            most = std::max (most, share);
+        }
+    }
+    if (worst < 0 || std::max (most - 1.0, 1.0 - least) < wrong) return {};
+    return "the mesh is too coarse for its edges: its frames turn by " + short3 (turns.front().first) + " degrees within a flat face, so a press of "
+           + short3 (depth_there) + " units into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most) + " times the force of its law, most wrongly at "
+           + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
 }
 
 }   // namespace tactus

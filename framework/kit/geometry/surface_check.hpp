@@ -3,6 +3,7 @@
 
 #include "surface.hpp"
 
+#include <memory>
 #include <string>
 
 namespace tactus
@@ -11,7 +12,12 @@ namespace tactus
 /// The reason why a surface cannot be used, as a sentence. Empty if it can.
 std::string problemOf (const Surface&);
 
-/// A warning if a usable surface faces inwards, and therefore attracts; or empty.
+/// A warning if a part of a usable surface faces inwards, and therefore attracts or cannot be felt; or empty: triangles that run the other way round
+/// than their neighbours, a closed mesh that is inside out, and an open one that seems to be. Time: n log n.
 std::string wrongSide (const Surface&);
+
+/// A warning if the force on a flat face differs much from its law, because the frames of its corners turn: or empty. A block of 8 points, whose
+/// frames are means over its edges, feels like a dome. The sentence says by how much, from presses into the faces whose frames turn most.
+std::string unevenForce (const std::shared_ptr<const Surface>&);
 
 }   // namespace tactus
