@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/geometry/height_steps.hpp>
 #include <tactus/kit/geometry/spline_surface.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
@@ -8,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::nodes
@@ -43,6 +46,8 @@ namespace tactus::nodes
 ///  - The map's columns run along x, `pitch` apart, and its rows along y. The first row of a table is at y = 0. In a picture the
 ///    last row is at y = 0, so that it lies as seen from above. A map of one row is a profile along x, the same for all y.
 ///  - Outside the map the relief is continued by mirroring, so it never ends in a step.
+///  - A picture with 8 bits has 256 heights, so an even slope in it is a stair, and is felt as a file. `tactus validate` warns of such steps. Save
+///    16 bits, or average the heights with `smooth`, which keeps slopes.
 ///  - `height` is the height of white above black, or of 1 in a table. Left at 0, it is 0.1 mm for a picture, and 1 m for a table;
 ///    "1 um" suits a table from an instrument that writes micrometres.
 ///  - At a speed v, waves shorter than about v / f_max are gone: at 4 kHz and 0.1 m/s those below 0.1 mm, at 1 kHz below 0.4 mm.
@@ -64,6 +69,7 @@ struct HeightMap
         Sheet csv {};
         double pitch = 1e-4;
         double height = 0.0;
+        double smooth = 0.0;
 
         static constexpr std::tuple fields {
             field (&Map::image, "image", unit::count, "a picture; white is high"),
@@ -72,6 +78,8 @@ struct HeightMap
             field (&Map::height, "height", unit::metre,
                    "height of white above black in an image, or of the value 1 in a table; if 0, an image uses 0.1 mm and a table 1 m",
                    { .usual = { 0, 1e-3 } }),
+            field (&Map::smooth, "smooth", unit::metre, "heights are averaged over this length; slopes stay, shorter detail and the steps of 8 bits go",
+                   { .hard = { 0, 1 }, .usual = { 0, 5e-3 } }),
         };
     };
 
@@ -122,6 +130,7 @@ struct HeightMap
 
     Cost cost() const;
     std::string problem() const;
+    std::string warning (const Setup&) const;
 
     void prepare (const Setup& setup)
     {
@@ -258,6 +267,23 @@ inline std::string HeightMap::problem() const
     return {};
 }
 
+inline std::string HeightMap::warning (const Setup&) const
+{
+    if (! grid()) return {};
+    const Map& m = settings.map;
+    const double usual = m.image.grid ? 1e-4 : 1.0, step = feltStep (*grid()) * std::abs (m.height == 0.0 ? usual : m.height);
+    if (! (step > 0.0) || m.smooth >= 8.0 * m.pitch) return {};
+    constexpr double rise_at_a_step = 1.3;   // of a step per pitch: measured on stairs
+    const auto text = [] (double v) {
+        char digits[32];
+        std::snprintf (digits, sizeof digits, "%.3g", v);
+        return std::string (digits);
+    };
+    return "its heights are steps of " + text (1e6 * step) + " um, as with 8 bits: a slope is felt as a stair, with about "
+           + text (rise_at_a_step * step / m.pitch * std::abs (params.gain)) + " N at each step; save it with 16 bits, or set smooth, which keeps slopes, to \""
+           + text (1e3 * 10.0 * m.pitch) + " mm\" or more";
+}
+
 /// The map in m, its first row at y = 0.
 inline MirroredGrid HeightMap::heights() const
 {
@@ -270,7 +296,7 @@ inline MirroredGrid HeightMap::heights() const
     for (int row = 0; row < from.rows; ++row)
         for (int column = 0; column < from.columns; ++column)
             to (is_image ? from.rows - 1 - row : row, column) = height * from (row, column);
-    return to;
+    return m.smooth > 0.0 ? smoothedOver (std::move (to), m.smooth) : to;
 }
 
 inline void HeightMap::build()
