@@ -3,6 +3,7 @@
 #include "text_file.hpp"
 
 #include <tactus/kit/at.hpp>
+#include <tactus/text/as_utf8.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -56,7 +57,7 @@ std::string withoutDoubledQuotes (std::string_view text)
 class Parser
 {
 public:
-    Parser (std::string_view csv, std::string_view csv_name) : rest (csv), name (csv_name)
+    Parser (std::string csv, std::string_view csv_name) : whole (std::move (csv)), rest (whole), name (csv_name)
     {
         if (rest.starts_with ("\xEF\xBB\xBF"))
             rest.remove_prefix (3);
@@ -67,6 +68,7 @@ public:
         if (rest.find_first_not_of (" \t\r\n") == std::string_view::npos)
             return Message::error ("csv/empty", name, "the file is empty", "write a row of column names, then rows of numbers");
 
+        separator = separatorOf (rest.substr (0, rest.find_first_of ("\r\n")));
         auto parsed = nextLine();
         if (parsed)
             parsed = readHeader();
@@ -88,6 +90,35 @@ private:
     Message fail (std::string id, std::size_t column, std::string what, std::string remedy) const
     {
         return Message::error (std::move (id), name + ":" + std::to_string (line_number) + ":" + std::to_string (column), std::move (what), std::move (remedy));
+    }
+
+    /// The separator of the columns: a semicolon or a tab, as spreadsheets write them where the decimal sign is a comma, if the header has one and no
+    /// comma; else a comma.
+    static char separatorOf (std::string_view header)
+    {
+        char found = ',';
+        bool is_quoted = false;
+        for (const char c : header)
+        {
+            if (c == '"') is_quoted = ! is_quoted;
+            if (is_quoted) continue;
+            if (c == ',') return ',';
+            if (c == ';' || (c == '\t' && found != ';')) found = c;
+        }
+        return found;
+    }
+
+    std::string_view separatorInWords() const { return separator == ',' ? "comma" : separator == ';' ? "semicolon"
+                                                                                                     : "tab"; }
+
+    /// A field whose decimal sign is a comma, with a point.
+    std::string_view withPoint (std::string_view text)
+    {
+        const auto comma = text.find (',');
+        if (separator == ',' || comma == text.npos || text.find_first_of (",.", comma + 1) != text.npos || text.find ('.') < comma) return text;
+        plain = text;
+        plain[comma] = '.';
+        return plain;
     }
 
     Result<> nextLine()
@@ -116,9 +147,9 @@ private:
     {
         fields.clear();
 
-        for (std::size_t at = 0;; ++at)   // at: the position after the comma
+        for (std::size_t at = 0;; ++at)   // at: the position after the separator
         {
-            at = std::min (line.find_first_not_of (spaces, at), line.size());
+            at = std::min (line.find_first_not_of (separator == '\t' ? " " : spaces, at), line.size());
 
             if (at < line.size() && line[at] == '"')
             {
@@ -128,14 +159,14 @@ private:
                                  "add the closing quote, or remove this one");
 
                 fields.push_back ({ .text = trim (line.substr (at + 1, close - at - 1)), .column = at + 1 });
-                at = std::min (line.find_first_not_of (spaces, close + 1), line.size());
-                if (at < line.size() && line[at] != ',')
+                at = std::min (line.find_first_not_of (separator == '\t' ? " " : spaces, close + 1), line.size());
+                if (at < line.size() && line[at] != separator)
                     return fail ("csv/broken_quote", at + 1, "there is text after a closing double quote",
-                                 "put a comma after the closing quote, or write \"\" for a quote inside quotes");
+                                 "put a " + std::string (separatorInWords()) + " after the closing quote, or write \"\" for a quote inside quotes");
             }
             else
             {
-                const auto comma = std::min (line.find (',', at), line.size());
+                const auto comma = std::min (line.find (separator, at), line.size());
                 fields.push_back ({ .text = trim (line.substr (at, comma - at)), .column = at + 1 });
                 at = comma;
             }
@@ -153,7 +184,7 @@ private:
         return close;
     }
 
-    static bool isNumber (const Field& field) { return wholeNumber (field.text).has_value(); }
+    bool isNumber (const Field& field) { return wholeNumber (withPoint (field.text)).has_value(); }
 
     static std::string inColumn (std::string_view column, std::string_view text, const char* what)
     {
@@ -162,7 +193,7 @@ private:
 
     Result<> readHeader()
     {
-        if (std::ranges::all_of (fields, isNumber))
+        if (std::ranges::all_of (fields, [&] (const Field& f) { return isNumber (f); }))
             return fail ("csv/no_header", 1, "the first row holds numbers", "put a row of column names above it");
 
         std::set<std::string> seen;
@@ -200,7 +231,8 @@ private:
 
         for (std::size_t i = 0; i < fields.size(); ++i)
         {
-            const auto& [text, column] = fields[i];
+            const auto& [written, column] = fields[i];
+            const auto text = withPoint (written);
             const auto& name_of_column = table.columns[i];
             if (text.empty())
                 return fail ("csv/empty_field", column, "there is no number in column " + quote (name_of_column),
@@ -208,12 +240,12 @@ private:
 
             const auto number = readNumber (text);
             if (number.size > 0 && ! number.is_in_range)
-                return fail ("csv/out_of_range", column, inColumn (name_of_column, text, "is out of the range of a double"),
+                return fail ("csv/out_of_range", column, inColumn (name_of_column, written, "is out of the range of a double"),
                              "write inf or 0 if that is what you mean");
             if (number.size != text.size())
             {
                 const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
-                return fail ("csv/not_a_number", column, inColumn (name_of_column, text, "is not a number"),
+                return fail ("csv/not_a_number", column, inColumn (name_of_column, written, "is not a number"),
                              has_separator ? "separate the columns by commas" : "write a number like -1.5e-3, without a unit");
             }
 
@@ -222,9 +254,12 @@ private:
         return {};
     }
 
+    std::string whole;
     std::string_view rest;
     std::string name;
     std::size_t line_number = 0;
+    char separator = ',';
+    std::string plain;           // the latest number that had a decimal comma
     std::vector<Field> fields;   // fields of the current line; reused to save allocations
     Table table;
 };
@@ -236,7 +271,7 @@ Message unreadableTable (std::string_view name, std::string what)
 
 bool needsQuotes (std::string_view name)
 {
-    return name.find_first_of (",\"") != std::string_view::npos;
+    return name.find_first_of (",;\t\"") != std::string_view::npos;
 }
 
 std::string quotedForFile (std::string_view name)
@@ -258,7 +293,7 @@ std::optional<std::size_t> Table::column (std::string_view name) const noexcept
 
 Result<Table> readTable (std::string_view text, std::string_view name)
 {
-    return Parser (text, name).parse();
+    return Parser (asUtf8 (text), name).parse();
 }
 
 Result<Table> readTable (std::istream& in, std::string_view name)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_parts.hpp"
 
+#include <string>
+
 namespace tactus::readers
 {
 
@@ -10,8 +12,20 @@ void readObj (std::string_view bytes, MeshBuilder& mesh)
 {
     Lines lines (bytes);
     std::vector<long long> corners;
+    std::string joined;
     while (auto line = lines.next())
     {
+        // A backslash continues a line.
+        while (line->ends_with ('\\'))
+        {
+            if (joined.data() != line->data()) joined = *line;
+            joined.back() = ' ';
+            const auto more = lines.next();
+            if (! more) throw MeshProblem { "mesh/truncated", "its last line ends with a backslash", lines.number() };
+            joined += *more;
+            checkBudget (&Budgets::numbers, joined.size(), lines.number());
+            line = joined;
+        }
         const auto keyword = takeWord (*line);
         if (keyword == "v") mesh.point (takePoint (*line, lines.number()), lines.number());
         if (keyword != "f") continue;

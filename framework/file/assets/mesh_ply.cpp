@@ -5,6 +5,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -71,7 +72,7 @@ Header readHeader (Lines& lines)
 {
     Header header;
     const auto first = lines.next();
-    if (! first || *first != "ply") throw MeshProblem { "mesh/syntax", "it does not start with the word ply", 1 };
+    if (! first || (first->substr (0, 3) != "ply" && first->substr (0, 3) != "PLY") || first->find_first_not_of (" \t", 3) != first->npos) throw MeshProblem { "mesh/syntax", "it does not start with the word ply", 1 };
     while (auto line = lines.next())
     {
         const auto keyword = takeWord (*line);
@@ -181,9 +182,40 @@ void readFace (const Element& element, Body& body, MeshBuilder* mesh)
     }
     if (mesh != nullptr) mesh->face (corners, body.line());
 }
+/// Strips of triangles, as scanners write them: each point makes a triangle with the two before it, every other one the other way round. -1 begins a
+/// new strip.
+void readStrips (const Element& element, Body& body, MeshBuilder& mesh)
+{
+    for (const auto& p : element.properties)
+    {
+        if (p.length == nullptr)
+        {
+            body.number (p.value);
+            continue;
+        }
+        const bool wanted = p.name == "vertex_indices" || p.name == "vertex_index";
+        std::vector<long long> strip;
+        for (auto left = body.wholeNumber (p.length); left > 0; --left)
+        {
+            const double number = body.number (p.value);
+            if (! wanted) continue;
+            if (number == -1.0)
+            {
+                strip.clear();
+                continue;
+            }
+            if (! (number >= 0.0 && number <= std::numeric_limits<int>::max())) throw MeshProblem { "mesh/syntax", "a point index is out of range", body.line() };
+            strip.push_back (static_cast<long long> (number));
+            const auto n = strip.size();
+            if (n < 3) continue;
+            const bool turned = n % 2 == 0;
+            mesh.face (std::array { strip[n - 3], strip[turned ? n - 1 : n - 2], strip[turned ? n - 2 : n - 1] }, body.line());
+        }
+    }
+}
 }   // namespace
 
-/// Reads text or binary PLY: x, y and z of the points, and the point list of the faces. Ignores the rest.
+/// Reads text or binary PLY: x, y and z of the points, the point list of the faces, and strips of triangles. Ignores the rest.
 void readPly (std::string_view bytes, MeshBuilder& mesh)
 {
     Lines lines (bytes);
@@ -195,6 +227,8 @@ void readPly (std::string_view bytes, MeshBuilder& mesh)
         for (long long i = 0; i < element.count; ++i)
             if (element.name == "vertex")
                 readPoint (element, body, mesh);
+            else if (element.name == "tristrips")
+                readStrips (element, body, mesh);
             else
                 readFace (element, body, element.name == "face" ? &mesh : nullptr);
     }

@@ -2,6 +2,7 @@
 #include "binary.hpp"
 #include "mesh_parts.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace tactus::readers
@@ -19,6 +20,22 @@ std::size_t binarySize (std::string_view bytes)
     return header + facet * *takeNumber<std::uint32_t> (count, std::endian::little);
 }
 
+/// Programs write the words of the format in capitals too.
+bool isWord (std::string_view text, std::string_view word)
+{
+    return std::ranges::equal (text, word, [] (char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+/// True for text. A binary file may begin with "solid" too, and have more bytes after its triangles, but text has no zeros.
+bool isText (std::string_view bytes)
+{
+    constexpr std::size_t word = 5, looked_at = 1000;
+    auto start = bytes.substr (std::min (bytes.find_first_not_of (" \t\r\n"), bytes.size()));
+    if (start.starts_with ("\xef\xbb\xbf")) start.remove_prefix (3);
+    if (! isWord (start.substr (0, word), "solid")) return false;
+    return bytes.size() != binarySize (bytes) && bytes.substr (0, looked_at).find ('\0') == bytes.npos;
+}
+
 void addTriangle (MeshBuilder& mesh, std::size_t line = 0)
 {
     const auto n = mesh.points();
@@ -30,7 +47,7 @@ void readText (std::string_view bytes, MeshBuilder& mesh)
     Lines lines (bytes);
     while (auto line = lines.next())
     {
-        if (takeWord (*line) != "vertex") continue;
+        if (! isWord (takeWord (*line), "vertex")) continue;
         mesh.point (takePoint (*line, lines.number()), lines.number());
         if (mesh.points() % 3 == 0) addTriangle (mesh, lines.number());
     }
@@ -57,11 +74,10 @@ void readBinary (std::string_view bytes, MeshBuilder& mesh)
 }
 }   // namespace
 
-/// Reads text or binary STL; a binary file may also start with the word "solid".
+/// Reads text or binary STL.
 void readStl (std::string_view bytes, MeshBuilder& mesh)
 {
-    const bool text = bytes.starts_with ("solid") && bytes.size() != binarySize (bytes);
-    text ? readText (bytes, mesh) : readBinary (bytes, mesh);
+    isText (bytes) ? readText (bytes, mesh) : readBinary (bytes, mesh);
 }
 
 }   // namespace tactus::readers

@@ -2,10 +2,12 @@
 #include "table.hpp"
 #include "lines.hpp"
 
+#include <tactus/text/as_utf8.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -66,6 +68,7 @@ private:
     std::string_view name;
     Grid grid;
     std::size_t first_row = 0;   // line number of the first row
+    std::string plain;           // the latest number that had a decimal comma
 
     Message fail (std::string id, std::string what, std::string remedy) const
     {
@@ -75,6 +78,16 @@ private:
     Message failAt (std::size_t line, std::string id, std::string what, std::string remedy) const
     {
         return Message::error (std::move (id), std::string (name) + ":" + std::to_string (line), std::move (what), std::move (remedy));
+    }
+
+    /// A field whose decimal sign is a comma, with a point.
+    std::string_view withPoint (std::string_view field)
+    {
+        const auto comma = field.find (',');
+        if (comma == field.npos || field.find (',', comma + 1) != field.npos || field.find ('.') != field.npos) return field;
+        plain = field;
+        plain[comma] = '.';
+        return plain;
     }
 
     Checked takeRow (std::string_view line)
@@ -87,7 +100,7 @@ private:
         while (! line.empty())
         {
             const auto field = takeField (line, separator);
-            const auto value = numberIn<double> (field);
+            const auto value = numberIn<double> (separator == ',' ? field : withPoint (field));
             if (! value && columns == 0 && grid.rows == 0) return {};   // a header line
             if (! value || ! std::isfinite (*value))
                 return fail (
@@ -117,6 +130,20 @@ private:
         return {};
     }
 
+    /// The power of ten of which all positions are multiples: that of the last digit with which they were written; 0 if it is finer than 1e-9.
+    double lastDigit() const
+    {
+        constexpr double rounding = 1e-6;
+        for (double digit = 1e3; digit > 0.5e-9; digit *= 0.1)
+        {
+            bool all = true;
+            for (int i = 0; all && i < grid.rows; ++i)
+                all = std::abs (grid (i, 0) / digit - std::round (grid (i, 0) / digit)) < rounding;
+            if (all) return digit;
+        }
+        return 0.0;
+    }
+
     /// Converts two columns, positions and heights, to one row of heights.
     Checked takeLine()
     {
@@ -134,7 +161,22 @@ private:
                                    + numberText (grid (i, 0))
                                    + "; with even spacing it would be " + numberText (start + i * step),
                                "interpolate the heights at even positions, and save these");
-            heights.push_back (grid (i, 1));
+        }
+        // Positions that jitter, as those of a recording do, are not even ones: the heights are read between them.
+        // Even positions that were rounded when they were written are even ones.
+        const double exact = std::max (1e-6 * step, 0.501 * lastDigit());
+        for (int i = 0, next = 1; i < grid.rows; ++i)
+        {
+            const double x = start + i * step;
+            if (std::abs (grid (i, 0) - x) <= exact)
+            {
+                heights.push_back (grid (i, 1));
+                continue;
+            }
+            while (next + 1 < grid.rows && grid (next, 0) < x)
+                ++next;
+            const double share = (x - grid (next - 1, 0)) / (grid (next, 0) - grid (next - 1, 0));
+            heights.push_back (std::lerp (grid (next - 1, 1), grid (next, 1), std::clamp (share, 0.0, 1.0)));
         }
         grid = { .rows = 1, .columns = grid.rows, .values = std::move (heights) };
         return {};
@@ -142,6 +184,10 @@ private:
 };
 }   // namespace
 
-Result<Grid> readGrid (std::string_view text, std::string_view name) { return Reader (text, name).read(); }
+Result<Grid> readGrid (std::string_view bytes, std::string_view name)
+{
+    const auto text = asUtf8 (bytes);
+    return Reader (text, name).read();
+}
 
 }   // namespace tactus::readers

@@ -59,7 +59,7 @@ Result<Signal> readWav (const std::filesystem::path& path)
 
     if (reader == nullptr || ! isKnown (*reader))
         return Message::error ("wav/not_a_wav", path.string(), "it is not a supported WAV file",
-                               "save it as WAV, 32-bit float or 8-, 16-, 24- or 32-bit integer");
+                               "save it as WAV, 32- or 64-bit float or 8-, 16-, 24- or 32-bit integer");
 
     const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
     if (bytes_per_frame > largest_frame_bytes)

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace tactus::host
@@ -49,6 +50,13 @@ struct Bytes
         return all->substr (0, length);
     }
 
+    std::optional<std::uint64_t> longWord()
+    {
+        const auto high = word(), low = word();
+        if (! high || ! low) return std::nullopt;
+        return std::uint64_t { *high } << 32u | *low;
+    }
+
     bool blob()
     {
         const auto size = word();
@@ -66,6 +74,26 @@ bool addArgument (OSCMessage& message, char type, Bytes& from)
         const auto text = from.text();
         if (text) message.addString (toText (*text));
         return text.has_value();
+    }
+    // Types that OSC 1.0 does not require, and programs send all the same. A double and a long integer are rounded to what a param takes.
+    if (type == 'T' || type == 'F' || type == 'I')
+    {
+        message.addInt32 (type == 'F' ? 0 : 1);
+        return true;
+    }
+    if (type == 'N') return true;   // nothing
+    if (type == 'd' || type == 'h')
+    {
+        const auto bits = from.longWord();
+        if (! bits) return false;
+        const auto whole = std::bit_cast<std::int64_t> (*bits);
+        if (type == 'd')
+            message.addFloat32 (static_cast<float> (std::bit_cast<double> (*bits)));
+        else if (whole >= std::numeric_limits<std::int32_t>::min() && whole <= std::numeric_limits<std::int32_t>::max())
+            message.addInt32 (static_cast<std::int32_t> (whole));
+        else
+            message.addFloat32 (static_cast<float> (whole));
+        return true;
     }
     const auto word = type == 'i' || type == 'f' ? from.word() : std::nullopt;
     if (! word) return false;
@@ -86,10 +114,18 @@ std::optional<OSCMessage> stopIn (std::string_view message)
     return std::nullopt;
 }
 
+/// True for a message that starts a run or ends a stop, and has a value of a button. Its release (F) must not start anything, and programs differ in what
+/// they send on a press, so none of them does.
+bool isButtonThatStarts (std::string_view address, std::string_view types)
+{
+    return (address == "/tactus/start" || address == "/tactus/rearm") && types.find_first_of ("TFNIdh") != types.npos;
+}
+
 std::optional<OSCMessage> readMessage (Bytes from)
 {
     const auto address = from.text(), types = from.text();
     if (! address || ! types || ! types->starts_with (',') || types->size() > most_arguments + 1) return std::nullopt;
+    if (isButtonThatStarts (*address, *types)) return std::nullopt;
     try
     {
         OSCMessage message (juce::OSCAddressPattern (toText (*address)));

@@ -2,6 +2,7 @@
 #include "recorded_text.hpp"
 
 #include <tactus/kit/at.hpp>
+#include <tactus/text/as_utf8.hpp>
 #include <tactus/text/read_number.hpp>
 
 #include <algorithm>
@@ -25,8 +26,22 @@ Fields split (const std::string& line, char at)
     return parts;
 }
 
+/// A number whose decimal sign is a comma, with a point; any other field as it is.
+std::string withPoint (std::string field)
+{
+    const auto comma = field.find (',');
+    if (comma == std::string::npos) return field;
+    auto plain = field;
+    plain[comma] = '.';
+    return wholeNumber (plain) ? plain : field;
+}
+
+/// A semicolon or a tab if it separates numbers, in which commas may then be the decimal signs; else the first of these that occurs.
 char separatorOf (const std::string& line)
 {
+    const auto isNumberOrEmpty = [] (const std::string& part) { return trimmed (part).empty() || wholeNumber (withPoint (trimmed (part))).has_value(); };
+    for (const char c : { ';', '\t' })
+        if (line.find (c) != std::string::npos && std::ranges::all_of (split (line, c), isNumberOrEmpty)) return c;
     for (const char c : { ',', ';', '\t' })
         if (line.find (c) != std::string::npos) return c;
     return ' ';
@@ -38,7 +53,7 @@ Fields fieldsOf (const std::string& line)
     const char separator = separatorOf (line);
     Fields fields;
     for (auto& part : split (separator == ' ' ? trimmed (line) : line, separator))
-        if (auto field = trimmed (part); separator != ' ' || ! field.empty()) fields.push_back (std::move (field));
+        if (auto field = trimmed (part); separator != ' ' || ! field.empty()) fields.push_back (separator == ',' ? std::move (field) : withPoint (std::move (field)));
     return fields;
 }
 
@@ -127,8 +142,9 @@ bool startsWithNumber (const std::string& line)
     return ! start.empty() && (std::isdigit (static_cast<unsigned char> (start[0])) || start[0] == '-' || start[0] == '+' || start[0] == '.');
 }
 
-std::optional<RecordedText> tableIn (const std::string& text)
+std::optional<RecordedText> tableIn (const std::string& written_text)
 {
+    const auto text = asUtf8 (written_text);
     constexpr const char* byte_order_mark = "\xEF\xBB\xBF";
     const auto lines = split (text.starts_with (byte_order_mark) ? text.substr (3) : text, '\n');
     const auto written = writtenLines (lines);

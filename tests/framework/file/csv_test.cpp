@@ -116,7 +116,8 @@ TEST_CASE ("csv: every error has its own id and place", "[host][io][csv]")
         { "a,b\n1,2\n1.5 N,2\n", "csv/not_a_number", "feed.csv:3:1" },
         { "a,b\n1,  0x10\n", "csv/not_a_number", "feed.csv:2:5" },
         { "a,b\n1,+-2\n", "csv/not_a_number", "feed.csv:2:3" },
-        { "a;b\n1;2\n", "csv/not_a_number", "feed.csv:2:1" },
+        { "a,b\n1;2,3\n", "csv/not_a_number", "feed.csv:2:1" },
+        { "a;b\n1.000,5;2\n", "csv/not_a_number", "feed.csv:2:1" },
         { "a,b\n1,1e999\n", "csv/out_of_range", "feed.csv:2:3" },
         { "a,b\n1\n", "csv/ragged_row", "feed.csv:2:1" },
         { "a,b\n1,2,3\n", "csv/ragged_row", "feed.csv:2:5" },
@@ -265,4 +266,31 @@ TEST_CASE ("csv: rows are in the file once flushed, and the file never ends with
     REQUIRE (table.has_value());
     CHECK (table->rows() == 20'000);
     CHECK (table->at (19'999, 0) == 19'999.0);
+}
+
+TEST_CASE ("tables of spreadsheets are read: semicolons and tabs, decimal commas, UTF-16", "[file][csv]")
+{
+    const auto wide = [] (std::string_view text, bool is_big, bool has_mark) {
+        std::string bytes = has_mark ? (is_big ? "\xfe\xff" : "\xff\xfe") : "";
+        for (const char c : text)
+        {
+            if (is_big) bytes += '\0';
+            bytes += c;
+            if (! is_big) bytes += '\0';
+        }
+        return bytes;
+    };
+    const std::string plain = "t,x\n0.5,-1.25\n1.5,2e-3\n";
+    const auto wanted = readTable (plain, "a.csv");
+    REQUIRE (wanted);
+    const std::string semicolons = "t;x\r\n0,5;-1,25\r\n1,5;2e-3\r\n", tabs = "t\tx\n0,5\t-1,25\n1,5\t0,002\n";
+    for (const auto& text : { semicolons, tabs, std::string ("\"t\";\"x\"\n0.5;-1.25\n1.5;\"0,002\"\n"), wide (semicolons, false, true), wide (plain, true, true),
+                              wide (tabs, false, false), wide (plain, true, false) })
+    {
+        const auto table = readTable (text, "a.csv");
+        INFO ((table ? "" : describe (table.error())));
+        REQUIRE (table);
+        CHECK (table->columns == wanted->columns);
+        CHECK (table->values == wanted->values);
+    }
 }

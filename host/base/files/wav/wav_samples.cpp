@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav_samples.hpp"
 
+#include <tactus/text/budget.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace tactus::host
@@ -18,6 +22,8 @@ constexpr int shortest_format = 16, longest_format = 40;   // bytes; an extensib
 
 /// No program writes this many chunks; a file of empty chunks would take millions of reads.
 constexpr int most_chunks = 1000;
+
+constexpr std::uint32_t unknown_size = 0xffffffff;
 
 struct Chunks
 {
@@ -45,6 +51,24 @@ bool isSupported (const std::string& format)
     return code == 1 || code == 3 || code == 0xfffe;   // integers, floats, extensible; JUCE would decode Ogg Vorbis too
 }
 
+/// True if a chunk that may follow the samples begins here.
+bool beginsAChunk (juce::InputStream& wav, juce::int64 at)
+{
+    wav.setPosition (at);
+    const auto name = take (wav, 4);
+    static constexpr std::string_view known[] { "LIST", "id3 ", "ID3 ", "fact", "bext", "cue ", "smpl", "iXML", "PEAK", "JUNK", "_PMX" };
+    return std::ranges::find (known, name) != std::end (known);
+}
+
+int numberAt (const std::string& format, std::size_t at) { return static_cast<unsigned char> (format[at]) | static_cast<unsigned char> (format[at + 1]) << 8; }
+
+/// The whole frames in a number of bytes.
+juce::int64 wholeFrames (const std::string& format, juce::int64 bytes)
+{
+    const juce::int64 frame = format.size() >= shortest_format ? numberAt (format, 12) : 0;
+    return frame > 0 ? std::max (juce::int64 { 0 }, bytes) / frame * frame : 0;
+}
+
 /// Finds the chunks as JUCE does: the claimed size of the file ends the search. None if the file is not a WAV.
 std::optional<Chunks> findChunks (juce::InputStream& wav)
 {
@@ -52,6 +76,8 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
     const bool is_rf64 = kind == "RF64";
     if (! is_rf64 && kind != "RIFF") return std::nullopt;
     auto end = static_cast<std::uint64_t> (takeSize (wav)) + 8;
+    // A program that streams cannot go back to write the sizes, and leaves 0 or the largest number.
+    if (! is_rf64 && (end == 8 || end == std::uint64_t { unknown_size } + 8)) end = std::numeric_limits<std::uint64_t>::max();
     if (take (wav, 4) != "WAVE") return std::nullopt;
 
     std::optional<juce::int64> long_size;
@@ -76,6 +102,8 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
         {
             found.data_bytes = long_size.value_or (size);
             found.data_start = start;
+            const bool is_open = size == unknown_size || (size == 0 && ! beginsAChunk (wav, start));
+            if (! long_size && is_open) found.data_bytes = wholeFrames (found.format, wav.getTotalLength() - start);
             break;
         }
         wav.setPosition (start + padded (size));
@@ -154,12 +182,51 @@ private:
 };
 }   // namespace
 
+namespace
+{
+bool hasDoubles (const std::string& format)
+{
+    const bool is_extensible = numberAt (format, 0) == 0xfffe && format.size() >= 26;
+    return numberAt (format, is_extensible ? 24 : 0) == 3 && numberAt (format, 14) == 64;
+}
+
+void setNumber (std::string& format, std::size_t at, std::uint32_t value, std::size_t bytes)
+{
+    for (std::size_t i = 0; i < bytes; ++i)
+        format[at + i] = static_cast<char> (static_cast<unsigned char> (value >> 8u * i));
+}
+
+/// 64-bit floats as 32-bit ones, because JUCE reads no doubles: rounded by less than 1e-7 of their value.
+std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wav, juce::int64 bytes)
+{
+    const auto count = bytes / 8;
+    if (static_cast<double> (count) > budgets().numbers) return nullptr;
+    const auto claimed = chunks.data_bytes.value_or (0) / 2;
+    auto& format = chunks.format;
+    const auto rate = static_cast<std::uint32_t> (numberAt (format, 4)) | static_cast<std::uint32_t> (numberAt (format, 6)) << 16u;
+    const auto frame = static_cast<std::uint32_t> (numberAt (format, 12)) / 2;
+    setNumber (format, 8, rate * frame, 4);
+    setNumber (format, 12, frame, 2);
+    setNumber (format, 14, 32, 2);
+    if (format.size() >= 20 && numberAt (format, 0) == 0xfffe) setNumber (format, 18, 32, 2);
+    chunks.data_bytes = claimed;
+    juce::MemoryOutputStream out;
+    const auto header = headerFor (chunks);
+    out.write (header.data(), header.size());
+    wav.setPosition (chunks.data_start);
+    for (juce::int64 i = 0; i < count; ++i)
+        out.writeFloat (static_cast<float> (wav.readDouble()));
+    return std::make_unique<juce::MemoryInputStream> (out.getMemoryBlock(), true);
+}
+}   // namespace
+
 std::unique_ptr<juce::InputStream> samplesOnly (std::unique_ptr<juce::InputStream> wav)
 {
     const auto chunks = findChunks (*wav);
     if (! chunks || ! isSupported (chunks->format)) return nullptr;
     const auto in_file = std::max (juce::int64 { 0 }, wav->getTotalLength() - chunks->data_start);
     const auto bytes = std::clamp (chunks->data_bytes.value_or (0), juce::int64 { 0 }, in_file);
+    if (hasDoubles (chunks->format)) return rounded (*chunks, *wav, bytes);
     return std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes);
 }
 

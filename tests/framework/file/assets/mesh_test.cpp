@@ -233,3 +233,24 @@ TEST_CASE ("no damaged mesh crashes the reader", "[file][assets][mesh]")
                     RC_ASSERT ((corner >= 0 && corner < static_cast<int> (mesh->points.size())));
     });
 }
+
+TEST_CASE ("meshes are read as programs write them: continued lines, capitals, bytes after the end, strips", "[file][assets][mesh]")
+{
+    const auto triangles = [] (const std::string& bytes, const std::string& name) {
+        const auto mesh = readMesh (bytes, name);
+        INFO ((mesh ? "" : describe (mesh.error())));
+        REQUIRE (mesh);
+        return mesh->triangles;
+    };
+    using Triangles = std::vector<std::array<int, 3>>;
+    CHECK (triangles ("v 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nf 1 \\\r\n2 \\\r\n 3\n", "a.obj") == Triangles { { 0, 1, 2 } });
+    CHECK (problem ("v 0 0 0\\", "a.obj") == "mesh/truncated at a.obj:1");
+    CHECK (triangles ("SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\nENDSOLID\n", "a.STL")
+           == Triangles { { 0, 1, 2 } });
+    const auto binary = stlBinary ("solid of a program that writes its name here");
+    CHECK (triangles (binary + std::string (20, '\0'), "a.stl") == triangles (binary, "a.stl"));
+    CHECK (triangles ("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+                      "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n8 0 1 2 3 -1 2 3 4\n",
+                      "a.ply")
+           == Triangles { { 0, 1, 2 }, { 1, 3, 2 }, { 2, 3, 4 } });
+}

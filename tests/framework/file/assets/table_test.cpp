@@ -63,7 +63,7 @@ TEST_CASE ("an unreadable table gives an error with a position", "[file][assets]
     CHECK (problem ("1,2\nthree,4\n") == "table/not_a_number at a.csv:2");
     CHECK (problem (std::string ("1\0002\n", 4)) == "table/binary at a.csv:1");
 
-    const auto commas = readGrid ("1;2,5\n", "a.csv");
+    const auto commas = readGrid ("1;2,5,7\n", "a.csv");
     REQUIRE_FALSE (commas);
     CHECK (commas.error().remedy == "write decimal points instead of commas");
 }
@@ -88,4 +88,31 @@ TEST_CASE ("numbers written as text are read back bit for bit", "[file][assets][
         RC_ASSERT (grid->columns == columns);
         RC_ASSERT (grid->values == values);
     });
+}
+
+TEST_CASE ("positions that jitter give the heights at even positions", "[file][assets][table]")
+{
+    std::string text;
+    std::vector<double> wanted;
+    for (int i = 0; i < 50; ++i)
+    {
+        const double x = i + (i == 0 || i == 49 ? 0.0 : 0.4 * ((7 * i) % 11 - 5) / 5.0);
+        text += numberText (x) + "\t" + numberText (3.0 * x) + "\n";   // a ramp is the same wherever it is read
+        wanted.push_back (3.0 * i);
+    }
+    const auto grid = readGrid (text, "a.csv");
+    REQUIRE (grid);
+    REQUIRE (grid->values.size() == wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        CHECK (grid->values[i] == Approx (wanted[i]).margin (1e-6));
+}
+
+TEST_CASE ("decimal commas where semicolons or tabs separate, and UTF-16, are read", "[file][assets][table]")
+{
+    checkGrid ("0,5;1,25\n-3;4,0\n", 2, 2, { 0.5, 1.25, -3.0, 4.0 });
+    checkGrid ("0,5\t1,25\n-3\t4,0\n", 2, 2, { 0.5, 1.25, -3.0, 4.0 });
+    std::string wide = "\xff\xfe";
+    for (const char c : std::string ("0,5;1,25\n-3;4\n"))
+        (wide += c) += '\0';
+    checkGrid (wide, 2, 2, { 0.5, 1.25, -3.0, 4.0 });
 }

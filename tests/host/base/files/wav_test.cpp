@@ -354,3 +354,36 @@ TEST_CASE ("wav: no damaged header crashes the reader", "[host][io][wav]")
 
     tactus::test::property ("any bytes changed", damaged);
 }
+
+TEST_CASE ("a WAV whose length is unknown has all samples of its file, and 64-bit floats are read", "[wav]")
+{
+    const TemporaryFolder folder;
+    const std::string data = Bytes().u16 (0x1000).u16 (0x2000).u16 (0xf000).text;
+    for (const std::uint32_t claimed : { 0u, 0xffffffffu })
+    {
+        auto bytes = wavOf (1, 1, 16, data, claimed);
+        for (std::size_t i = 0; i < 4; ++i)
+            bytes[4 + i] = static_cast<char> (claimed & 255u);   // the size of the file is as unknown
+        folder.write ("open.wav", bytes);
+        const auto read = readWav (folder / "open.wav");
+        REQUIRE (read);
+        CHECK (read->channels == std::vector<std::vector<double>> { { 0.125, 0.25, -0.125 } });
+    }
+    folder.write ("empty.wav", wavOf (1, 1, 16, "", 0) + Bytes().ascii ("LIST").u32 (4).ascii ("INFO").text);
+    const auto empty = readWav (folder / "empty.wav");
+    CHECK ((! empty || empty->channels.at (0).empty()));
+
+    std::string doubles;
+    for (const double v : { 0.5, -0.25, 1.0 / 3.0 })
+    {
+        const auto bits = std::bit_cast<std::uint64_t> (v);
+        doubles += Bytes().u32 (static_cast<std::uint32_t> (bits)).u32 (static_cast<std::uint32_t> (bits >> 32)).text;
+    }
+    folder.write ("doubles.wav", wavOf (3, 1, 64, doubles, static_cast<std::uint32_t> (doubles.size())));
+    const auto read = readWav (folder / "doubles.wav");
+    REQUIRE (read);
+    REQUIRE (read->channels.at (0).size() == 3);
+    CHECK (read->channels[0][0] == 0.5);
+    CHECK (read->channels[0][1] == -0.25);
+    CHECK (read->channels[0][2] == Approx (1.0 / 3.0).epsilon (1e-7));
+}

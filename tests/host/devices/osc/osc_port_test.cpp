@@ -107,7 +107,7 @@ TEST_CASE ("an emergency stop is found whatever its arguments and the rest of it
     const auto stop = padded ("/tactus/emergency");
     const auto element = [] (const std::string& bytes) { return word (static_cast<std::uint32_t> (bytes.size())) + bytes; };
     const auto head = padded ("#bundle") + std::string (8, '\0');
-    const auto unreadable = padded ("/x") + padded (",d") + std::string (8, '\0');
+    const auto unreadable = padded ("/x") + padded (",d") + std::string (4, '\0');
     const std::vector<std::string> packets {
         stop + padded (","),
         stop + padded (",T"),
@@ -130,8 +130,28 @@ TEST_CASE ("an emergency stop is found whatever its arguments and the rest of it
         CHECK (packet.messages.front().getAddressPattern().toString() == "/tactus/emergency");
     }
     for (const auto* address : { "/tactus/start", "/tactus/rearm", "/tactus/emergency2", "/tactus/param", "/x/tactus/emergency" })
-        CHECK (readPacket (padded (address) + padded (",T")).messages.empty());
-    CHECK_FALSE (readPacket (stop + padded (",T")).right);
+        CHECK (readPacket (padded (address) + padded (",[i]") + word (1)).messages.empty());
+    for (const auto* address : { "/tactus/start", "/tactus/rearm" })
+        for (const auto* type : { ",T", ",F", ",N", ",I" })
+            CHECK (readPacket (padded (address) + padded (type)).messages.empty());   // the release of a button starts nothing
+    CHECK_FALSE (readPacket (stop + padded (",[i]") + word (1)).right);
+}
+
+TEST_CASE ("doubles, long integers, truth, impulse and nil are read as what a param takes", "[osc]")
+{
+    const auto number = word (0x3fe00000) + word (0), large = word (1) + word (0), small = word (0xffffffff) + word (0xfffffff9);
+    const auto packet = readPacket (padded ("/a") + padded (",dhhTFNI") + number + large + small);
+    REQUIRE (packet.right);
+    REQUIRE (packet.messages.size() == 1);
+    const auto& m = packet.messages.front();
+    REQUIRE (m.size() == 6);
+    CHECK (m[0].getFloat32() == 0.5f);
+    CHECK (m[1].getFloat32() == 4294967296.0f);
+    CHECK (m[2].getInt32() == -7);
+    CHECK (m[3].getInt32() == 1);
+    CHECK (m[4].getInt32() == 0);
+    CHECK (m[5].getInt32() == 1);
+    CHECK_FALSE (readPacket (padded ("/a") + padded (",d") + word (0)).right);
 }
 
 TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their end is read", "[osc]")
@@ -187,7 +207,7 @@ TEST_CASE ("malformed packets are harmless and counted", "[osc]")
             padded ("/a") + padded (",b") + word (0x7fffffff),
             padded ("/a") + padded (",b") + word (0xffffffff) + "abcd",
             padded ("/a") + padded (",b") + word (0x80000000),
-            padded ("/a") + padded (",d") + std::string (8, 'x'),
+            padded ("/a") + padded (",d") + std::string (4, 'x'),
             padded ("/a") + padded (",[[[["),
             padded ("/a") + padded ("," + std::string (60000, 'i')),
             padded ("/ a#*?{}[") + padded (","),

@@ -56,6 +56,18 @@ TEST_CASE ("a recording may begin with lines about the measurement, and its rows
     CHECK (tableOf ("1,2,\n3,4,\n").columns == Names { "column 1", "column 2" });
 }
 
+TEST_CASE ("a recording may have decimal commas where semicolons or tabs separate, and UTF-16", "[fit]")
+{
+    const std::vector<double> wanted { 0.5, 1.25, -3.0, 4.0 };
+    CHECK (tableOf ("x;f\n0,5;1,25\n-3,0;4\n").values == wanted);
+    CHECK (tableOf ("x\tf\r\n0,5\t1,25\r\n-3\t4,0\r\n").values == wanted);
+    std::string wide = "\xff\xfe";
+    for (const char c : std::string ("x;f\n0,5;1,25\n-3;4\n"))
+        (wide += c) += '\0';
+    CHECK (tableOf (wide).values == wanted);
+    CHECK (tableOf ("x,f\n1,2\n3,4\n").values == std::vector<double> { 1.0, 2.0, 3.0, 4.0 });
+}
+
 TEST_CASE ("a damaged row of a recording is an error, and is not taken for a line about the measurement", "[fit]")
 {
     const auto where = [] (const std::string& text) {
