@@ -30,6 +30,7 @@ void addCurve (const Command&);
 void addCheckPlugin (const Command&);
 void addExport (const Command&);
 void addConvert (const Command&);
+void addImportData (const Command&);
 void addCapture (const Command&);
 void addTest (const Command&);
 void addReport (const Command&);

@@ -81,6 +81,7 @@ int main (int argc, char** argv)
     addCheckPlugin (app);
     addExport (app);
     addConvert (app);
+    addImportData (app);
     addCapture (app);
     addTest (app);
     addReport (app);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#if ! defined(_WIN32)
+#include <unistd.h>
+#endif
+
+namespace tactus::host
+{
+
+namespace
+{
+struct ImportOptions
+{
+    std::string kind, folder, out, mass, rate;
+};
+
+/// Starts `python3 -m tactus.data` in the place of this program, so that its output and its status are those of the command. Without the package, a
+/// sentence says so, and the status is that of wrong usage.
+constexpr auto script = R"(import sys
+try:
+    from tactus import data
+except ImportError:
+    sys.exit(sys.stderr.write("error: the Python package tactus is not there; install it, or set PYTHONPATH to the folder python of the build\n") and 2)
+sys.exit(data.main(sys.argv[1:]))
+)";
+
+void run (const ImportOptions& options)
+{
+    std::vector<std::string> words { "python3", "-c", script, options.kind, options.folder, "-o", options.out };
+    for (const auto& [name, value] : { std::pair { "--mass", &options.mass }, std::pair { "--rate", &options.rate } })
+        if (! value->empty()) words.insert (words.end(), { name, *value });
+    std::cout.flush();
+#if ! defined(_WIN32)
+    std::vector<char*> pointers;
+    for (auto& word : words)
+        pointers.push_back (word.data());
+    pointers.push_back (nullptr);
+    ::execvp (pointers[0], pointers.data());
+#endif
+    throw UsageError ("python3 cannot be started; install Python 3, and the Python package tactus");
+}
+}   // namespace
+
+void addImportData (const Command& app)
+{
+    const auto options = std::make_shared<ImportOptions>();
+    const auto command = app.add ("import-data", "Make presets from recordings and models of others, with the Python package");
+    command.addOption ("kind", options->kind, "hatt: the Penn Haptic Texture Toolkit, one .xml a texture").required();
+    command.addOption ("folder", options->folder, "The folder with its files").required();
+    command.addOption ("-o", options->out, "The folder to write presets to").required();
+    command.addOption ("--mass", options->mass, "kg that turn the acceleration of the models into a force; default: 0.05");
+    command.addOption ("--rate", options->rate, "Hz of the models; default: 1000");
+    command.footer ("Starts python3 -m tactus.data. See docs/import.md.\n\n"
+                    "Example:\n"
+                    "  tactus import-data hatt HaTT/Models -o textures");
+    command.callback ([options] { run (*options); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""Importers of recordings and models of others, with files of the same layout: those of the toolkits may not be passed on."""
+
+import cmath
+import contextlib
+import io
+import json
+import math
+import pathlib
+import random
+import tempfile
+import unittest
+
+from support import TestCase
+from tactus import Graph, data
+
+
+def stable(order, rng):
+    """A random polynomial whose zeros are within the unit circle."""
+    polynomial = [1.0]
+    for _ in range(order):
+        reflection, extended = rng.uniform(-0.7, 0.7), polynomial + [0.0]
+        polynomial = [extended[k] + reflection * extended[len(polynomial) - k] for k in range(len(extended))]
+    return polynomial
+
+
+def frequencies_of(polynomial):
+    """The line spectral frequencies, where the symmetric and the antisymmetric polynomial change their signs on the unit circle."""
+    order, found = len(polynomial) - 1, []
+
+    def value(angle, sign):
+        at = sum(c * cmath.exp(-1j * angle * k) for k, c in enumerate(polynomial))
+        whole = cmath.exp(0.5j * angle * (order + 1)) * (at + sign * cmath.exp(-1j * angle * (order + 1)) * at.conjugate())
+        return whole.real if sign > 0 else whole.imag
+
+    for sign in (1, -1):
+        steps = 20000
+        for i in range(1, steps - 1):
+            low, high = math.pi * i / steps, math.pi * (i + 1) / steps
+            if value(low, sign) * value(high, sign) >= 0.0:
+                continue
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                low, high = (low, middle) if value(low, sign) * value(middle, sign) <= 0.0 else (middle, high)
+            found.append(low)
+    return sorted(found)
+
+
+def listed(tag, values):
+    return f"<{tag}>" + "".join(f"<value>{v!r}</value>" for v in values) + f"</{tag}>"
+
+
+def texture(models, friction=0.4, count=None):
+    """A file of the layout of the toolkit: (speed in mm/s, force in N, variance, AR frequencies, MA frequencies, gain)."""
+    text = f"<?xml version='1.0'?><modelSet><mu>{friction}</mu><numMod>{count or len(models)}</numMod><numTri>0</numTri>"
+    text += "<maxSpeed>200</maxSpeed><maxForce>3</maxForce>" + listed("speedList", [m[0] for m in models]) + listed("forceList", [m[1] for m in models])
+    for speed, force, variance, ar, ma, gain in models:
+        text += "<model>" + listed("ARlsf", ar) + (listed("MAlsf", ma) + f"<gain>{gain}</gain>" if ma else "")
+        text += f"<var>{variance}</var><speedMod>{speed}</speedMod><forceMod>{force}</forceMod></model>"
+    return text + "</modelSet>"
+
+
+class Data(TestCase):
+    def imported(self, files, *options):
+        """The presets by name, what was printed, and the status."""
+        with tempfile.TemporaryDirectory() as folder:
+            source, out = pathlib.Path(folder) / "in", pathlib.Path(folder) / "out"
+            source.mkdir()
+            for name, text in files.items():
+                (source / name).write_text(text, encoding="utf-8")
+            said = io.StringIO()
+            with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+                status = data.main(["hatt", str(source), "-o", str(out), *options])
+            presets = {p.name: p.read_text(encoding="utf-8") for p in out.glob("*.json")}
+            return presets, said.getvalue(), status
+
+    def test_frequencies_give_the_polynomial_they_came_from(self):
+        for seed in range(12):
+            rng = random.Random(seed)
+            polynomial = stable(2 + seed, rng)
+            made = data.polynomial_of(frequencies_of(polynomial))
+            self.assertEqual(len(made), len(polynomial))
+            for a, b in zip(made, polynomial):
+                self.assertAlmostEqual(a, b, places=6)
+
+    def test_a_texture_becomes_a_preset_that_compiles(self):
+        rng = random.Random(1)
+        ar = [stable(4, rng) for _ in range(3)]
+        presets, said, status = self.imported({"Models_Wood 1.xml": texture([(50.0 + 40 * i, 0.5 + i, 0.2, frequencies_of(a), [], 1.0) for i, a in enumerate(ar)])},
+                                              "--mass", "0.1")
+        self.assertEqual(status, 0, said)
+        self.assertIn("AR, as in the file", said)
+        self.assertIn("does not allow to pass it on", said)
+        preset = json.loads(presets["wood_1.json"])
+        models = preset["nodes"]["texture"]["settings"]["models"]
+        self.assertEqual([m["speed"] for m in models], [0.05, 0.09, 0.13])
+        self.assertAlmostEqual(models[0]["variance"], 0.2 * 0.01)
+        for m, a in zip(models, ar):
+            for got, wanted in zip(m["coefficients"], a[1:]):
+                self.assertAlmostEqual(got, -wanted, places=6)
+        self.assertIn("licence", preset["about"])
+        force = Graph.parse(presets["wood_1.json"]).render(record=["texture.value"], duration=0.5)["texture.value"]
+        self.assertTrue(any(v != 0.0 for v in force) and all(math.isfinite(v) for v in force))
+
+    def test_an_arma_model_becomes_an_ar_model_with_its_error(self):
+        rng = random.Random(2)
+        ar, ma = stable(4, rng), stable(2, rng)
+        presets, said, status = self.imported({"Models_Cork.xml": texture([(50.0, 1.0, 0.3, frequencies_of(ar), frequencies_of(ma), 2.0)])})
+        self.assertEqual(status, 0, said)
+        self.assertRegex(said, r"ARMA as AR of order 40, off by at most \S+ dB rms")
+        model = json.loads(presets["cork.json"])["nodes"]["texture"]["settings"]["models"][0]
+        for angle in (0.1, 0.7, 1.5, 2.5):   # the spectra are the same
+            wanted = 0.3 * 4.0 * (data.magnitude(ma, angle) / data.magnitude(ar, angle))**2 * 0.05**2
+            got = model["variance"] / data.magnitude([1.0] + [-c for c in model["coefficients"]], angle)**2
+            self.assertAlmostEqual(got / wanted, 1.0, delta=0.02)
+
+    def test_what_is_wrong_is_refused_with_its_place(self):
+        good = [(50.0, 1.0, 0.3, [0.5, 1.5], [], 1.0)]
+        for text, why in (("<modelSet", "it is not XML"), ("<a/>", "its root is <a>"), (texture([]), "it has no <model>"), (texture(good, count=3), "<numMod> says 3"),
+                          (texture([(50.0, 1.0, 0.3, [1.5, 0.5], [], 1.0)]), "model 1: line spectral frequencies must increase"),
+                          (texture([(50.0, 1.0, -1.0, [0.5, 1.5], [], 1.0)]), "model 1: <var> must be above 0"),
+                          (texture([(50.0, "x", 0.3, [0.5, 1.5], [], 1.0)]), "model 1: could not convert"),
+                          (texture([(math.nan, 1.0, 0.3, [0.5, 1.5], [], 1.0)]), "<speedMod> is not finite")):
+            presets, said, status = self.imported({"Models_Bad.xml": text, "Models_Good.xml": texture(good)})
+            self.assertEqual(status, 1)
+            self.assertIn(why, said)
+            self.assertEqual(list(presets), ["good.json"])
+        self.assertEqual(self.imported({})[2], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
