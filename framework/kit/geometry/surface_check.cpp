@@ -210,7 +210,7 @@ std::string wrongSide (const Surface& s)
 std::string unevenForce (const std::shared_ptr<const Surface>& surface)
 {
     constexpr double turned = 25.0, wrong = 0.25;   // degrees; of the force of the law
-    constexpr std::size_t most_presses = 200;       // triangles
+    constexpr std::size_t most_presses = 50;        // triangles; a graph is judged at each edit
     const PlacedSurface body (surface, 1.0, Vec3::Zero(), Vec3::Zero());
     const auto& mesh = body.walk().mesh();
     auto tool = body.noTool();
