@@ -37,8 +37,9 @@ namespace tactus::nodes
 ///
 /// Good to know
 ///  - The force never pulls: when the tool leaves fast, a damped wall lets go before the tool is out.
-///  - The force is held between samples, so a spring of stiffness K leaks K dp^2 / 2 for a movement dp in one sample: the device
-///    needs a damping of at least K T / 2 (section 1).
+///  - The force is held between samples, so a spring of stiffness K leaks K dp^2 / 2 for a movement dp in one sample. A device damping
+///    of at least K T / 2 + |damping| is sufficient for a passive wall (section 1). It is not necessary for one that comes to rest:
+///    damping calms a wall that buzzes, until the damper itself swings. `tactus check` tells the two apart.
 ///  - A short contact needs a high rate. At 1 kHz, a tool of 50 g that hits 5e5 d^1.5 with a dissipation of 1 s/m at 2 m/s comes back
 ///    at up to 1.5 times its speed instead of 0.41 times, depending on where the samples fall. `warning` computes such a hit with
 ///    the mass of the device, if the graph gives the mass, and names the rate that the contact needs. shock.hunt_crossley can play

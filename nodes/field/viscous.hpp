@@ -25,8 +25,9 @@ namespace tactus::nodes
 /// Good to know
 ///  - A liquid that is at rest only brakes: f . dp is never above 0 for the last way dp of the tool. `dissipated_energy` is what it has taken
 ///    from the hand so far; with a flow, what the hand and the flow have lost in it. It never falls.
-///  - The force is held between samples, so a damper swings by itself beyond 2 M / T + 4 B / 3 on a device of mass M and damping B, and
-///    a device needs a damping of its own as large as the slope of D (section 1). `tactus check` says what a device allows.
+///  - The force is held between samples, so a damper swings by itself beyond 2 M / T + 4 B / 3 on a device of mass M and damping B. A
+///    device damping as large as the slope of D is sufficient for a liquid that is passive, whatever the hand does (section 1); it is not
+///    necessary for a tool that comes to rest. `tactus check` says what a device allows.
 ///  - `amount` 0 is outside of the liquid, 1 inside. Wire it to contact.window for a soft surface of the liquid.
 ///  - A vortex is a `flow` of vector.cross: of the axis of rotation, in rad/s, and the position.
 ///  - One quantum q of the position in one tick is a speed of q / T, which D turns into ticks. A `window` of some milliseconds makes
