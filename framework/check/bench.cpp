@@ -15,6 +15,11 @@ Bench::Bench (const Subject& subject, const HandMotion& motion) : stop (subject.
     engine = std::make_unique<Engine> (its_plan);
     for (const auto& role : motion.roles)
     {
+        if (role.axis)
+        {
+            axes.push_back (*role.axis);
+            continue;
+        }
         tools.push_back (std::make_unique<Placed>());
         tools.back()->parts = role.layout;
         engine->attach (role.role, *tools.back());
@@ -34,7 +39,10 @@ void Bench::follow (const HandMotion& motion, double tick) noexcept
         {
             tool.now.position += part * (readings[after].position - readings[before].position);
             tool.now.true_position += part * (readings[after].true_position - readings[before].true_position);
+            for (int i = 0; i < tool.now.axes.size(); ++i)
+                tool.now.axes.set (i, tool.now.axes[i] + part * (readings[after].axes[i] - readings[before].axes[i]));
         }
+        tool.home_axes = tool.now.axes;
         tool.home = tool.now.position;
         tool.true_home = tool.now.true_position;
     }
@@ -42,6 +50,13 @@ void Bench::follow (const HandMotion& motion, double tick) noexcept
 
 void Bench::shift (std::size_t role, const Vec3& by) noexcept
 {
+    if (role >= tools.size())
+    {
+        const auto& axis = axes[role - tools.size()];
+        auto& owner = *tools[axis.owner];
+        owner.now.axes.set (axis.read, owner.home_axes[axis.read] + by.x());
+        return;
+    }
     auto& tool = *tools[role];
     tool.now.position = tool.home + by;
     tool.now.true_position = tool.true_home + by;
@@ -58,14 +73,17 @@ void Bench::tick()
 {
     if (stop.stop_requested()) throw Stopped {};
     if (silent.empty()) return engine->tick();
-    engine->tick ([this] (Plan& plan) noexcept {
-        plan.tick ([&] (std::size_t record, auto step) noexcept {
-            step();
-            const auto node = plan.owners()[record];
-            if (! silent[static_cast<std::size_t> (node)]) return;
-            const auto& instance = plan.instances()[node];
-            if (plan.records()[record].outputs == instance.outputs) plan.flat().nodes[node].type->initialiseOutputs (instance.outputs);
-        });
+    engine->tick ([this] (Plan& plan) noexcept { tickWithout (plan, silent); });
+}
+
+void tickWithout (Plan& plan, const std::vector<bool>& silent) noexcept
+{
+    plan.tick ([&] (std::size_t record, auto step) noexcept {
+        step();
+        const auto node = plan.owners()[record];
+        if (! silent[static_cast<std::size_t> (node)]) return;
+        const auto& instance = plan.instances()[node];
+        if (plan.records()[record].outputs == instance.outputs) plan.flat().nodes[node].type->initialiseOutputs (instance.outputs);
     });
 }
 

@@ -23,7 +23,7 @@ public:
     /// of two ticks.
     void follow (const HandMotion&, double tick) noexcept;
 
-    /// Moves the tool of a role away from its position in the motion, in m, until the next call to follow or shift.
+    /// Moves the tool of a role, or an axis, away from its position in the motion, in m, until the next call to follow or shift.
     void shift (std::size_t role, const Vec3& by) noexcept;
 
     /// From now on, the outputs of these nodes are 0, their value at the start. [main thread]
@@ -32,8 +32,23 @@ public:
     /// Throws Stopped if the subject is stopped.
     void tick();
 
-    const Vec3& force (std::size_t role) const noexcept { return plan().roles()[role].state->applied.force; }   ///< on the tool, in N
-    const Vec3& position (std::size_t role) const noexcept { return tools[role]->home; }                        ///< of the tool, without the shift, in m
+    /// On the tool, in N, or on the axis along x, in N or N m. `role`: in the order of the motion.
+    Vec3 force (std::size_t role) const noexcept
+    {
+        if (role < tools.size()) return applied (role).force;
+        const auto& axis = axes[role - tools.size()];
+        return { applied (axis.owner).axes[axis.pushed], 0.0, 0.0 };
+    }
+
+    double brake (std::size_t role) const noexcept { return role < tools.size() ? applied (role).brake : 0.0; }   ///< in N s/m
+
+    /// Of the tool, without the shift, in m.
+    Vec3 position (std::size_t role) const noexcept
+    {
+        if (role < tools.size()) return tools[role]->home;
+        const auto& axis = axes[role - tools.size()];
+        return { tools[axis.owner]->home_axes[axis.read], 0.0, 0.0 };
+    }
     const Plan& plan() const noexcept { return *its_plan; }
 
 private:
@@ -42,6 +57,7 @@ private:
     {
         Reading now {};
         Vec3 home = Vec3::Zero(), true_home = Vec3::Zero();   // in the motion, without the shift, in m
+        Channels home_axes {};
         DeviceLayout parts {};
 
         void prepare (double) override {}
@@ -52,10 +68,16 @@ private:
 
     std::shared_ptr<Plan> its_plan;
     std::vector<std::unique_ptr<Placed>> tools;   // in the order of the plan's roles
+    std::vector<DrivenAxis> axes;                 // that follow them in the motion
     std::unique_ptr<Engine> engine;
     std::stop_token stop;
     std::vector<bool> silent;   // by node; empty if none is
+
+    const Effort& applied (std::size_t role) const noexcept { return plan().roles()[role].state->applied; }
 };
+
+/// Ticks a plan while some nodes, given by number, are silent: their outputs are as at the start.
+void tickWithout (Plan&, const std::vector<bool>& silent) noexcept;
 
 /// The forces that a node computes: all its outputs in N.
 class NodeForces

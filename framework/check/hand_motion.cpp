@@ -56,6 +56,38 @@ HandMotion atRate (const HandMotion& motion, double rate_hz)
     return other;
 }
 
+HandMotion withAxes (const HandMotion& motion, const Plan& plan)
+{
+    HandMotion all = motion;
+    const auto& nodes = plan.flat().nodes;
+    const auto uses = [&] (const std::string& role, std::string_view type, const std::string& axis) {
+        return std::ranges::any_of (nodes, [&] (const plan::FlatNode& node) {
+            return node.runs() && node.role == role && node.type->info.id == type && std::ranges::any_of (node.settings, [&] (const auto& value) {
+                       const auto* name = std::get_if<std::string> (&value);
+                       return name != nullptr && *name == axis;
+                   });
+        });
+    };
+    for (std::size_t r = 0; r < motion.roles.size(); ++r)
+    {
+        const auto& from = motion.roles[r];
+        for (std::size_t i = 0; i < from.layout.axes.size(); ++i)
+        {
+            const auto& name = from.layout.axes[i];
+            const int pushed = indexOf (from.layout.efforts, name);
+            if (pushed < 0 || ! uses (from.role, "device.axis", name) || ! uses (from.role, "device.effort", name)) continue;
+            RoleMotion axis { .role = from.role, .axis = DrivenAxis { .name = name, .owner = r, .read = static_cast<int> (i), .pushed = pushed } };
+            for (const auto& reading : from.readings)
+            {
+                const Vec3 at { reading.axes[axis.axis->read], 0.0, 0.0 };
+                axis.readings.push_back ({ .position = at, .true_position = at });
+            }
+            all.roles.push_back (std::move (axis));
+        }
+    }
+    return all;
+}
+
 Messages divergence (const HandMotion& motion, std::span<const Reach> reaches)
 {
     Messages all;

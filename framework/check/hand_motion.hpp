@@ -7,6 +7,7 @@
 #include <tactus/text/message.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -29,12 +30,21 @@ struct Stopped final
 {
 };
 
+/// An axis of a device in addition to its tool, which the graph reads and pushes.
+struct DrivenAxis
+{
+    std::string name;
+    std::size_t owner = 0;      ///< the role, in the order of the plan
+    int read = 0, pushed = 0;   ///< in Reading::axes and in Effort::axes
+};
+
 /// The readings of a role's device, one for each tick.
 struct RoleMotion
 {
     std::string role;
     DeviceLayout layout {};
-    std::vector<Reading> readings {};   ///< one for each tick of the motion
+    std::vector<Reading> readings {};    ///< one for each tick of the motion
+    std::optional<DrivenAxis> axis {};   ///< withAxes(): the x of a position is that of the axis
 };
 
 /// The motion of all hands while a graph is measured.
@@ -58,6 +68,9 @@ HandMotion recordMotion (std::shared_ptr<Plan>, std::span<const Hand>, std::size
 
 /// The same motion at another rate: each tick has the reading of the last tick before its time, and a position on the straight line to the next one.
 HandMotion atRate (const HandMotion&, double rate_hz);
+
+/// The same motion, followed by one RoleMotion for each axis that the graph reads and pushes: an axis is measured like a tool that moves along x.
+HandMotion withAxes (const HandMotion&, const Plan&);
 
 /// The box that the tool of a role can reach, in m.
 struct Reach

@@ -38,6 +38,14 @@ std::optional<DeviceNumbers> numbersOf (const Json& description, const std::file
     return simulated != nullptr ? std::optional (tactus::numbersOf (simulated->simulation(), made.limits)) : std::nullopt;
 }
 
+std::optional<Simulation> simulationOf (const Json& description, const std::filesystem::path& folder)
+{
+    if (! hasDriver (description, "sim")) return std::nullopt;
+    const auto made = makeDevice (description, folder);
+    const auto* simulated = dynamic_cast<const SimulatedDevice*> (made.device.get());
+    return simulated != nullptr ? std::optional (simulated->simulation()) : std::nullopt;
+}
+
 RecordedMotion recordMotion (const Subject& subject, std::span<const HandChoice> choices, const std::filesystem::path& folder_of_graph, double duration_s)
 {
     RecordedMotion recorded;

@@ -21,6 +21,9 @@ MadeDevice makeHand (const Json& description, const std::filesystem::path& folde
 /// The numbers of a simulated device; empty for other devices and for a description with errors. [main thread]
 std::optional<DeviceNumbers> numbersOf (const Json& description, const std::filesystem::path& folder);
 
+/// The whole simulated device; empty as for numbersOf(). [main thread]
+std::optional<Simulation> simulationOf (const Json& description, const std::filesystem::path& folder);
+
 /// A role, and the description of the device that moves its hand.
 struct HandChoice
 {

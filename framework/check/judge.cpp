@@ -34,6 +34,7 @@ public:
             stiffness();
             damping();
             quantum();
+            blow();
         }
         jump();
         if (! role.slopes.empty() || role.peak_force > 0.0)
@@ -41,6 +42,7 @@ public:
             peakForce();
             slew();
         }
+        if (! role.axis.empty()) return std::move (conditions);   // what follows is about the tool
         for (const auto& s : demand.stretches)
             if (s.role == role.role) stretch (s);
         for (const auto& wall : demand.deadbeats)
@@ -59,6 +61,8 @@ private:
     const JudgeOptions& options;
     double period_s;
     std::vector<Condition> conditions {};
+    mutable std::vector<std::vector<Jacobian>> own_responses {};   // by place; findResponses()
+    mutable std::vector<std::optional<double>> own_loads {};       // by place; exactLoad()
 
     using Number = DeviceNumbers::Number;
 
@@ -66,7 +70,7 @@ private:
 
     Condition& add (std::string_view id, std::string_view law, std::string_view unit, std::string sentence)
     {
-        return conditions.emplace_back (Condition { .id = id, .role = role.role, .law = law, .unit = unit, .text = std::move (sentence) });
+        return conditions.emplace_back (Condition { .id = id, .role = role.role, .axis = role.axis, .law = law, .unit = unit, .text = std::move (sentence) });
     }
 
     Condition& add (std::size_t node, std::string_view id, std::string_view law, std::string_view unit, std::string sentence)
@@ -101,20 +105,90 @@ private:
     {
         const Slope* at;
         double damping;   // b, or 0 if b is left out
-        double total;
+        double sum;       // (2d + 1) sigma T/2 + |b|
+        double total;     // exactly; the sum if the response is not known
+        double limit;     // B, and the brake there
+
+        double share() const noexcept { return total / std::max (limit, 1e-12); }
     };
 
     Load loadAt (const Slope& s) const
     {
-        const double b = isOverdamped() ? 0.0 : s.damping;
-        return { &s, b, s.stiffness * period_s * (0.5 + delay()) + s.lag + b };
+        const double b = isOverdamped() ? 0.0 : s.damping, sum = s.stiffness * period_s * (0.5 + delay()) + s.lag + b;
+        return { &s, b, sum, isOverdamped() ? sum : exactLoad (s).value_or (sum), (numbers.damping ? numbers.damping->value : 0.0) + s.brake };
+    }
+
+    /// The response of this role's force at a place, in all directions together; empty if it is not known. The nominal slopes have none.
+    const std::vector<Jacobian>& responseAt (const Slope& s) const
+    {
+        static const std::vector<Jacobian> none;
+        const auto i = static_cast<std::size_t> (&s - role.slopes.data());
+        if (role.slopes.empty() || std::less<> {}(&s, role.slopes.data()) || i >= role.slopes.size()) return none;
+        if (own_responses.empty()) findResponses();
+        return own_responses[i];
+    }
+
+    std::optional<double> exactLoad (const Slope& s) const
+    {
+        const auto& response = responseAt (s);
+        if (response.empty() || isSlow (demand, numbers)) return std::nullopt;
+        const auto i = static_cast<std::size_t> (&s - role.slopes.data());
+        if (own_loads.empty()) own_loads.resize (role.slopes.size());
+        for (std::size_t j = 0; j < i && ! own_loads[i]; ++j)   // many places have the same response
+            if (own_loads[j] && isLike (own_responses[j], response)) own_loads[i] = own_loads[j];
+        constexpr std::array<double, 3> whole { 1.0, 1.0, 1.0 };
+        if (! own_loads[i]) own_loads[i] = passivityLoad (response, axesOf (numbers), whole, period_s);
+        return own_loads[i];
+    }
+
+    void findResponses() const
+    {
+        own_responses.resize (role.slopes.size());
+        const auto first = static_cast<Eigen::Index> (3 * (&role - demand.roles.data()));
+        for (std::size_t i = 0; i < role.slopes.size() && i < demand.linked.size(); ++i)
+            for (const auto& m : demand.linked[i].responses)
+                own_responses[i].emplace_back (m.block (first, first, 3, 3));
+    }
+
+    static std::array<const DeviceNumbers*, 3> axesOf (const DeviceNumbers& n) noexcept { return { &n, &n, &n }; }
+
+    /// The device, braked as it is at a place.
+    DeviceNumbers at (const Slope& s) const
+    {
+        auto braked = numbers;
+        if (braked.damping) braked.damping->value += s.brake;
+        return braked;
+    }
+
+    /// What the claims of all nodes together ask of the device, wherever the tool goes, in N s/m: the measured load if they claim no more than was measured.
+    double claimedLoad() const
+    {
+        constexpr double precision = 1e-3;
+        double stiffest = 0.0, exact = 0.0;
+        for (const auto& s : role.slopes)
+        {
+            stiffest = std::max (stiffest, s.stiffness);
+            exact = std::max (exact, loadAt (s).total);
+        }
+        if (role.claimed_stiffness <= (1.0 + precision) * stiffest && role.claimed_damping <= (1.0 + precision) * virtualDamping()) return exact;
+        return role.claimed_stiffness * period_s * (0.5 + delay()) + role.claimed_damping;
+    }
+
+    /// True if the force of this role turns the tool somewhere, as that of no energy does. Friction has another slope forwards than backwards.
+    bool turns() const
+    {
+        constexpr double precision = 2e-3;
+        const auto first = static_cast<Eigen::Index> (3 * (&role - demand.roles.data()));
+        return std::ranges::any_of (demand.linked, [&] (const Linked& place) {
+            return place.is_smooth && turnOf (Jacobian (place.settled.block (first, first, 3, 3))) > precision;
+        });
     }
 
     Load largestLoad (const std::vector<Slope>& slopes) const
     {
         auto most = loadAt (slopes.front());
         for (const auto& s : slopes)
-            if (const auto load = loadAt (s); load.total > most.total) most = load;
+            if (const auto load = loadAt (s); load.share() > most.share()) most = load;
         return most;
     }
 
@@ -123,7 +197,7 @@ private:
     {
         auto load = largestLoad (role.slopes);
         if (isOverdamped()) left_out = ", without b, because b breaks 'damping'";
-        if (! numbers.damping || load.total <= numbers.damping->value || role.nominal.empty()) return load;
+        if (! numbers.damping || load.total <= load.limit || role.nominal.empty()) return load;
         for (const auto& t : demand.textures)
             if (t.role == role.role && t.slope > stiffestTexture())
             {
@@ -136,31 +210,33 @@ private:
     void stiffness()
     {
         std::string left_out;
-        const auto [s, b, value] = countedLoad (left_out);
+        const auto [s, b, sum, value, limit] = countedLoad (left_out);
         const double late = delay() + (s->stiffness > 0.0 ? s->lag / (s->stiffness * period_s) : 0.0);   // d, in ticks
-        auto& c = add ("stiffness", "(2d + 1) sigma T/2 + |b| <= B", "N*s/m",
+        auto& c = add ("stiffness", passive_law, "N*s/m",
                        "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + ", d " + text (late) + ", T " + text (1e3 * period_s, "ms")
                            + left_out);
         if (! numbers.damping) return unknown (c, value, "damping");
 
-        const double limit = numbers.damping->value, room = limit - b, held = s->stiffness * period_s;
+        const double room = limit - b, held = s->stiffness * period_s;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
         std::vector<std::string> ways;
         if (room > 0.0)
         {
-            const double stiffest = stiffestWall (room, period_s, late), rate = (value - b) / (room * period_s);
+            const double stiffest = stiffestWall (room, period_s, late), rate = (sum - b) / (room * period_s);
             if (isDragged (*s)) ways.push_back ("a d_max " + atLeast (s->stiffness / stiffest, "times") + " as long");
             ways.push_back ("a stiffness of " + atMost (stiffest, "N/m"));
             if (reaches (numbers, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
         }
         else
-            ways.push_back (value - b < limit ? "a virtual damping of " + atMost (limit - (value - b), "N*s/m")
-                                              : "a virtual damping below that of the device and a softer contact");
+            ways.push_back (sum - b < limit ? "a virtual damping of " + atMost (limit - (sum - b), "N*s/m")
+                                            : "a virtual damping below that of the device and a softer contact");
         ways.push_back ("a device with a damping of " + atLeast (value, "N*s/m"));
         auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, value, limit, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c);
+        const auto* const its = &role;
+        weigh (demand, options.trials, c, { &its, 1 }, turns(), claimedLoad() <= limit);
     }
 
     /// True if the node with the steepest force at a place is a friction.
@@ -181,25 +257,48 @@ private:
     /// A contact that is not passive may still come to rest: judges the loops of all places that are not passive, exactly.
     void closeLoop (Condition& c) const
     {
-        std::vector<const std::vector<double>*> responses;
+        std::vector<const Slope*> places;
         for (const auto& s : role.slopes)
         {
-            if (loadAt (s).total <= numbers.damping->value) continue;
-            if (s.responses.empty() || isSlow (demand, numbers)) return noLoop (c);
-            for (const auto& r : s.responses)
-                if (std::ranges::none_of (responses, [&] (const auto* known) { return isLike (*known, r); })) responses.push_back (&r);
+            if (const auto load = loadAt (s); load.total <= load.limit) continue;
+            if (s.responses.empty() || responseAt (s).empty() || isSlow (demand, numbers)) return noLoop (c);
+            if (std::ranges::none_of (places, [&] (const auto* known) { return areLike (*known, s); })) places.push_back (&s);
         }
-        if (responses.empty()) return;
-        closeLoops (
-            c, responses, [&] (const auto* r) { return largestRadius (*r, numbers, period_s); },
-            [&] (const auto* r, double factor) { return comesToRest (scaled (*r, factor), numbers, period_s); });
+        if (places.empty()) return;
+        const auto radius = [&] (const Slope* s) {
+            const auto device = at (*s);
+            auto most = largestRadius (responseAt (*s), axesOf (device), period_s);
+            for (const auto& r : s->responses)
+            {
+                const auto along = largestRadius (r, device, period_s);
+                most = most && along ? std::optional (std::max (*most, *along)) : std::nullopt;
+            }
+            return most;
+        };
+        closeLoops (c, places, radius, [&] (const Slope* s, double factor) {
+            auto larger = responseAt (*s);
+            for (auto& m : larger)
+                m *= factor;
+            const auto device = at (*s);
+            return comesToRest (larger, axesOf (device), period_s)
+                   && std::ranges::all_of (s->responses, [&] (const auto& r) { return comesToRest (scaled (r, factor), device, period_s); });
+        });
         if (c.verdict == Verdict::broken) return;
-        const auto best = strongestChange (*responses.front(), numbers, period_s, isDragged (responses.front()));
+        const std::vector<double>* worst = &places.front()->responses.front();
+        for (const auto& r : places.front()->responses)
+            if (largestRadius (r, numbers, period_s).value_or (0.0) > largestRadius (*worst, numbers, period_s).value_or (0.0)) worst = &r;
+        const auto best = strongestChange (*worst, at (*places.front()), period_s, isDragged (worst));
         if (! best || best->room <= c.may_grow) return;
         if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
             c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
         else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
+    }
+
+    bool areLike (const Slope& a, const Slope& b) const
+    {
+        return isLike (responseAt (a), responseAt (b)) && a.responses.size() == b.responses.size()
+               && std::equal (a.responses.begin(), a.responses.end(), b.responses.begin(), [] (const auto& x, const auto& y) { return isLike (x, y); });
     }
 
     static std::vector<double> scaled (std::vector<double> response, double factor)
@@ -246,6 +345,39 @@ private:
         const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
         std::vector<std::string> ways;
         if (limit > 0.0) ways = { "a stiffness of " + atMost (2.0 * limit / delta, "N/m"), "a quantum of " + atMost (2e6 * limit / most, "um") };
+        ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
+        decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
+    }
+
+    /// A damper that takes the speed from the last positions answers each step of the sensor with a blow, as long as its window.
+    void blow()
+    {
+        double most = 0.0;   // N/m
+        for (const auto& s : role.slopes)
+        {
+            const auto& response = responseAt (s);
+            if (response.empty()) most = std::max (most, s.damping / period_s);
+            for (const auto& m : response)
+                most = std::max (most, Jacobian (m - response.back()).norm());
+        }
+        if (! (most * period_s > 1e-3 * steepest() * period_s) || ! (virtualDamping() > 0.0)) return;
+        auto& c = add ("blow", "b delta/T <= f_f", "N",
+                       "b " + text (virtualDamping(), "N*s/m") + ", as if over " + text (1e3 * virtualDamping() / most, "ms"));
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double delta = numbers.quantum->value, value = most * delta;
+        c.text += ", delta " + text (1e6 * delta, "um") + ": each step of the sensor is a blow of b delta/T " + text (value, "N");
+        if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
+        const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
+        std::vector<std::string> ways;
+        if (limit > 0.0)
+        {
+            ways.push_back ("a window of " + atLeast (1e3 * virtualDamping() * delta / limit, "ms")
+                            + " for the speed (the setting \"window\", or a motion.velocity)");
+            ways.push_back ("a virtual damping of " + atMost (virtualDamping() * limit / value, "N*s/m"));
+            ways.push_back ("a quantum of " + atMost (1e6 * delta * limit / value, "um"));
+        }
+        else
+            ways.emplace_back ("a longer window for the speed (the setting \"window\", or a motion.velocity)");
         ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
         decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }
@@ -428,7 +560,7 @@ private:
 
 std::string_view nameOf (Verdict verdict) noexcept
 {
-    constexpr std::array<std::string_view, 8> names { "holds", "close", "passive", "stable", "unstable", "broken", "unknown", "not reached" };
+    constexpr std::array<std::string_view, 9> names { "holds", "close", "passive", "passive_here", "stable", "unstable", "broken", "unknown", "not reached" };
     return names[static_cast<std::size_t> (verdict)];
 }
 
@@ -444,11 +576,10 @@ std::vector<Condition> judge (const Demand& demand, std::span<const RoleDevice> 
     std::vector<Condition> all;
     for (const auto& role : demand.roles)
     {
-        const auto device = std::ranges::find (devices, role.role, &RoleDevice::role);
-        const DeviceNumbers none;
-        std::ranges::move (RoleJudge (demand, role, device == devices.end() ? none : device->numbers, options).all(), std::back_inserter (all));
+        const auto numbers = numbersFor (devices, role);
+        std::ranges::move (RoleJudge (demand, role, numbers, options).all(), std::back_inserter (all));
     }
-    judgeLinks (demand, devices, all);
+    judgeLinks (demand, devices, options, all);
     return all;
 }
 

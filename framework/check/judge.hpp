@@ -11,7 +11,10 @@
 #include "factors.hpp"
 #include "measure.hpp"
 
+#include "sampled_loop.hpp"
+
 #include <tactus/run/device/device_numbers.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <span>
 #include <string>
@@ -24,16 +27,17 @@ namespace tactus::check
 enum class Verdict
 {
     holds,
-    close,         ///< holds, but not by the factor that the chapter recommends
-    passive,       ///< `stiffness` and `coupling` hold: the contact returns no energy, whatever the hand does
-    stable,        ///< they do not hold, but the sampled loop comes to rest without a hand and with the usual ones
-    unstable,      ///< they do not hold, and the sampled loop swings without a hand or with one of the usual ones
-    broken,        ///< does not hold; `stiffness` and `coupling`: nor is the sampled loop known
-    unknown,       ///< a number of the device is not known
-    not_reached,   ///< the motion did not reach the node, so nothing about it was judged
+    close,          ///< holds, but not by the factor that the chapter recommends
+    passive,        ///< `stiffness` and `coupling` hold, and all nodes claim it: the contact returns no energy, whatever the hand does
+    passive_here,   ///< they hold along this motion; nothing is said of other motions
+    stable,         ///< they do not hold, but the sampled loop comes to rest without a hand and with the usual ones
+    unstable,       ///< they do not hold, and the sampled loop swings without a hand or with one of the usual ones
+    broken,         ///< does not hold; `stiffness` and `coupling`: nor is the sampled loop known
+    unknown,        ///< a number of the device is not known
+    not_reached,    ///< the motion did not reach the node, so nothing about it was judged
 };
 
-/// "holds", "close", "passive", "stable", "unstable", "broken", "unknown" or "not reached".
+/// "holds", "close", "passive", "passive_here", "stable", "unstable", "broken", "unknown" or "not reached".
 std::string_view nameOf (Verdict) noexcept;
 
 /// One condition, for a role or for one node of the role.
@@ -41,6 +45,7 @@ struct Condition
 {
     std::string_view id;   ///< permanent, such as "stiffness"; docs/check.md lists all ids
     std::string role;
+    std::string axis {};     ///< of the role's device; empty if the condition is about the tool
     std::string node {};     ///< path of the node; empty if the condition is about the role as a whole
     std::string_view law;    ///< such as "(2d + 1) sigma T/2 + |b| <= B"
     double value = 0.0;      ///< what the graph asks for
@@ -65,13 +70,35 @@ struct RoleDevice
 {
     std::string role;
     DeviceNumbers numbers {};
-    std::string name {};   ///< of the device, for reports
+    std::string name {};                      ///< of the device, for reports
+    std::optional<Simulation> simulated {};   ///< a simulated device: its brake and its axes
+};
+
+/// What the trials of a role showed.
+struct Trial
+{
+    std::string role, axis {};   ///< as in RoleDemand
+    bool is_tried = false;       ///< its tool was let go, all planned trials were made or one of them swings
+    bool swings = false;         ///< it did not come to rest in one of them
+    bool runs_away = false;      ///< the graph drove it away
+    double range = 0.0;          ///< how far it moved in the third second, in m
+    double t_s = 0.0;            ///< the time of the motion at which it was let go
+    double off = 0.0;            ///< how far off its rest, in m
+    HeldHand hand {};
+};
+
+/// What tryLoops() found.
+struct Trials
+{
+    std::vector<Trial> by_role {};   ///< in the order of Demand::roles
+    std::size_t places = 0, runs = 0;
 };
 
 struct JudgeOptions
 {
     Factors factors {};
-    double speed = 0.0;   ///< of the hand, in m/s, for the rows of Table 1; 0: as measured
+    double speed = 0.0;               ///< of the hand, in m/s, for the rows of Table 1; 0: as measured
+    const Trials* trials = nullptr;   ///< on these devices; null: only the slopes are judged, and no verdict says that a tool that bounces comes to rest
 };
 
 /// All conditions, role by role. If the list has no device for a role, all numbers of that device count as unknown. This takes

@@ -22,12 +22,12 @@ using Eigen::VectorXd;
 class Group
 {
 public:
-    Group (const Demand& d, std::span<const RoleDevice> devices, std::vector<std::size_t> its_roles) : demand (d), members (std::move (its_roles))
+    Group (const Demand& d, std::span<const RoleDevice> devices, const JudgeOptions& o, std::vector<std::size_t> its_roles)
+        : demand (d), options (o), members (std::move (its_roles))
     {
         for (const auto r : members)
         {
-            const auto at = std::ranges::find (devices, d.roles[r].role, &RoleDevice::role);
-            numbers.push_back (at == devices.end() ? DeviceNumbers {} : at->numbers);
+            numbers.push_back (numbersFor (devices, d.roles[r]));
         }
     }
 
@@ -39,6 +39,7 @@ public:
 
 private:
     const Demand& demand;
+    const JudgeOptions& options;
     std::vector<std::size_t> members;
     std::vector<DeviceNumbers> numbers {};   // of the members
 
@@ -132,6 +133,12 @@ private:
         if (const auto node = steepestNode (demand, at->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, most, 1.0, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c, loads);
+        std::vector<const RoleDemand*> its;
+        for (const auto m : members)
+            its.push_back (&demand.roles[m]);
+        constexpr double precision = 2e-3;
+        const bool turns = std::ranges::any_of (demand.linked, [&] (const Linked& l) { return l.is_smooth && turnOf (of (l.settled)) > precision; });
+        weigh (demand, options.trials, c, its, turns, false);
     }
 
     /// Judges the loops of all hands together at the places that are not passive, exactly.
@@ -268,7 +275,7 @@ bool areLinked (const Demand& demand, std::size_t a, std::size_t b)
 }
 }   // namespace
 
-void judgeLinks (const Demand& demand, std::span<const RoleDevice> devices, std::vector<Condition>& all)
+void judgeLinks (const Demand& demand, std::span<const RoleDevice> devices, const JudgeOptions& options, std::vector<Condition>& all)
 {
     if (demand.linked.empty()) return;
     std::vector<bool> done (demand.roles.size(), false);
@@ -284,7 +291,7 @@ void judgeLinks (const Demand& demand, std::span<const RoleDevice> devices, std:
                     done[other] = true;
                     group.push_back (other);
                 }
-        Group (demand, devices, std::move (group)).judge (all);
+        Group (demand, devices, options, std::move (group)).judge (all);
     }
 }
 

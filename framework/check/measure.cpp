@@ -152,7 +152,7 @@ private:
 class Survey
 {
 public:
-    Survey (const Subject& s, const HandMotion& m) : subject (s), motion (m), plan (compiled (s, m)) {}
+    Survey (const Subject& s, const HandMotion& m) : subject (s), plan (compiled (s, m)), motion (withAxes (m, *plan)) {}
 
     Demand measure (const Thoroughness& how)
     {
@@ -163,6 +163,7 @@ public:
         followMotion();
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
             addRole (r);
+        addGivenTogether();
         addSlopes (how);
         addTextures (how);
         return std::move (demand);
@@ -170,8 +171,8 @@ public:
 
 private:
     const Subject& subject;
-    const HandMotion& motion;
     std::shared_ptr<Plan> plan;   // never runs; each bench compiles its own plan
+    HandMotion motion;            // with axes
     Demand demand {};
     Forces forces {};
     std::vector<TextureWatch> textures {};
@@ -203,26 +204,26 @@ private:
                 w.poll (running, w.is_driven && ticks % 16 == 0);
             ++ticks;
         });
-        for (const auto& role : plan->roles())
+        for (const auto& role : motion.roles)
         {
-            const auto& its = between.emplace_back (nodesOf (*plan, role.name));
+            const auto& its = between.emplace_back (nodesOf (*plan, role.role));
             for (const auto& w : stretches)
             {
-                if (! its[w.node()]) continue;
+                if (! its[w.node()] || role.axis) continue;
                 if (w.shortest() < inf)
-                    demand.stretches.push_back ({ w.node(), role.name, w.shortest(), w.teeth() });
+                    demand.stretches.push_back ({ w.node(), role.role, w.shortest(), w.teeth() });
                 else if (! w.wasFelt())
-                    demand.unreached.push_back ({ w.node(), role.name, false });
+                    demand.unreached.push_back ({ w.node(), role.role, false });
             }
         }
     }
 
     void addRole (std::size_t r)
     {
-        const auto& role = plan->roles()[r];
-        RoleDemand d { .role = role.name };
+        const auto& role = motion.roles[r];
+        RoleDemand d { .role = role.role, .axis = role.axis ? role.axis->name : "" };
         for (const auto& path : plan->delays())
-            if (belongs (path.source, role.name) && belongs (path.sink, role.name))
+            if (belongs (path.source, role.role) && belongs (path.sink, role.role))
                 d.longest = std::max (d.longest, path.longest);
         auto& velocity = velocities.emplace_back();
         for (std::size_t k = 0; k < motion.ticks; ++k)
@@ -232,8 +233,93 @@ private:
             if (k > 0) d.fastest_force = std::max (d.fastest_force, (forces[r][k] - forces[r][k - 1]).norm() * motion.rate_hz);
             d.speed = std::max (d.speed, velocity.back().norm());
         }
-        d.has_other_efforts = hasOtherSinks (role.name);
+        if (! role.axis) d.others = otherSinks (role.role);
+        lookAtClaims (d, between[r]);
+        Energy own;
+        for (std::size_t k = 1; k < motion.ticks; ++k)
+            own.add (takenAt (r, k));
+        d.given = isClosed (r) ? own.given : 0.0;
         demand.roles.push_back (std::move (d));
+    }
+
+    /// The energy that the graph has taken, and the most that it has given over that, both in J.
+    struct Energy
+    {
+        double taken = 0.0, given = 0.0;
+
+        void add (double more) noexcept
+        {
+            taken += more;
+            given = std::max (given, -taken);
+        }
+    };
+
+    /// The work of the hand on the graph since the tick before, by the mean of the two forces, in J.
+    double takenAt (std::size_t r, std::size_t k) const
+    {
+        const auto& readings = motion.roles[r].readings;
+        return -0.5 * (forces[r][k - 1] + forces[r][k]).dot (Vec3 (readings[k].position - readings[k - 1].position));
+    }
+
+    /// True if nothing is stored in the graph when the motion begins.
+    bool isClosed (std::size_t r) const { return forces[r].front().norm() <= 1e-3; }
+
+    void addGivenTogether()
+    {
+        Energy all;
+        for (std::size_t k = 1; k < motion.ticks; ++k)
+        {
+            double more = 0.0;
+            for (std::size_t r = 0; r < motion.roles.size(); ++r)
+                more += takenAt (r, k);
+            all.add (more);
+        }
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+            if (! isClosed (r)) return;
+        demand.given_together = all.given;
+    }
+
+    /// Lists the nodes between hand and motor that do not claim to be passive: a claim is about a node whose params stay as they are, whose position is
+    /// that of the tool, and whose force goes to the tool as it is, or weaker or stronger.
+    void lookAtClaims (RoleDemand& d, const std::vector<bool>& its) const
+    {
+        const auto& flat = plan->flat();
+        for (std::size_t n = 0; n < its.size(); ++n)
+        {
+            const auto& node = flat.nodes[n];
+            if (! its[n] || node.type->bind != nullptr) continue;   // a source or a sink
+            const auto claims = node.type->claims != nullptr ? node.type->claims (plan->instances()[n].node.get()) : Claims {};
+            double gain = 1.0;
+            bool counts = claims.passive && node.section == 0;
+            for (const auto& w : flat.wires)
+            {
+                if (w.to.node == static_cast<int> (n))
+                {
+                    const bool is_input = w.to.role == Role::input;
+                    const auto& id = is_input ? node.type->inputs[at (w.to.port)].id : std::string_view();
+                    const bool is_position = id == "position" && w.from && flat.node (*w.from).type->bind != nullptr;
+                    if (! (is_position && w.gain == 1.0 && w.delay == 0 && w.to.component < 0) && id != "normal_force") counts = false;
+                }
+                if (w.from && w.from->node == static_cast<int> (n) && its[at (w.to.node)])
+                {
+                    const bool is_load = flat.node (w.to).type->bind == nullptr && w.to.role == Role::input
+                                         && flat.node (w.to).type->inputs[at (w.to.port)].id == "normal_force";
+                    if (is_load) continue;
+                    if (flat.node (w.to).type->bind == nullptr || ! (w.gain > 0.0) || w.delay != 0 || w.to.component >= 0 || w.gain_dimension) counts = false;
+                    gain = std::max (gain, w.gain);
+                }
+            }
+            if (counts)
+            {
+                d.claimed_stiffness += gain * claims.stiffness;
+                d.claimed_damping += gain * claims.damping;
+            }
+            else
+                d.claims_nothing.push_back (node.path);
+        }
+        for (const auto& w : flat.wires)   // a wire from a source to a sink is a law of its own
+            if (w.from && its[at (w.from->node)] && its[at (w.to.node)] && flat.node (*w.from).type->bind != nullptr && flat.node (w.to).type->bind != nullptr)
+                d.claims_nothing.push_back ("the wire to " + flat.node (w.to).path);
     }
 
     /// Lists the walls of hold.deadbeat, and adds them to the demand. Their response to a shift of a resting tool is not a slope.
@@ -297,7 +383,7 @@ private:
         work.looks_for_jumps = false;
         if (! textures.empty()) nominal = measureSlopes (subject, motion, work);
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
-            if (auto& role = demand.roles[r]; hasLoop (role.role))
+            if (auto& role = demand.roles[r]; hasLoop (role.role) && (! role.axis.empty() || hasForce (role.role)))
             {
                 role.slopes = std::move (all.by_role[r]);
                 if (! textures.empty()) role.nominal = std::move (nominal.by_role[r]);
@@ -339,16 +425,39 @@ private:
         return std::ranges::count (nodesOf (*plan, role), true) > 0;
     }
 
-    /// True if the graph drives this role with more than a force, for example with a torque. A force is an input in N with three
-    /// components.
-    bool hasOtherSinks (const std::string& role) const
+    /// What drives this role besides a force, its brake and axes that it reads, for example a torque. A force is an input in N with three components.
+    std::vector<std::string> otherSinks (const std::string& role) const
+    {
+        std::vector<std::string> all;
+        hasSink (role, [&] (const plan::FlatNode& node, const PortSheet& row) {
+            if (isForce (row) || node.type->info.id == "device.brake") return false;
+            const bool is_other = std::ranges::none_of (motion.roles, [&] (const RoleMotion& m) {
+                return m.axis && m.role == role && std::ranges::any_of (node.settings, [&] (const auto& value) {
+                           const auto* name = std::get_if<std::string> (&value);
+                           return name != nullptr && *name == m.axis->name;
+                       });
+            });
+            const auto what = std::string (row.id) + " of '" + node.path + "'";
+            if (is_other && std::ranges::count (all, what) == 0) all.push_back (what);
+            return false;
+        });
+        return all;
+    }
+
+    bool hasForce (const std::string& role) const
+    {
+        return hasSink (role, [] (const plan::FlatNode&, const PortSheet& row) { return isForce (row); });
+    }
+
+    static bool isForce (const PortSheet& row) { return row.width == 3 && row.unit.unit.symbol == "N"; }
+
+    template <typename Is>
+    bool hasSink (const std::string& role, Is&& is) const
     {
         const auto& flat = plan->flat();
         return std::ranges::any_of (flat.wires, [&] (const plan::FlatWire& w) {
             const auto& node = flat.node (w.to);
-            if (! node.runs() || node.role != role || node.type->effort == nullptr || w.to.role != Role::input) return false;
-            const auto& row = flat.sheet (w.to);
-            return row.width != 3 || row.unit.unit.symbol != "N";
+            return node.runs() && node.role == role && node.type->effort != nullptr && w.to.role == Role::input && is (node, flat.sheet (w.to));
         });
     }
 
@@ -414,7 +523,7 @@ private:
     {
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
         {
-            if (! between[r][watched.node]) continue;
+            if (! between[r][watched.node] || motion.roles[r].axis) continue;
             const auto& role = motion.roles[r].role;
             const double amplitude = watched.ownAmplitude();
             if (watched.loudest > 0.0)
@@ -428,7 +537,7 @@ private:
     {
         const auto without = forcesAlong (subject, motion, { watched.node }, [] (const Plan&) {});
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
-            addTexture (watched, r, without[r]);
+            if (! motion.roles[r].axis) addTexture (watched, r, without[r]);
     }
 
     void addTexture (const TextureWatch& watched, std::size_t r, const std::vector<Vec3>& without)
@@ -458,7 +567,11 @@ private:
 std::size_t affordableTicks (const Plan& plan)
 {
     constexpr std::size_t steps_of_nodes = 100'000'000;   // of about 25 ns
-    return steps_of_nodes / std::max<std::size_t> (1, plan.instances().size());
+    constexpr std::size_t steps_of_search = 60;           // of a node that looks for the place of the tool on a mesh
+    std::size_t steps = 0;
+    for (const auto& node : plan.flat().nodes)
+        steps += node.runs() && node.type->info.id == "deform.surface" ? steps_of_search : 1;
+    return steps_of_nodes / std::max<std::size_t> (1, steps);
 }
 
 Demand measure (const Subject& subject, const HandMotion& motion, const Thoroughness& how) { return Survey (subject, motion).measure (how); }

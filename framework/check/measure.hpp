@@ -24,6 +24,8 @@ struct Slope
 {
     double t_s = 0.0;                 ///< time since the start of the motion
     Vec3 position = Vec3::Zero();     ///< m
+    Vec3 force = Vec3::Zero();        ///< on the tool, at rest, in N
+    double brake = 0.0;               ///< damping of the device's brake there, in N s/m
     double stiffness = 0.0;           ///< sigma: force per displacement once the force has settled, in N/m
     double lag = 0.0;                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
     double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
@@ -67,13 +69,18 @@ struct Jump
 struct RoleDemand
 {
     std::string role;
-    std::vector<Slope> slopes {};     ///< along the motion; empty if the role has no force or no position
-    std::vector<Slope> nominal {};    ///< the same with the textures silenced; empty if there are none
-    std::int64_t longest = 0;         ///< longest delay of the compiled paths from the role's sources to its sinks, in ticks
-    double peak_force = 0.0;          ///< N
-    double fastest_force = 0.0;       ///< largest change of force from tick to tick, in N/s
-    double speed = 0.0;               ///< largest speed of the tool, in m/s
-    bool has_other_efforts = false;   ///< torques, axes or signals, which are not judged
+    std::string axis {};                          ///< name of an axis of the device in addition to its tool, which is measured along x; empty: the tool
+    std::vector<Slope> slopes {};                 ///< along the motion; empty if the role has no force or no position
+    std::vector<Slope> nominal {};                ///< the same with the textures silenced; empty if there are none
+    std::int64_t longest = 0;                     ///< longest delay of the compiled paths from the role's sources to its sinks, in ticks
+    double peak_force = 0.0;                      ///< N
+    double fastest_force = 0.0;                   ///< largest change of force from tick to tick, in N/s
+    double speed = 0.0;                           ///< largest speed of the tool, in m/s
+    std::vector<std::string> others {};           ///< what is asked of the device besides force, brake and measured axes: torques, signals …
+    std::vector<std::string> claims_nothing {};   ///< paths of the nodes between hand and motor that do not claim to be passive, as they are wired here
+    double claimed_stiffness = 0.0;               ///< sum of what the others claim, in N/m
+    double claimed_damping = 0.0;                 ///< the same, in N s/m
+    double given = 0.0;                           ///< the most energy that the graph has given along the motion, over what it has taken before, in J
 };
 
 /// A contact that stretches a little before it slides: any node with a param d_max in m, and deform.surface.
@@ -128,6 +135,7 @@ struct Demand
     double rate_hz = 0.0;
     double lasts_s = 0.0;   ///< duration of the motion
     std::vector<RoleDemand> roles {};
+    double given_together = 0.0;     ///< RoleDemand::given of all roles together
     std::vector<Linked> linked {};   ///< along the motion; empty if no force depends on a position
     std::vector<Jump> jumps {};      ///< that the motion crosses
     std::vector<Stretch> stretches {};

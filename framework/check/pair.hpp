@@ -73,8 +73,10 @@ public:
     /// Raises each entry of `by_node` to the largest of that node's ownResponses().
     void raise (std::vector<double>& by_node) const;
 
-    const Vec3& position (std::size_t role) const noexcept { return still.position (role); }   ///< of the tool that stays, in m
-    double time() const noexcept { return here / motion.rate_hz; }                             ///< s
+    Vec3 position (std::size_t role) const noexcept { return still.position (role); }   ///< of the tool that stays, in m
+    Vec3 force (std::size_t role) const noexcept { return still.force (role); }         ///< on the tool that stays, in N
+    double brake (std::size_t role) const noexcept { return still.brake (role); }       ///< on the tool that stays, in N s/m
+    double time() const noexcept { return here / motion.rate_hz; }                      ///< s
 
 private:
     Response respondTo (double size, std::size_t role, const Vec3& direction);

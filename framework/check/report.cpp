@@ -33,11 +33,17 @@ Json toJson (const DeviceNumbers& numbers)
 Json toJson (const Demand& demand, const RoleDemand& role)
 {
     Json j { { "role", role.role } };
+    if (! role.axis.empty()) j["axis"] = role.axis;
     j["peak_force"] = number (role.peak_force);
     j["fastest_force"] = number (role.fastest_force);
     j["speed"] = number (role.speed);
     j["path_delay"] = role.longest;
-    if (role.has_other_efforts) j["not_judged"] = "torques, axes and signals";
+    if (! role.others.empty())
+    {
+        j["not_judged"] = Json::array();
+        for (const auto& other : role.others)
+            j["not_judged"].push_back (other);
+    }
     const auto most = std::ranges::max_element (role.slopes, {}, &Slope::stiffness);
     if (most == role.slopes.end()) return j;
     j["stiffness"] = number (most->stiffness);
@@ -57,9 +63,11 @@ Json toJson (const Demand& demand, const RoleDemand& role)
 Json toJson (const Condition& c)
 {
     Json j { { "id", c.id }, { "role", c.role } };
+    if (! c.axis.empty()) j["axis"] = c.axis;
     if (! c.node.empty()) j["node"] = c.node;
     j["law"] = c.law;
-    j["verdict"] = nameOf (c.verdict);
+    j["verdict"] = c.verdict == Verdict::close ? "near" : c.verdict == Verdict::not_reached ? "not_reached"
+                                                                                            : nameOf (c.verdict);
     j["value"] = number (c.value);
     j["limit"] = c.isKnown() ? number (c.limit) : Json();
     j["margin"] = c.isKnown() ? number (c.margin()) : Json();
@@ -73,6 +81,16 @@ Json toJson (const Condition& c)
 Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::span<const Condition> conditions, const JudgeOptions& options)
 {
     Json j { { "rate_hz", demand.rate_hz }, { "duration", demand.lasts_s } };
+    j["scope"] = scopeOf (demand, options, "the motion");
+    j["not_judged"] = Json::array();
+    for (const auto& n : notJudged (demand, conditions, options))
+    {
+        Json entry { { "what", n.what }, { "why", n.why } };
+        if (! n.role.empty()) entry["role"] = n.role;
+        j["not_judged"].push_back (std::move (entry));
+    }
+    j["places"] = demand.linked.size();
+    if (options.trials != nullptr) j["trials"] = Json { { "places", options.trials->places }, { "runs", options.trials->runs } };
     j["alpha"] = options.factors.alpha;
     j["beta"] = options.factors.beta;
     j["gamma"] = options.factors.gamma;
@@ -94,6 +112,49 @@ Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::spa
         j["conditions"].push_back (toJson (c));
     j["broken"] = std::ranges::count_if (conditions, &Condition::isBroken);
     return j;
+}
+
+std::string scopeOf (const Demand& demand, const JudgeOptions& options, std::string_view motion)
+{
+    const auto number_text = [] (double v) {
+        char buffer[32];
+        std::snprintf (buffer, sizeof buffer, "%.3g", v);
+        return std::string (buffer);
+    };
+    auto text = "judged along " + number_text (demand.lasts_s) + " s of " + std::string (motion)
+                + ": slopes at " + std::to_string (demand.linked.size()) + " places";
+    if (options.trials != nullptr)
+        text += ", and " + std::to_string (options.trials->runs) + " trials of tools that are let go at " + std::to_string (options.trials->places) + " places";
+    return text;
+}
+
+std::vector<NotJudged> notJudged (const Demand& demand, std::span<const Condition> conditions, const JudgeOptions& options)
+{
+    std::vector<NotJudged> all;
+    for (const auto& role : demand.roles)
+        for (const auto& other : role.others)
+            all.push_back ({ role.role, other, "no device is simulated that it moves" });
+    for (const auto& c : conditions)
+    {
+        const bool is_loop = c.id == "stiffness" || c.id == "coupling";
+        if (c.verdict == Verdict::unknown)
+            all.push_back ({ c.role, is_loop ? "whether " + (c.axis.empty() ? "the tool" : "the axis '" + c.axis + "'") + " comes to rest" : std::string (c.id),
+                             c.remedy.substr (0, c.remedy.find (':')) });
+        else if (c.verdict == Verdict::not_reached)
+            all.push_back ({ c.role, "'" + c.node + "'", "the motion does not reach it" });
+    }
+    if (options.trials == nullptr)
+        all.push_back ({ "", "tools that bounce, dry friction and steps of a sensor in a loop", "no tool was let go" });
+    else
+        for (const auto& t : options.trials->by_role)
+        {
+            const auto isItsLoop = [&] (const Condition& c) { return c.role == t.role && c.axis == t.axis && c.id == "stiffness"; };
+            if (! t.is_tried && std::ranges::any_of (conditions, isItsLoop))
+                all.push_back ({ t.role, "a tool that bounces, dry friction and steps of a sensor in its loop",
+                                 "its tool could not be let go, or not as often as planned" });
+        }
+    all.push_back ({ "", "other motions, and forces beyond those of this one", "only a contact that is called passive is so whatever the hand does" });
+    return all;
 }
 
 std::string describe (const DeviceNumbers& numbers)

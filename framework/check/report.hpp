@@ -11,6 +11,19 @@ namespace tactus::check
 /// The report of `tactus check --json`, as docs/check.md describes it. Numbers that are not finite are null.
 Json toJson (const Demand&, std::span<const RoleDevice>, std::span<const Condition>, const JudgeOptions&);
 
+/// What was judged, at how many places and along which motion: the first line of a report.
+std::string scopeOf (const Demand&, const JudgeOptions&, std::string_view motion);
+
+/// Something that has no verdict.
+struct NotJudged
+{
+    std::string role;   ///< empty: about the graph as a whole
+    std::string what, why;
+};
+
+/// What has no verdict, and why. It stands before the conditions, so that no row seems to bless it.
+std::vector<NotJudged> notJudged (const Demand&, std::span<const Condition>, const JudgeOptions&);
+
 /// "M 0.1 kg, B 0.05 N*s/m, …": the known numbers of a device, with their symbols.
 std::string describe (const DeviceNumbers&);
 

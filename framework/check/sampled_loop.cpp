@@ -2,9 +2,12 @@
 #include "sampled_loop.hpp"
 #include "spectral_radius.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -86,9 +89,97 @@ LoopMatrix exponential (const LoopMatrix& m)
     return sum;
 }
 
-std::size_t delayOf (const DeviceNumbers& n) { return n.delay ? static_cast<std::size_t> (n.delay->value) : 0; }
+std::size_t ticksLate (const DeviceNumbers& n) { return n.delay ? static_cast<std::size_t> (n.delay->value) : 0; }
 
-std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* const> axes, double period_s, const HeldHand& hand)
+/// Turns the axes of a device so that each has its own response, if there are such axes.
+void align (std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* const> axes)
+{
+    if (axes.size() < 2 || pulses.empty() || std::ranges::any_of (axes, [&] (const auto* a) { return a != axes.front(); })) return;
+    constexpr double matters = 1e-7;   // relative
+    LoopMatrix mixed = LoopMatrix::Zero (pulses.front().rows(), pulses.front().cols());
+    double most = 0.0, share = 1.0;
+    for (const auto& p : pulses)
+    {
+        mixed += share * (p + p.transpose());
+        share *= 0.618;   // any shares that do not cancel
+        most = std::max (most, p.norm());
+    }
+    const Eigen::SelfAdjointEigenSolver<LoopMatrix> parts (mixed);
+    const LoopMatrix turn = parts.eigenvectors();
+    std::vector<LoopMatrix> turned;
+    for (const auto& p : pulses)
+    {
+        LoopMatrix t = turn.transpose() * p * turn;
+        const LoopMatrix own = t.diagonal().asDiagonal();
+        if ((t - own).norm() > matters * most) return;
+        turned.push_back (own);
+    }
+    pulses = std::move (turned);
+}
+
+/// The axes that have to do with each other, group by group.
+std::vector<std::vector<std::size_t>> groupsOf (const std::vector<LoopMatrix>& pulses, std::size_t axes)
+{
+    constexpr double matters = 1e-9;   // relative
+    double most = 0.0;
+    for (const auto& p : pulses)
+        most = std::max (most, p.norm());
+    const auto are = [&] (std::size_t i, std::size_t j) {
+        return std::ranges::any_of (pulses, [&] (const LoopMatrix& p) {
+            const auto a = static_cast<Index> (i), b = static_cast<Index> (j);
+            return std::max (std::abs (p (a, b)), std::abs (p (b, a))) > matters * most;
+        });
+    };
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<bool> done (axes, false);
+    for (std::size_t first = 0; first < axes; ++first)
+    {
+        if (done[first]) continue;
+        done[first] = true;
+        auto& group = groups.emplace_back (1, first);
+        for (std::size_t i = 0; i < group.size(); ++i)
+            for (std::size_t j = 0; j < axes; ++j)
+                if (! done[j] && are (group[i], j))
+                {
+                    done[j] = true;
+                    group.push_back (j);
+                }
+    }
+    return groups;
+}
+
+std::vector<LoopMatrix> partOf (const std::vector<LoopMatrix>& pulses, const std::vector<std::size_t>& group)
+{
+    std::vector<LoopMatrix> part;
+    for (const auto& p : pulses)
+    {
+        auto& own = part.emplace_back (static_cast<Index> (group.size()), static_cast<Index> (group.size()));
+        for (std::size_t i = 0; i < group.size(); ++i)
+            for (std::size_t j = 0; j < group.size(); ++j)
+                own (static_cast<Index> (i), static_cast<Index> (j)) = p (static_cast<Index> (group[i]), static_cast<Index> (group[j]));
+    }
+    return part;
+}
+
+std::optional<double> radiusOfGroup (const std::vector<LoopMatrix>&, std::span<const DeviceNumbers* const>, double period_s, const HeldHand&);
+
+std::optional<double> radiusOf (std::vector<LoopMatrix> pulses, std::span<const DeviceNumbers* const> axes, double period_s, const HeldHand& hand)
+{
+    align (pulses, axes);
+    double most = 0.0;
+    for (const auto& group : groupsOf (pulses, axes.size()))
+    {
+        std::vector<const DeviceNumbers*> its;
+        for (const auto i : group)
+            its.push_back (axes[i]);
+        const auto radius = radiusOfGroup (partOf (pulses, group), its, period_s, hand);
+        if (! radius) return std::nullopt;
+        most = std::max (most, *radius);
+    }
+    return most;
+}
+
+std::optional<double> radiusOfGroup (const std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* const> axes, double period_s, const HeldHand& hand)
 {
     std::size_t latest = 0;
     std::vector<LoopMatrix> ticks;
@@ -96,7 +187,7 @@ std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span
     for (std::size_t i = 0; i < axes.size(); ++i)
     {
         if (! axes[i]->mass || ! axes[i]->damping) return std::nullopt;
-        latest = std::max (latest, delayOf (*axes[i]));
+        latest = std::max (latest, ticksLate (*axes[i]));
         ticks.push_back (i > 0 && axes[i] == axes[i - 1] ? ticks.back() : LoopMatrix (heldMotion (*axes[i], period_s, hand)));
         first.push_back (first.back() + ticks.back().rows());
     }
@@ -112,7 +203,7 @@ std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span
         loop.block (first[i], first[i], states, states) = ticks[i].leftCols (states);
         for (std::size_t k = 0; k < pulses.size(); ++k)
             for (std::size_t j = 0; j < n; ++j)
-                loop.block (first[i], past (j, k + delayOf (*axes[i])), states, 1) -=
+                loop.block (first[i], past (j, k + ticksLate (*axes[i])), states, 1) -=
                     pulses[k](static_cast<Index> (i), static_cast<Index> (j)) * ticks[i].rightCols (1);
         for (std::size_t ago = 1; ago <= remembered; ++ago)
             loop (past (i, ago), past (i, ago - 1)) = 1.0;
@@ -154,6 +245,71 @@ std::optional<double> loopRadius (std::span<const Jacobian> response, std::span<
 {
     const auto pulses = pulsesOf (response.size(), [&] (std::size_t k) -> const Jacobian& { return response[k]; });
     return radiusOf (pulses, axes, period_s, hand);
+}
+
+double turnOf (const Jacobian& settled) noexcept
+{
+    const double all = settled.norm();
+    return all > 0.0 ? 0.5 * (settled - settled.transpose()).norm() / all : 0.0;
+}
+
+std::optional<double> passivityLoad (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, std::span<const double> weights,
+                                     double period_s)
+{
+    if (response.empty()) return std::nullopt;
+    auto pulses = pulsesOf (response.size(), [&] (std::size_t k) { return LoopMatrix (0.5 * (response[k] + response[k].transpose())); });
+    align (pulses, axes);
+    const auto groups = groupsOf (pulses, axes.size());
+    double most = 0.0;
+    for (const auto& group : groups)
+    {
+        const auto part = partOf (pulses, group);
+        if (std::ranges::none_of (part, [] (const LoopMatrix& p) { return p.norm() > 0.0; })) continue;
+        const auto size = static_cast<Index> (group.size());
+        const auto at = [&] (double angle) {
+            Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero (size, size);
+            for (std::size_t k = 0; k < part.size(); ++k)
+                h += std::polar (1.0, -angle * static_cast<double> (k)) * part[k];
+            const double half = std::sin (0.5 * angle);
+            for (Index i = 0; i < size; ++i)
+            {
+                const auto& device = *axes[group[static_cast<std::size_t> (i)]];
+                h.row (i) *= std::polar (1.0, -angle * static_cast<double> (ticksLate (device))) * (1.0 - std::polar (1.0, -angle)) * 0.5 * period_s
+                             / (2.0 * half * half);
+            }
+            const auto scale = [&] (Index i) { return std::sqrt (weights[group[static_cast<std::size_t> (i)]]); };
+            if (size == 1) return h (0, 0).real() * scale (0) * scale (0);
+            for (Index i = 0; i < size; ++i)
+                for (Index j = 0; j < size; ++j)
+                    h (i, j) *= scale (i) * scale (j);
+            const Eigen::MatrixXcd both = 0.5 * (h + h.adjoint());
+            return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> (both, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+        };
+        std::size_t latest = 0;
+        for (const auto i : group)
+            latest = std::max (latest, ticksLate (*axes[i]));
+        const auto steps = std::min<std::size_t> (512, 24 + 8 * (part.size() + latest));
+        const double step = std::numbers::pi / static_cast<double> (steps);
+        double best = 0.01, value = at (best);
+        for (std::size_t i = 1; i <= steps; ++i)
+            if (const double now = at (step * static_cast<double> (i)); now > value)
+            {
+                value = now;
+                best = step * static_cast<double> (i);
+            }
+        // The top between the neighbours.
+        double low = std::max (0.01, best - step), high = std::min (std::numbers::pi, best + step);
+        constexpr double golden = 0.6180339887498949;
+        for (int i = 0; i < 20; ++i)
+        {
+            const double a = high - golden * (high - low), b = low + golden * (high - low);
+            const double left = at (a), right = at (b);
+            value = std::max ({ value, left, right });
+            (left < right ? low : high) = left < right ? a : b;
+        }
+        most = std::max (most, value);
+    }
+    return most;
 }
 
 namespace

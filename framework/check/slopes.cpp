@@ -128,9 +128,10 @@ private:
     /// larger of the two responses is kept.
     Slope slopeOf (std::size_t role, Linked& all)
     {
-        Slope slope { .t_s = pair.time(), .position = pair.position (role), .by_node = std::vector<double> (pair.nodes(), 0.0) };
+        Slope slope { .t_s = pair.time(), .position = pair.position (role), .force = pair.force (role), .brake = pair.brake (role), .by_node = std::vector<double> (pair.nodes(), 0.0) };
         std::array<std::vector<double>, 3> own;
-        for (int axis = 0; axis < 3; ++axis)
+        own.fill (std::vector<double> (pair.numberOfForces(), 0.0));
+        for (int axis = 0; axis < (motion.roles[role].axis ? 1 : 3); ++axis)
         {
             const auto column = first (role) + axis;
             own[at (axis)].assign (pair.numberOfForces(), 0.0);
@@ -177,6 +178,21 @@ private:
         const auto keep = [&] (std::vector<double> response) {
             if (! response.empty()) slope.responses.push_back (std::move (response));
         };
+        if (all.is_smooth && ! all.responses.empty() && (is_steep || is_damped))   // the columns of a linear response tell all
+        {
+            slope.stiffness = mostStretched (settled).factor;
+            const auto along = [&] (const Vec3& d) {
+                std::vector<double> response;
+                for (const auto& m : all.responses)
+                    response.push_back (-d.dot (own (m) * d));
+                return response;
+            };
+            if (is_steep) keep (along (steepest));
+            if (is_damped && (! is_steep || std::abs (steepest.dot (most_damped)) < 1.0 - 1e-6)) keep (along (most_damped));
+            slope.lag = mostStretched (own (all.late)).factor;
+            slope.damping = mostStretched (excess).factor;
+            return;
+        }
         if (is_steep) keep (largestResponse (slope, role, steepest, [] (const Pair::Response& r) { return &r.settled; }));
         const bool is_another = ! is_steep || std::abs (steepest.dot (most_damped)) < 1.0 - 1e-6;
         if (is_damped && is_another) keep (largestResponse (slope, role, most_damped, [] (const Pair::Response& r) { return &r.excess; }));

@@ -7,6 +7,7 @@
 
 #include <host/devices/hid/physics.hpp>
 #include <tactus/check/report.hpp>
+#include <tactus/check/trials.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/list_text.hpp>
@@ -38,12 +39,14 @@ std::string number (double v) { return roundedText (v, 3); }
 
 std::string describe (const check::Condition& c)
 {
-    auto line = "  " + padded (nameOf (c.verdict), 12) + padded (c.id, 18) + padded (printableName (c.node.empty() ? "-" : c.node), 16);
+    const auto about = ! c.axis.empty() ? "axis " + c.axis : c.node.empty() ? std::string ("-")
+                                                                            : c.node;
+    auto line = "  " + padded (nameOf (c.verdict), 12) + padded (c.id, 18) + padded (printableName (about), 16);
     if (c.verdict != check::Verdict::not_reached)
         line += padded (number (c.value) + " of " + (c.isKnown() ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
-    if (c.isKnown()) line += padded ("margin " + number (c.margin()), 18);
+    if (c.isKnown()) line += padded ("margin " + (std::isnan (c.margin()) ? "?" : number (c.margin())), 18);
     line += std::string (c.law) + '\n';
-    if (c.verdict == check::Verdict::holds || c.verdict == check::Verdict::passive) return line;
+    if (c.verdict == check::Verdict::holds) return line;
     line += "              " + c.text + '\n';
     if (! c.remedy.empty()) line += "              " + std::string (c.verdict == check::Verdict::unknown ? "" : "would help: ") + c.remedy + '\n';
     return line;
@@ -66,11 +69,16 @@ std::string ableDevices (const check::Demand& demand, const std::string& role, c
 }
 
 void print (const CheckOptions& options, const check::Demand& demand, const std::vector<check::RoleDevice>& devices,
-            const std::vector<check::Condition>& conditions, const hid::LoadedProfiles& profiles)
+            const std::vector<check::Condition>& conditions, const check::JudgeOptions& judge, const hid::LoadedProfiles& profiles)
 {
-    std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz, over " << number (demand.lasts_s) << " s of motion\n";
+    std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz: "
+              << check::scopeOf (demand, judge, options.sweep ? "a sweep" : "the hand's motion")
+              << '\n';
+    for (const auto& n : check::notJudged (demand, conditions, judge))
+        std::cout << "not judged: " << (n.role.empty() ? "" : "of " + printableName (n.role) + ", ") << n.what << ": " << n.why << '\n';
     for (const auto& role : demand.roles)
     {
+        if (! role.axis.empty()) continue;   // its conditions stand below those of its tool
         const auto device = std::ranges::find (devices, role.role, &check::RoleDevice::role);
         std::cout << printableName (role.role) << " on " << printableName (device->name) << ": " << check::describe (device->numbers) << '\n';
         bool is_broken = false;
@@ -80,12 +88,11 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
                 std::cout << describe (c);
                 is_broken = is_broken || c.isBroken();
             }
-        if (role.has_other_efforts) std::cout << "  its torques, axes and signals are not judged\n";
         if (const auto able = is_broken ? ableDevices (demand, role.role, options.judge, profiles) : ""; ! able.empty())
-            std::cout << "  profiles that break no condition, as far as their numbers are known: " << able << '\n';
+            std::cout << "  profiles that break no condition, as far as their numbers are known and without trials: " << able << '\n';
     }
     const auto broken = std::ranges::count_if (conditions, &check::Condition::isBroken);
-    std::cout << (broken == 0 ? "no condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
+    std::cout << (broken == 0 ? "no judged condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
               << "; not everything can be judged: try it by hand\n";
 }
 
@@ -97,11 +104,14 @@ void run (const CheckOptions& options)
     std::vector<check::RoleDevice> devices;
     for (const auto& r : graph.roles)
         devices.push_back (r.device);
-    const auto conditions = check::judge (demand, devices, options.judge);
+    const auto trials = check::tryLoops (graph.subject, motion, demand, devices, { .ticks = check::affordableTicks (*graph.plan) / 6 });
+    auto judge = options.judge;
+    judge.trials = &trials;
+    const auto conditions = check::judge (demand, devices, judge);
     if (options.json)
-        std::cout << writeJson (check::toJson (demand, devices, conditions, options.judge));
+        std::cout << writeJson (check::toJson (demand, devices, conditions, judge));
     else
-        print (options, demand, devices, conditions, graph.profiles);
+        print (options, demand, devices, conditions, judge, graph.profiles);
     if (check::isBroken (conditions))
     {
         std::cout.flush();

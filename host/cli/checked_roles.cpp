@@ -59,6 +59,7 @@ private:
         {
             r.device.numbers = *numbers;
             r.device.name = "sim";
+            r.device.simulated = check::simulationOf (description, from);
         }
         else if (isPluginDevice (description))
             r.device = { .role = r.device.role, .name = nameOf (description) };   // its numbers are known when it is open
@@ -70,6 +71,7 @@ private:
     {
         r.device.numbers = hid::numbersOf (profile);
         r.device.name = profile.id;
+        r.device.simulated.reset();
     }
 
     void take (const std::string& option)

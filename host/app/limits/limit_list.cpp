@@ -155,7 +155,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             ++list.not_reached;
         else if (c.verdict == check::Verdict::unknown)
             ++list.unknown;
-        else if (! is_broken && c.margin() >= LimitList::near)
+        else if (! is_broken && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
             ++list.held;
         else
         {

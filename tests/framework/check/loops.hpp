@@ -296,6 +296,9 @@ private:
     }
 };
 
+/// True if the condition of a contact holds, everywhere or along the motion.
+inline bool isPassive (check::Verdict v) { return v == check::Verdict::passive || v == check::Verdict::passive_here; }
+
 inline std::string brokenIds (const std::vector<check::Condition>& all)
 {
     std::string ids;

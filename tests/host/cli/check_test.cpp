@@ -3,6 +3,8 @@
 
 #include <tactus/text/json.hpp>
 
+#include <tactus/text/json_writer.hpp>
+
 #include <catch2/catch.hpp>
 
 using namespace tactus;
@@ -59,6 +61,70 @@ TEST_CASE ("`tactus check` takes the name of a preset, and lists a texture that 
     INFO (ran.out << ran.err);
     CHECK (ran.out.find ("not reached reach             ribs") != std::string::npos);
     CHECK (ran.out.find ("would help: another motion of the hand: --sweep") != std::string::npos);
+}
+
+TEST_CASE ("`tactus check` judges an axis like a tool, and says first what it does not judge", "[check][cli]")
+{
+    Scratch scratch;
+    const auto knob = [&] (const std::string& wires, const std::string& nodes = "") { return scratch.write ("knob.json", R"({ "format": "tactus-graph", "version": 2, "name": "detents", "rate_hz": 1000,
+            "devices": { "knob": { "driver": "sim", "mass": "50 g", "axes": { "slide": { "mass": "50 g", "damping": "1 N*s/m", "position": "0.2 mm" } } } },
+            "nodes": { "p": { "type": "device.axis", "role": "knob", "settings": { "axis": "slide" } },
+                       "law": { "type": "signal.expression", "settings": { "inputs": 1, "text": "-2*sin(2000*in0)" }
+},
+                       "m": { "type": "device.effort", "role": "knob", "settings": { "axis": "slide" } })" + nodes + R"(
+},
+            "wires": ["p.axis -> law.in[0]", )" + wires + " ]
+}
+");
+}
+;
+const auto stiff = runTactus ({ "check", knob (R"("law.out -> m.effort")"), "--json" });
+INFO (stiff.out << stiff.err);
+CHECK (stiff.status == 1);
+CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("verdict") == Json ("unstable"));
+CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("axis") == Json ("slide"));
+const auto soft = runTactus ({ "check", knob (R"({ "wire": "law.out -> m.effort", "gain": 0.2 })"), "--json" });
+INFO (soft.out << soft.err);
+CHECK (soft.status == 0);
+CHECK (conditionOf (Json::parse (soft.out), "stiffness").at ("verdict") == Json ("passive_here"));
+
+const auto both = knob (R"("law.out -> m.effort", "law.out -> turn.x", "turn.out -> wrist.torque")",
+                        R"(, "turn": { "type": "vector.join" }, "wrist": { "type": "device.force", "role": "knob" })");
+const auto text = runTactus ({ "check", both }).out;
+INFO (text);
+CHECK (text.find ("not judged: of knob, torque of 'wrist'") < text.find ("stiffness"));
+}
+
+TEST_CASE ("`tactus check` says that a damper on a coarse sensor strikes the tool", "[check][cli]")
+{
+    Scratch scratch;
+    const auto wall = [&] (const char* window) {
+        return scratch.write ("wall.json", std::string (R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+            "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N", "position": ["0 mm", "0 mm", "3 mm"],
+                "hand": { "stiffness": "300 N/m", "damping": "3 N*s/m", "path": "press", "scale": 0.2, "offset": ["0 mm", "0 mm", "-4 mm"] } } },
+            "nodes": { "p": { "type": "device.position", "role": "h" }, "m": { "type": "device.force", "role": "h" },
+                "w": { "type": "deform.plane", "params": { "stiffness": "1 N/mm", "damping": "10 N*s/m" }, "settings": { "window": ")")
+                                               + window + R"(" } } },
+            "wires": ["p.position -> w.position", "w.force -> m.force"] })");
+    };
+    const auto report = Json::parse (runTactus ({ "check", wall ("0 s"), "--json" }).out);
+    const auto blow = conditionOf (report, "blow");
+    INFO (writeJson (report));
+    CHECK (blow.at ("verdict") == Json ("broken"));
+    CHECK (blow.at ("value").get<double>() == Approx (0.5).epsilon (1e-3));
+    CHECK (blow.at ("text").asString().find ("b delta/T") != std::string::npos);
+    CHECK (blow.at ("remedy").asString().find ("window") != std::string::npos);
+    const auto smooth = conditionOf (Json::parse (runTactus ({ "check", wall ("20 ms"), "--json" }).out), "blow");
+    CHECK (smooth.at ("value").get<double>() == Approx (0.025).epsilon (0.05));
+    CHECK (smooth.at ("verdict") != Json ("broken"));
+}
+
+TEST_CASE ("`tactus check` calls the braked wall stable: its brake counts", "[check][cli]")
+{
+    const auto ran = runTactus ({ "check", "braked_wall", "--json" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    CHECK (conditionOf (Json::parse (ran.out), "stiffness").at ("verdict") != Json ("unstable"));
 }
 
 TEST_CASE ("`tactus nodes` says which nodes claim to be passive", "[cli]")

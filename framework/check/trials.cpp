@@ -1,0 +1,508 @@
+// SPDX-License-Identifier: MIT
+#include "trials.hpp"
+#include "bench.hpp"
+#include "free_tool.hpp"
+
+#include <tactus/run/engine.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace tactus::check
+{
+
+namespace
+{
+constexpr double lasts_s = 3.0;
+constexpr double least_swing = 1e-6;   // m, or rad
+constexpr double cautious = 0.6;       // of a swing: from another start, it may be as much larger
+constexpr double window_s = 0.125;
+constexpr std::size_t windows = 24;   // in three seconds
+constexpr double far_m = 1.0;
+constexpr std::size_t most_over = 4;                // times the planned ticks
+constexpr double near_off = 2e-4, far_off = 2e-3;   // m
+
+/// From where to where a coordinate has been.
+struct Reached
+{
+    double low = 1e300, high = -1e300, rise = 0.0, fall = 0.0;
+
+    void to (double z) noexcept
+    {
+        low = std::min (low, z);
+        high = std::max (high, z);
+        rise = std::max (rise, z - low);
+        fall = std::max (fall, high - z);
+    }
+    double range() const noexcept { return high > low ? high - low : 0.0; }
+    double swing() const noexcept { return std::min (rise, fall); }
+};
+
+/// A coordinate of a tool, or one of its axes.
+struct Coordinate
+{
+    double threshold = cautious * least_swing;
+    std::array<Reached, windows> by_window {};
+    Reached third {}, second {};
+};
+
+class TrialRun
+{
+public:
+    TrialRun (const Subject& s, const HandMotion& m, const Demand& d, std::span<const RoleDevice> devices, const TrialEffort& e)
+        : motion (m), demand (d), effort (e), stop (s.stop)
+    {
+        auto options = s.options;
+        options.rate_hz = m.rate_hz;
+        engine = std::make_unique<Engine> (compile (s.graph, s.catalogue, options).plan);
+        for (const auto& role : m.roles)
+        {
+            const auto at = std::ranges::find (devices, role.role, &RoleDevice::role);
+            const bool is_known = at != devices.end() && at->numbers.mass && at->numbers.damping && ! isSlow (at->numbers);
+            known.push_back (is_known);
+            DeviceNumbers numbers = at != devices.end() ? at->numbers : DeviceNumbers {};
+            if (! is_known) numbers.mass = numbers.damping = DeviceNumber { .value = 1.0 };
+            const auto* simulated = at != devices.end() && at->simulated ? &*at->simulated : nullptr;
+            auto layout = role.layout;
+            if (simulated != nullptr) layout.brake = simulated->brake;
+            tools.push_back (std::make_unique<FreeTool> (numbers, layout, simulated, m.rate_hz));
+            GuardLimits limits;
+            if (numbers.peak_force) limits.max_force = numbers.peak_force->value;
+            engine->attach (role.role, *tools.back(), limits);
+            devices_of.push_back (numbers);
+            for (int i = 0; i < 3; ++i)
+                thresholds.push_back (cautious * std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
+        }
+    }
+
+    Trials all()
+    {
+        for (const auto& role : demand.roles)
+        {
+            found.by_role.push_back ({ .role = role.role, .axis = role.axis });
+            owners.push_back (ownerOf (role));
+        }
+        bool is_any = false;
+        for (std::size_t d = 0; d < owners.size(); ++d)
+            is_any = is_any || isFree (d);
+        if (motion.ticks == 0 || ! is_any) return std::move (found);
+        silencePlayers();
+        std::size_t now = 0;
+        for (const auto at : chosen())
+        {
+            for (; now <= at; ++now)
+                holdAt (now);
+            now = at + 1;
+            tryAt (at);
+            if (is_over) break;
+        }
+        for (std::size_t d = 0; d < owners.size(); ++d)
+            found.by_role[d].is_tried = isFree (d) && (found.by_role[d].swings || ! is_over);
+        return std::move (found);
+    }
+
+private:
+    const HandMotion& motion;
+    const Demand& demand;
+    TrialEffort effort;
+    std::stop_token stop;
+    std::unique_ptr<Engine> engine;
+    std::vector<std::unique_ptr<FreeTool>> tools;
+    std::vector<DeviceNumbers> devices_of;
+    std::vector<bool> known;
+    std::vector<double> thresholds;
+    Trials found {};
+    std::size_t ticks = 0;
+    bool is_over = false;          // no ticks are left
+    std::vector<bool> silent {};   // by node; empty if none is
+
+    /// A role of the demand: its tool, and which of its axes it is; -1: the tool itself, -2: an axis that is not known.
+    struct Owner
+    {
+        std::size_t tool = 0;
+        int axis = -1;
+    };
+    std::vector<Owner> owners {};   // in the order of the demand
+
+    Owner ownerOf (const RoleDemand& d) const
+    {
+        Owner o;
+        while (o.tool < motion.roles.size() && motion.roles[o.tool].role != d.role)
+            ++o.tool;
+        if (d.axis.empty()) return o;
+        o.axis = indexOf (motion.roles[o.tool].layout.axes, d.axis);
+        if (o.axis < 0 || ! tools[o.tool]->moves (static_cast<std::size_t> (o.axis))) o.axis = -2;
+        return o;
+    }
+
+    bool isFree (std::size_t d) const { return owners[d].axis >= 0 || (owners[d].axis == -1 && known[owners[d].tool]); }
+
+    /// The trial of a coordinate of a tool; null if nothing is judged there.
+    Trial* trialOf (std::size_t tool, int axis)
+    {
+        for (std::size_t d = 0; d < owners.size(); ++d)
+            if (owners[d].tool == tool && owners[d].axis == axis && isFree (d)) return &found.by_role[d];
+        return nullptr;
+    }
+
+    bool isSlow (const DeviceNumbers& n) const { return n.rate && n.rate->value > 0.0 && n.rate->value < (1.0 - 1e-9) * motion.rate_hz; }
+
+    void tick()
+    {
+        if (stop.stop_requested()) throw Stopped {};
+        ++ticks;
+        if (silent.empty()) return engine->tick();
+        engine->tick ([this] (Plan& plan) noexcept { tickWithout (plan, silent); });
+    }
+
+    /// The nodes that play by themselves: no device source leads to them, and their outputs change while the tools are held.
+    void silencePlayers()
+    {
+        const auto& plan = engine->newest();
+        const auto& flat = plan.flat();
+        std::vector<bool> follows (flat.nodes.size(), false);
+        for (std::size_t n = 0; n < follows.size(); ++n)
+            follows[n] = flat.nodes[n].type->bind != nullptr;
+        for (bool changes = true; changes;)
+        {
+            changes = false;
+            for (const auto& w : flat.wires)
+                if (w.from && follows[static_cast<std::size_t> (w.from->node)] && ! follows[static_cast<std::size_t> (w.to.node)])
+                    follows[static_cast<std::size_t> (w.to.node)] = changes = true;
+        }
+        const auto outputsOf = [&] (std::size_t n) {
+            std::vector<double> all;
+            const auto& instance = plan.instances()[n];
+            if (instance.outputs == nullptr || follows[n] || ! flat.nodes[n].runs()) return all;
+            for (const auto& row : flat.nodes[n].type->outputs)
+                for (int i = 0; i < row.width && ! row.list; ++i)
+                    all.push_back (*instance.output (row.offset + sizeof (double) * static_cast<std::size_t> (i)));
+            return all;
+        };
+        std::vector<std::size_t> own;
+        for (std::size_t n = 0; n < follows.size(); ++n)
+            if (! outputsOf (n).empty()) own.push_back (n);
+        if (own.empty()) return;
+        std::vector<bool> plays (follows.size(), false);
+        holdAt (0);
+        std::vector<std::vector<double>> first;
+        for (const auto n : own)
+            first.push_back (outputsOf (n));
+        const auto wait = static_cast<std::size_t> (motion.rate_hz);
+        for (std::size_t k = 0; k < wait; ++k)
+        {
+            holdAt (0);
+            for (std::size_t i = 0; i < own.size(); ++i)
+                if (! plays[own[i]] && outputsOf (own[i]) != first[i]) plays[own[i]] = true;
+        }
+        if (std::ranges::count (plays, true) > 0) silent = std::move (plays);
+    }
+
+    void holdAt (std::size_t k)
+    {
+        for (std::size_t r = 0; r < tools.size(); ++r)
+            tools[r]->hold (motion.roles[r].readings[k]);
+        tick();
+    }
+
+    void settle (std::size_t k)
+    {
+        const auto wait = std::max<std::size_t> (32, static_cast<std::size_t> (0.012 * motion.rate_hz));
+        for (std::size_t i = 0; i < wait; ++i)
+            holdAt (k);
+    }
+
+    Vec3 speedAt (std::size_t role, std::size_t k) const
+    {
+        const auto& readings = motion.roles[role].readings;
+        const auto half = std::max<std::size_t> (1, static_cast<std::size_t> (2.5e-3 * motion.rate_hz));
+        const auto from = k > half ? k - half : 0, to = std::min (k + half, readings.size() - 1);
+        if (from == to) return Vec3::Zero();
+        return (readings[to].position - readings[from].position) * motion.rate_hz / static_cast<double> (to - from);
+    }
+
+    std::size_t tickOf (double t_s) const
+    {
+        return std::min (static_cast<std::size_t> (std::max (0.0, std::round (t_s * motion.rate_hz))), motion.ticks - 1);
+    }
+
+    /// The ticks at which the tools are let go, in order.
+    std::vector<std::size_t> chosen() const
+    {
+        struct Candidate
+        {
+            std::size_t place;
+            double weight;
+        };
+        std::vector<Candidate> candidates;
+        std::vector<std::size_t> ticks_of;
+        std::vector<std::size_t> picked;   // places
+        const auto weigh = [&] (std::size_t i) {
+            const auto& l = demand.linked[i];
+            double most = 0.0;
+            for (const auto& response : l.responses)
+                most = std::max (most, response.norm());
+            return std::max (most, l.settled.norm()) + l.excess.norm() * motion.rate_hz;
+        };
+        double heaviest = 0.0;
+        for (std::size_t i = 0; i < demand.linked.size(); ++i)
+        {
+            candidates.push_back ({ i, weigh (i) });
+            heaviest = std::max (heaviest, candidates.back().weight);
+        }
+        std::ranges::stable_sort (candidates, std::ranges::greater {}, &Candidate::weight);
+        const auto differs = [&] (std::size_t a, std::size_t b) {
+            const auto& x = demand.linked[a];
+            const auto& y = demand.linked[b];
+            const double most = std::max ({ x.settled.norm(), y.settled.norm(), 1e-3 * heaviest }), b_most = std::max (x.excess.norm(), y.excess.norm());
+            return (x.settled - y.settled).norm() > 0.2 * most || (x.excess - y.excess).norm() > 0.2 * std::max (b_most, 1e-3 * heaviest / motion.rate_hz);
+        };
+        const auto each = static_cast<std::size_t> (8.0 * 0.6 * motion.rate_hz);   // ticks that the trials at a place usually take
+        const auto most_places = std::clamp<std::size_t> (effort.ticks / each, 2, std::max<std::size_t> (2, effort.places));
+        const auto pick = [&] (std::size_t place) {
+            if (picked.size() < most_places && std::ranges::count (picked, place) == 0) picked.push_back (place);
+        };
+        std::vector<std::size_t> unlike;   // one of each kind of response
+        for (const auto& c : candidates)
+            if (std::ranges::all_of (unlike, [&] (std::size_t u) { return differs (u, c.place); })) unlike.push_back (c.place);
+        constexpr std::size_t most_loops = 16;
+        if (unlike.size() > most_loops) unlike.resize (most_loops);
+        std::size_t nearest = candidates.empty() ? 0 : candidates.front().place;
+        double largest = 0.0;
+        for (const auto u : unlike)
+            if (const double radius = worstHand (u).second; radius > largest)
+            {
+                largest = radius;
+                nearest = u;
+            }
+        if (! candidates.empty()) pick (nearest);
+        if (! candidates.empty()) pick (candidates.front().place);
+        // The extremes of force, and the fastest.
+        for (std::size_t r = 0; r < demand.roles.size(); ++r)
+        {
+            const auto& slopes = demand.roles[r].slopes;
+            if (slopes.size() != demand.linked.size() || slopes.empty() || owners[r].axis != -1) continue;
+            const auto forceOf = [] (const Slope& s) { return s.force.norm(); };
+            pick (static_cast<std::size_t> (std::ranges::max_element (slopes, {}, forceOf) - slopes.begin()));
+            std::size_t fastest = 0, lightest = slopes.size();
+            const double light = 0.3 * forceOf (*std::ranges::max_element (slopes, {}, forceOf));   // a tool that is hardly pressed takes long to settle
+            for (std::size_t i = 0; i < slopes.size(); ++i)
+            {
+                if (speedAt (owners[r].tool, tickOf (slopes[i].t_s)).norm() > speedAt (owners[r].tool, tickOf (slopes[fastest].t_s)).norm()) fastest = i;
+                if (slopes[i].force.norm() > light && (lightest == slopes.size() || forceOf (slopes[i]) < forceOf (slopes[lightest]))) lightest = i;
+            }
+            pick (fastest);
+            if (lightest < slopes.size()) pick (lightest);
+        }
+        for (const auto& c : candidates)
+            if (std::ranges::all_of (picked, [&] (std::size_t p) { return differs (p, c.place); })) pick (c.place);
+        for (const auto p : picked)
+            ticks_of.push_back (tickOf (demand.linked[p].t_s));
+        if (ticks_of.empty())   // nothing has a slope: evenly along the motion
+            for (std::size_t i = 0; i < effort.places; ++i)
+                ticks_of.push_back ((2 * i + 1) * motion.ticks / (2 * effort.places));
+        std::ranges::sort (ticks_of);
+        ticks_of.erase (std::unique (ticks_of.begin(), ticks_of.end()), ticks_of.end());
+        return ticks_of;
+    }
+
+    /// How all tools are let go at once.
+    struct Release
+    {
+        double along = 0.0, across = 0.0, third = 0.0;   // m; out of the contact, sideways
+        double speed = 0.0;                              // times that of the motion
+        HeldHand hand {};
+        double off() const noexcept { return std::sqrt (along * along + across * across + third * third); }
+    };
+
+    /// The hand that makes the loops of the tools swing most at a place, and the largest radius with it.
+    std::pair<HeldHand, double> worstHand (std::size_t place) const
+    {
+        std::pair<HeldHand, double> worst { usualHands()[2], 0.0 };
+        for (std::size_t r = 0; r < demand.roles.size(); ++r)
+        {
+            if (owners[r].axis != -1 || ! isFree (r)) continue;
+            const auto first = static_cast<Eigen::Index> (3 * r);
+            std::vector<Jacobian> own;
+            for (const auto& m : demand.linked[place].responses)
+                own.emplace_back (m.block (first, first, 3, 3));
+            if (own.empty()) continue;
+            const auto* device = &devices_of[owners[r].tool];
+            const std::array<const DeviceNumbers*, 3> axes { device, device, device };
+            for (const auto& hand : usualHands())
+                if (const auto radius = loopRadius (own, axes, 1.0 / motion.rate_hz, hand); radius && *radius > worst.second) worst = { hand, *radius };
+        }
+        return worst;
+    }
+
+    std::vector<Release> releasesAt (std::size_t at) const
+    {
+        const double t_s = static_cast<double> (at) / motion.rate_hz;
+        const auto place = std::ranges::min_element (demand.linked, {}, [&] (const Linked& l) { return std::abs (l.t_s - t_s); });
+        auto worst = place != demand.linked.end() ? worstHand (static_cast<std::size_t> (place - demand.linked.begin())).first : usualHands()[2];
+        if (worst.mass == 0.0) worst = usualHands()[2];   // without a hand, it is let go anyway
+        const auto arm = usualHands().back();
+        double fastest = 0.0;
+        for (std::size_t r = 0; r < tools.size(); ++r)
+            fastest = std::max (fastest, speedAt (r, at).norm());
+        std::vector<Release> all {
+            { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off },
+            { .along = far_off },
+            { .across = -far_off },
+            { .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off },
+            { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst },
+            { .along = far_off, .hand = worst },
+            { .along = 0.6 * far_off, .across = 0.64 * far_off, .third = 0.48 * far_off, .hand = arm },
+        };
+        if (fastest > 0.05)
+            for (const double way : { 1.0, -1.0 })
+                all.push_back ({ .speed = way });
+        return all;
+    }
+
+    void tryAt (std::size_t at)
+    {
+        ++found.places;
+        for (std::size_t k = 0; static_cast<double> (k) < 0.1 * motion.rate_hz; ++k)   // until what was struck on the way no longer rings
+            holdAt (at);
+        std::vector<Vec3> pushes, outwards, velocities;
+        std::vector<std::vector<double>> axis_pushes;
+        for (std::size_t r = 0; r < tools.size(); ++r)
+        {
+            const Vec3 v = speedAt (r, at), f = tools[r]->effort().force;
+            Vec3 push = -f;
+            // The drag of a hand that stops is somewhere between what makes the contact slide there and back.
+            if (v.norm() > 1e-3) push += 0.5 * f.dot (v.normalized()) * v.normalized();
+            pushes.push_back (push);
+            outwards.push_back (f.norm() > 1e-6 ? Vec3 (f.normalized()) : Vec3 (Vec3::UnitZ()));
+            velocities.push_back (v);
+            auto& axes = axis_pushes.emplace_back();
+            for (std::size_t i = 0; i < tools[r]->axes(); ++i)
+                axes.push_back (-tools[r]->effort().axes[static_cast<int> (i)]);
+        }
+        for (const auto& plan : releasesAt (at))
+        {
+            if (is_over) return;
+            for (std::size_t r = 0; r < tools.size(); ++r)
+            {
+                const Vec3 out = outwards[r], aside = out.unitOrthogonal(), other = out.cross (aside);
+                tools[r]->letGo ({ .off = plan.along * out + plan.across * aside + plan.third * other,
+                                   .speed = plan.speed * velocities[r],
+                                   .push = pushes[r],
+                                   .axis_off = plan.off(),
+                                   .axis_push = axis_pushes[r],
+                                   .moves = known[r],
+                                   .hand = plan.hand });
+            }
+            run (at, plan);
+            settle (at);
+            is_over = ticks / most_over >= effort.ticks;
+        }
+    }
+
+    /// The coordinates of the tools that are free: three for each, then their axes.
+    template <typename See>
+    void eachCoordinate (See&& see) const
+    {
+        std::size_t c = 0;
+        for (std::size_t r = 0; r < tools.size(); ++r)
+        {
+            const Vec3 p = tools[r]->motor();
+            for (int i = 0; i < 3; ++i)
+                see (c++, r, -1, p[i], tools[r]->acting().force[i], tools[r]->pushes().push[i]);
+            for (std::size_t i = 0; i < tools[r]->axes(); ++i)
+                see (c++, r, static_cast<int> (i), tools[r]->axis (i), tools[r]->acting().axes[static_cast<int> (i)],
+                     i < tools[r]->pushes().axis_push.size() ? tools[r]->pushes().axis_push[i] : 0.0);
+        }
+    }
+
+    void run (std::size_t at, const Release& plan)
+    {
+        ++found.runs;
+        std::vector<Coordinate> all;
+        std::vector<double> starts, last;
+        std::vector<double> of_graph (tools.size(), 0.0), of_hand (tools.size(), 0.0);   // work in the third second, in J
+        struct Given
+        {
+            double now = 0.0, most = 0.0;
+
+            void add (double more) noexcept { most = std::max (most, now += more); }
+        };
+        std::vector<Given> all_of_graph (tools.size()), all_of_hand (tools.size());   // since the start
+        eachCoordinate ([&] (std::size_t, std::size_t r, int, double x, double, double) {
+            all.emplace_back().threshold = thresholds[3 * r];
+            starts.push_back (x);
+            last.push_back (x);
+        });
+        const auto whole = static_cast<std::size_t> (lasts_s * motion.rate_hz);
+        const auto each = std::max<std::size_t> (1, static_cast<std::size_t> (window_s * motion.rate_hz));
+        bool is_away = false;
+        for (std::size_t k = 0; k < whole && ! is_away; ++k)
+        {
+            tick();
+            const auto window = std::min (k / each, windows - 1);
+            eachCoordinate ([&] (std::size_t c, std::size_t r, int, double x, double force, double push) {
+                auto& one = all[c];
+                one.by_window[window].to (x);
+                all_of_graph[r].add (force * (x - last[c]));
+                all_of_hand[r].add (push * (x - last[c]));
+                if (3 * k >= 2 * whole)
+                {
+                    one.third.to (x);
+                    of_graph[r] += force * (x - last[c]);
+                    of_hand[r] += push * (x - last[c]);
+                }
+                else if (3 * k >= whole)
+                    one.second.to (x);
+                last[c] = x;
+                if (! (std::abs (x - starts[c]) < far_m)) is_away = true;
+            });
+            if ((k + 1) % each == 0 && window + 1 < windows && isQuiet (all, window)) return;
+        }
+        eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
+            const auto& one = all[c];
+            const bool left = ! (std::abs (x - starts[c]) < far_m) && all_of_graph[r].most > all_of_hand[r].most;
+            const bool goes_on = ! is_away && one.third.range() > one.threshold && one.third.range() >= 0.5 * one.second.range()
+                                 && of_graph[r] > std::max (0.0, of_hand[r]);
+            const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.third.swing() && of_graph[r] <= of_hand[r];   // over bumps
+            const bool dies = plan.speed != 0.0 && one.third.swing() < 0.5 * one.second.swing();
+            const bool swings = ! is_away && one.third.swing() > one.threshold && ! slides && ! dies;
+            if (! left && ! swings && ! goes_on) return;
+            auto* const its = trialOf (r, axis);
+            const double range = left ? far_m : one.third.range();
+            if (its == nullptr || (its->swings && its->range >= range)) return;
+            auto& trial = *its;
+            trial = { .role = trial.role,
+                      .axis = trial.axis,
+                      .is_tried = true,
+                      .swings = true,
+                      .runs_away = ! swings,
+                      .range = range,
+                      .t_s = static_cast<double> (at) / motion.rate_hz,
+                      .off = plan.off(),
+                      .hand = plan.hand };
+        });
+    }
+
+    /// True if nothing has moved to and fro, and nothing moves more than before, in the last two windows.
+    static bool isQuiet (const std::vector<Coordinate>& all, std::size_t window)
+    {
+        constexpr double little = 0.3;
+        return window > 0 && std::ranges::all_of (all, [&] (const Coordinate& c) {
+                   const auto& now = c.by_window[window];
+                   const auto& before = c.by_window[window - 1];
+                   return std::max (now.range(), before.range()) <= little * c.threshold;
+               });
+    }
+};
+}   // namespace
+
+Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand& demand, std::span<const RoleDevice> devices, const TrialEffort& effort)
+{
+    return TrialRun (subject, motion, demand, devices, effort).all();
+}
+
+}   // namespace tactus::check

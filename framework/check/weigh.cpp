@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "judging.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tactus::check::judging
+{
+
+namespace
+{
+std::string handText (const HeldHand& hand)
+{
+    if (hand.mass == 0.0 && hand.stiffness == 0.0) return "without a hand";
+    return "with a hand of " + text (1e3 * hand.mass, "g") + ", " + text (hand.damping, "N*s/m") + " and " + text (hand.stiffness, "N/m");
+}
+
+/// What the trials of these roles showed.
+struct Shown
+{
+    const Trial* worst = nullptr;   // that swings; null if none does
+    bool are_tried = true;
+};
+
+Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
+{
+    Shown shown;
+    for (const auto* role : roles)
+    {
+        const auto trial = std::ranges::find_if (trials.by_role, [&] (const Trial& t) { return t.role == role->role && t.axis == role->axis; });
+        shown.are_tried = shown.are_tried && trial != trials.by_role.end() && trial->is_tried;
+        if (trial != trials.by_role.end() && trial->swings && (shown.worst == nullptr || trial->range > shown.worst->range)) shown.worst = &*trial;
+    }
+    return shown;
+}
+
+/// Why a contact whose slopes are passive is not passive for every motion; empty if it is. `is_here`: it is along this one.
+std::string doubt (const Demand& demand, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed, bool& is_here)
+{
+    constexpr double uncertain = 1e-5;   // J
+    is_here = false;
+    double given = demand.given_together;
+    if (roles.size() == 1) given = roles.front()->given;
+    for (const auto* role : roles)
+    {
+        if (std::ranges::any_of (demand.deadbeats, [&] (const Deadbeat& d) { return d.role == role->role; })) return "a hold.deadbeat has no slope";
+        if (std::ranges::any_of (demand.jumps, [&] (const Jump& j) { return j.role == role->role; })) return "a force steps";
+    }
+    if (turns) return "its force turns the tool, so a loop gains energy";
+    if (given > uncertain) return "the graph gives " + text (1e3 * given, "mJ") + " along this motion";
+    is_here = true;
+    for (const auto* role : roles)
+    {
+        if (! role->claims_nothing.empty()) return "'" + role->claims_nothing.front() + "' claims nothing about other motions";
+        for (const auto& u : demand.unreached)
+            if (u.role == role->role) return "'" + demand.nodes[u.node].path + "' is not reached";
+    }
+    return holds_as_claimed ? "" : "deeper or elsewhere, the contact may be stiffer";
+}
+}   // namespace
+
+DeviceNumbers numbersFor (std::span<const RoleDevice> devices, const RoleDemand& role)
+{
+    const auto device = std::ranges::find (devices, role.role, &RoleDevice::role);
+    if (device == devices.end()) return {};
+    if (role.axis.empty()) return device->numbers;
+    DeviceNumbers numbers;
+    if (! device->simulated) return numbers;
+    const auto axis = std::ranges::find (device->simulated->axes, role.axis, &Simulation::Axis::name);
+    if (axis == device->simulated->axes.end()) return numbers;
+    const auto given = [] (double v) { return DeviceNumber { .value = v, .source = "the description of the simulated device" }; };
+    numbers.mass = given (axis->mass);
+    numbers.damping = given (axis->damping);
+    for (auto* none : { &numbers.quantum, &numbers.coulomb, &numbers.delay })
+        *none = given (0.0);
+    numbers.first_mode = given (std::numeric_limits<double>::infinity());
+    return numbers;
+}
+
+void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed)
+{
+    if (c.verdict == Verdict::unknown) return;
+    if (c.verdict == Verdict::passive)
+    {
+        bool is_here = false;
+        const auto why = doubt (demand, roles, turns, holds_as_claimed, is_here);
+        if (! why.empty())
+        {
+            c.verdict = is_here ? Verdict::passive_here : Verdict::stable;
+            c.text += "; passive " + std::string (is_here ? "along this motion" : "in its slopes") + " only, as " + why;
+            if (! is_here) c.may_grow = c.value > 0.0 ? c.limit / c.value : std::numeric_limits<double>::quiet_NaN();   // at least
+        }
+    }
+    if (trials == nullptr) return;
+    const auto [worst, are_tried] = shownBy (*trials, roles);
+    if (worst != nullptr)
+    {
+        if (c.verdict != Verdict::unstable) c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of the linear loop says nothing here
+        c.verdict = Verdict::unstable;
+        c.text = "let go " + text (1e3 * worst->off, "mm") + " off its rest at " + text (worst->t_s, "s") + " " + handText (worst->hand) + ", the tool "
+                 + (worst->runs_away ? "runs away" : "still moves to and fro by " + text (1e6 * worst->range, "um") + " in the third second") + "; " + c.text;
+        return;
+    }
+    if (! are_tried)
+    {
+        c.text += "; the tool was not let go as often as planned";
+        if (c.verdict == Verdict::broken)   // it is not known to be passive, and no more is known
+        {
+            c.verdict = Verdict::unknown;
+            c.remedy = "its loop is not known, and the tool was not let go: " + c.remedy;
+        }
+        return;
+    }
+    const auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
+    if (c.verdict == Verdict::unstable)
+    {
+        c.verdict = Verdict::stable;
+        c.text = tried + ", by what the linear loop leaves out, such as dry friction or a brake; " + c.text;
+    }
+    else if (c.verdict == Verdict::broken)   // no loop is known
+    {
+        c.verdict = Verdict::stable;
+        c.may_grow = std::numeric_limits<double>::quiet_NaN();
+        c.text = tried + "; " + c.text;
+    }
+    else
+        c.text += "; " + tried;
+}
+
+}   // namespace tactus::check::judging
