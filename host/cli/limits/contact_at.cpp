@@ -5,14 +5,19 @@
 #include <tactus/check/factors.hpp>
 #include <tactus/check/measure.hpp>
 #include <tactus/check/sampled_loop.hpp>
+#include <tactus/check/stretches.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace tactus::host
@@ -20,26 +25,60 @@ namespace tactus::host
 
 namespace
 {
-double delayOf (const DeviceNumbers& n) { return n.delay ? n.delay->value : 0.0; }
-
 /// The tick period of the loop, in s. A device that is slower than the graph holds each force for longer.
 double periodOf (const DeviceNumbers& n, double rate_hz)
 {
     return n.rate && n.rate->value > 0.0 ? std::max (1.0 / n.rate->value, 1.0 / rate_hz) : 1.0 / rate_hz;
 }
 
-/// The response with the largest load, divided into spring and damper; that of no force at all if nothing is felt there. Empty if none is known.
-std::optional<check::SpringAndDamper> heaviest (const check::Slope& slope, double rate_hz, double delay)
+using Response = std::vector<check::Jacobian>;
+
+/// What a loop of this response asks of the device, in N s/m.
+double loadOf (const Response& response, const DeviceNumbers& numbers, double period_s)
 {
-    if (slope.stiffness == 0.0 && slope.damping == 0.0) return check::springAndDamper ({}, 1.0 / rate_hz);
-    std::optional<check::SpringAndDamper> most;
-    const auto load = [&] (const check::SpringAndDamper& c) { return c.load (c.stiffness, c.damping, delay); };
-    for (const auto& response : slope.responses)
+    const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
+    constexpr std::array<double, 3> whole { 1.0, 1.0, 1.0 };
+    return check::passivityLoad (response, axes, whole, period_s).value_or (0.0);
+}
+
+/// a + factor * b, tick by tick; a response lasts as it ends.
+Response sum (const Response& a, double factor, const Response& b)
+{
+    Response all;
+    for (std::size_t k = 0; k < std::max (a.size(), b.size()); ++k)
     {
-        auto contact = check::springAndDamper (response, 1.0 / rate_hz);
-        if (! most || load (contact) > load (*most)) most = std::move (contact);
+        check::Jacobian m = check::Jacobian::Zero (3, 3);
+        if (! a.empty()) m += a[std::min (k, a.size() - 1)];
+        if (! b.empty()) m += factor * b[std::min (k, b.size() - 1)];
+        all.push_back (std::move (m));
     }
+    return all;
+}
+
+Response scaled (double factor, const Response& r) { return sum ({}, factor, r); }
+
+double sizeOf (const Response& r)
+{
+    double most = 0.0;
+    for (const auto& m : r)
+        most = std::max (most, m.norm());
     return most;
+}
+
+/// The largest factor by which a matrix stretches a vector.
+double stretch (const check::Jacobian& m)
+{
+    const Eigen::MatrixXd square = m.transpose() * m;
+    return std::sqrt (std::max (0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> (square).eigenvalues().maxCoeff()));
+}
+
+/// What is in excess of the settled force, integrated over time, in N s/m.
+check::Jacobian excessOf (const Response& r, double period_s)
+{
+    check::Jacobian all = check::Jacobian::Zero (3, 3);
+    for (const auto& m : r)
+        all += period_s * (m - r.back());
+    return all;
 }
 
 void requireNumber (const check::RoleDevice& device, const DeviceNumbers::Number& number, const std::string& name)
@@ -52,30 +91,36 @@ void requireNumber (const check::RoleDevice& device, const DeviceNumbers::Number
 
 double Standing::rests() const { return radius ? *radius - check::at_rest : std::numeric_limits<double>::quiet_NaN(); }
 
-Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<CheckedRole>& roles, const std::string& chosen)
+Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<CheckedRole>& roles, const Plan& plan, const std::string& chosen)
     : subject (std::move (s)), motion (std::move (m))
 {
     const auto demand = check::measure (subject, motion);
     double most = 0.0;
     bool is_known = false, is_felt = false;
+    const check::Slope* heaviest = nullptr;
     for (std::size_t r = 0; r < demand.roles.size(); ++r)
     {
-        if (! chosen.empty() && demand.roles[r].role != chosen) continue;
+        if ((! chosen.empty() && demand.roles[r].role != chosen) || ! demand.roles[r].axis.empty()) continue;
         const auto candidate = std::ranges::find (roles, demand.roles[r].role, [] (const CheckedRole& c) { return c.device.role; });
-        for (const auto& slope : demand.roles[r].slopes)
+        Response last;
+        for (std::size_t i = 0; i < demand.roles[r].slopes.size(); ++i)
         {
+            const auto& slope = demand.roles[r].slopes[i];
             if (slope.stiffness == 0.0 && slope.damping == 0.0) continue;
             is_felt = true;
-            const auto contact = heaviest (slope, motion.rate_hz, delayOf (candidate->device.numbers));
-            if (! contact) continue;
-            const double load = contact->load (contact->stiffness, contact->damping, delayOf (candidate->device.numbers));
+            if (demand.linked[i].responses.empty()) continue;
+            Response response;
+            for (const auto& now : demand.linked[i].responses)
+                response.emplace_back (now.block (static_cast<Eigen::Index> (3 * r), static_cast<Eigen::Index> (3 * r), 3, 3));
+            if (is_known && sizeOf (sum (response, -1.0, last)) <= 1e-6 * sizeOf (response)) continue;   // many places have the same
+            last = response;
+            const double load = loadOf (response, candidate->device.numbers, 1.0 / motion.rate_hz);
             if (is_known && load <= most) continue;
             is_known = true;
             most = load;
             role = *candidate;
             t_s = slope.t_s;
-            const auto node = std::ranges::max_element (slope.by_node);
-            steepest = node != slope.by_node.end() && *node > 0.0 ? demand.nodes[static_cast<std::size_t> (node - slope.by_node.begin())].path : "";
+            heaviest = &slope;
         }
     }
     if (! is_felt)
@@ -86,14 +131,47 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
               "sections that run on every tick: leave out `every`, or choose another --role");
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
+    findParams (demand, *heaviest, plan);
 }
 
-const check::SpringAndDamper& Contact::measured (double rate_hz, const std::vector<double>& params)
+/// The params that are varied: of the steepest node that has them, and that changes the response.
+void Contact::findParams (const check::Demand& demand, const check::Slope& slope, const Plan& plan)
 {
-    auto key = params;
-    key.push_back (rate_hz);
-    if (const auto found = known.find (key); found != known.end()) return found->second;
+    std::vector<std::size_t> nodes (slope.by_node.size());
+    std::iota (nodes.begin(), nodes.end(), std::size_t { 0 });
+    std::ranges::stable_sort (nodes, std::ranges::greater {}, [&] (std::size_t n) { return slope.by_node[n]; });
+    if (! nodes.empty() && slope.by_node[nodes.front()] > 0.0) steepest = demand.nodes[nodes.front()].path;
+    const auto changes = [&] (const std::string& param, double value) {
+        const auto base = asIs (motion.rate_hz, {}).response, other = measured (motion.rate_hz, {}, { { param, Json (value) } }).response;
+        return ! other.empty() && sizeOf (sum (other, -1.0, base)) > 1e-4 * sizeOf (base);
+    };
+    constexpr std::size_t most_tried = 6;
+    for (std::size_t i = 0; i < std::min (most_tried, nodes.size()) && slope.by_node[nodes[i]] > 0.0; ++i)
+    {
+        const auto n = nodes[i];
+        const auto& path = demand.nodes[n].path;
+        const auto has = [&] (std::string_view id, std::string_view unit) {
+            const auto& rows = plan.flat().nodes[n].type->params;
+            const auto row = std::ranges::find (rows, id, &PortSheet::id);
+            return row != rows.end() && row->width == 1 && row->unit.unit.symbol == unit;
+        };
+        if (stiffness_param.empty() && has ("stiffness", "N/m"))
+            if (const double set = check::valueInFile (plan, n, "stiffness", 0.0); set > 0.0 && changes (path + ".stiffness", 1.01 * set))
+            {
+                stiffness_param = path + ".stiffness";
+                stiffness_set = set;
+            }
+        if (damping_param.empty() && has ("damping", "N*s/m"))
+            if (const double set = check::valueInFile (plan, n, "damping", 0.0); changes (path + ".damping", set + 0.1 * damping()))
+            {
+                damping_param = path + ".damping";
+                damping_set = set;
+            }
+    }
+}
 
+Contact::Measured Contact::measured (double rate_hz, const std::vector<double>& params, const std::vector<plan::Override>& more)
+{
     auto changed = subject;
     changed.options.rate_hz = rate_hz;
     std::string where;
@@ -102,31 +180,110 @@ const check::SpringAndDamper& Contact::measured (double rate_hz, const std::vect
         changed.options.overrides.push_back ({ varied[i], Json (params[i]) });
         addToList (where, varied[i] + "=" + numberText (params[i]));
     }
+    changed.options.overrides.insert (changed.options.overrides.end(), more.begin(), more.end());
     for (const auto& message : compile (changed.graph, changed.catalogue, changed.options).messages)
         if (message.severity == Message::Severity::error)
             fail (Message::error (message.id,
                                   (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
                                   message.text, message.remedy));
     const auto demand = check::measure (changed, rate_hz == motion.rate_hz ? motion : check::atRate (motion, rate_hz), { .at_s = t_s });
-    const auto at = std::ranges::find (demand.roles, role.device.role, &check::RoleDemand::role);
-    std::optional<check::SpringAndDamper> contact;
-    if (! at->slopes.empty()) contact = heaviest (at->slopes.front(), rate_hz, delayOf (role.device.numbers));
-    if (! contact)
+    const auto at = std::ranges::find_if (demand.roles, [&] (const check::RoleDemand& d) { return d.role == role.device.role && d.axis.empty(); });
+    Measured found;
+    if (at->slopes.empty() || demand.linked.empty()) return found;
+    const auto first = static_cast<Eigen::Index> (3 * (at - demand.roles.begin()));
+    for (const auto& now : demand.linked.front().responses)
+        found.response.emplace_back (now.block (first, first, 3, 3));
+    if (found.response.empty())
         fail (Message::error ("limits/no_loop", (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz",
                               "the force does not respond in the same way on every tick", "a smaller range of --x and --y"));
-    return known.emplace (std::move (key), std::move (*contact)).first->second;
+    found.stiffness = stretch (found.response.back());
+    found.damping = at->slopes.front().damping;
+    return found;
+}
+
+const Contact::Measured& Contact::asIs (double rate_hz, const std::vector<double>& params)
+{
+    auto key = params;
+    key.push_back (rate_hz);
+    if (const auto found = known.find (key); found != known.end()) return found->second;
+    return known.emplace (std::move (key), measured (rate_hz, params, {})).first->second;
+}
+
+const Contact::Model& Contact::model (double rate_hz, const std::vector<double>& params)
+{
+    auto key = params;
+    key.push_back (rate_hz);
+    if (const auto found = models.find (key); found != models.end()) return found->second;
+    const auto& base = asIs (rate_hz, params);
+    const double period_s = 1.0 / rate_hz;
+    Model m { .stiffness = base.stiffness, .damping = base.damping, .rest = {}, .spring = {}, .damper = {} };
+    const auto valueOf = [&] (const std::string& param, double set) {   // the one that is varied along an axis, too
+        const auto i = std::ranges::find (varied, param) - varied.begin();
+        return static_cast<std::size_t> (i) < params.size() ? params[static_cast<std::size_t> (i)] : set;
+    };
+    m.rest = base.response;
+    if (! damping_param.empty())
+    {
+        const double b = valueOf (damping_param, damping_set), more = 0.1 * damping();
+        const auto other = measured (rate_hz, params, { { damping_param, Json (b + more) } });
+        m.damper = scaled (1.0 / more, sum (other.response, -1.0, base.response));
+        const double each = stretch (excessOf (m.damper, period_s));
+        if (each > 0.0)
+        {
+            m.damper = scaled (1.0 / each, m.damper);
+            m.damping = b * each;
+            m.rest = sum (m.rest, -m.damping, m.damper);
+        }
+    }
+    if (! stiffness_param.empty())
+    {
+        const double k = valueOf (stiffness_param, stiffness_set);
+        if (k > 0.0)
+        {
+            const auto other = measured (rate_hz, params, { { stiffness_param, Json (1.01 * k) } });
+            const auto change = scaled (100.0, sum (other.response, -1.0, base.response));   // of all of the param
+            if (const double of_param = change.empty() ? 0.0 : stretch (change.back()); of_param > 0.0)
+            {
+                m.spring = scaled (1.0 / of_param, change);
+                m.rest = sum (m.rest, -of_param, m.spring);
+                m.stiffness = of_param;
+            }
+        }
+    }
+    if (m.spring.empty() && base.stiffness > 0.0)   // no param: the whole response
+    {
+        m.spring = scaled (1.0 / base.stiffness, m.rest);
+        m.rest = scaled (0.0, m.rest);
+        m.stiffness = base.stiffness;
+    }
+    if (m.damper.empty())   // a damper along the steepest direction, from one tick to the next
+    {
+        const Eigen::MatrixXd last = base.response.back();
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts (Eigen::MatrixXd (last.transpose() * last));
+        const Eigen::VectorXd along = base.stiffness > 0.0 ? Eigen::VectorXd (parts.eigenvectors().col (2)) : Eigen::VectorXd (Eigen::Vector3d::UnitZ());
+        m.damper.emplace_back (along * along.transpose() / period_s);
+        m.damper.emplace_back (check::Jacobian::Zero (3, 3));
+        m.damping = 0.0;
+    }
+    return models.emplace (std::move (key), std::move (m)).first->second;
 }
 
 Standing Contact::at (const Conditions& c)
 {
     const double rate_hz = c.rate_hz > 0.0 ? c.rate_hz : motion.rate_hz;
     const auto& numbers = role.device.numbers;
-    const auto& contact = measured (rate_hz, c.params);
     const double period_s = periodOf (numbers, rate_hz);
-    Standing s { .stiffness = c.stiffness.value_or (contact.stiffness), .damping = c.damping.value_or (contact.damping), .period_s = period_s };
-    s.load = contact.load (s.stiffness, s.damping, delayOf (numbers)) + s.stiffness * (0.5 + delayOf (numbers)) * (period_s - 1.0 / rate_hz);
+    const bool varies = c.stiffness || c.damping;
+    const auto& base = asIs (rate_hz, c.params);
+    const auto m = varies ? model (rate_hz, c.params)
+                          : Model { .stiffness = base.stiffness, .damping = base.damping, .rest = base.response, .spring = {}, .damper = {} };
+    Standing s { .stiffness = c.stiffness.value_or (m.stiffness), .damping = c.damping.value_or (m.damping), .period_s = period_s };
+    auto response = m.rest;
+    if (varies) response = sum (sum (response, s.stiffness, m.spring), s.damping, m.damper);
+    s.load = loadOf (response, numbers, period_s);
     s.largest_damper = check::largestDamper (numbers, period_s);
-    if (period_s <= (1.0 + 1e-9) / rate_hz) s.radius = check::largestRadius (contact.response (s.stiffness, s.damping), numbers, period_s);
+    const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
+    if (period_s <= (1.0 + 1e-9) / rate_hz) s.radius = check::largestRadius (response, axes, period_s);
     return s;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/cli/checked_roles.hpp>
-#include <tactus/check/spring_and_damper.hpp>
+#include <tactus/check/measure.hpp>
 
 #include <map>
 #include <optional>
@@ -25,7 +25,7 @@ struct Standing
 {
     double stiffness = 0.0;            ///< N/m
     double damping = 0.0;              ///< N s/m
-    double load = 0.0;                 ///< (2d + 1) sigma T/2 + |b|, in N s/m; passive if at most B
+    double load = 0.0;                 ///< what the device must dissipate, exactly (check::passivityLoad), in N s/m; passive if at most B
     std::optional<double> radius {};   ///< of the sampled loop, with the worst of the usual hands; empty if it is not known
     double largest_damper = 0.0;       ///< the exact 2M/T + 4B/3, in N s/m
     double period_s = 0.0;             ///< T
@@ -37,33 +37,60 @@ struct Standing
     double footnote (double device_damping) const { return stiffness * period_s / (damping + device_damping) - 1.0; }
 };
 
-/// The steepest contact of a role: where and along which direction the load is largest. It is measured again for other params and rates, at the same
-/// time of the same motion.
+/// The heaviest contact of a role: the place where the load is largest, in all directions together. It is measured again for other params and rates, at the
+/// same place.
+///
+/// Its stiffness and its damping are varied by the params of these names, of the steepest node that has them: what such a param adds to the response is
+/// measured, so that a filter or a hold after the node counts as it is. Without such a param, the whole response grows with the stiffness, and a damper
+/// along the steepest direction is added.
 class Contact
 {
 public:
     /// The command ends if there is no contact, if it has no response that repeats on every tick, or if the device's mass or damping is not known.
-    Contact (check::Subject, check::HandMotion, const std::vector<CheckedRole>&, const std::string& role);
+    Contact (check::Subject, check::HandMotion, const std::vector<CheckedRole>&, const Plan&, const std::string& role);
 
     Standing at (const Conditions&);
 
     std::vector<std::string> varied;   ///< the params of Conditions::params, as NODE.PARAM
 
     double rate() const noexcept { return motion.rate_hz; }
-    double time() const noexcept { return t_s; }                    ///< of the steepest contact, in s
-    const std::string& node() const noexcept { return steepest; }   ///< the node whose own force is steepest there; its path
+    double time() const noexcept { return t_s; }                                     ///< of the steepest contact, in s
+    const std::string& node() const noexcept { return steepest; }                    ///< the node whose own force is steepest there; its path
+    const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< what is varied, as NODE.PARAM; empty: the whole response
+    const std::string& dampingParam() const noexcept { return damping_param; }       ///< the same; empty: a damper is added
     const CheckedRole& device() const noexcept { return role; }
     double damping() const noexcept { return role.device.numbers.damping->value; }   ///< of the device, in N s/m
 
 private:
-    const check::SpringAndDamper& measured (double rate_hz, const std::vector<double>& params);
+    using Response = std::vector<check::Jacobian>;   // tick by tick, three rows and columns
+
+    /// A response that grows with two numbers: rest + stiffness * spring + damping * damper.
+    struct Model
+    {
+        double stiffness = 0.0, damping = 0.0;   // as measured
+        Response rest, spring, damper;
+    };
+
+    struct Measured
+    {
+        Response response;
+        double stiffness = 0.0, damping = 0.0;
+    };
+
+    Measured measured (double rate_hz, const std::vector<double>& params, const std::vector<plan::Override>& more);
+    const Measured& asIs (double rate_hz, const std::vector<double>& params);
+    const Model& model (double rate_hz, const std::vector<double>& params);
+    void findParams (const check::Demand&, const check::Slope&, const Plan&);
 
     check::Subject subject;
     check::HandMotion motion;
     CheckedRole role;
     double t_s = 0.0;
     std::string steepest;
-    std::map<std::vector<double>, check::SpringAndDamper> known;
+    std::string stiffness_param, damping_param;   // NODE.PARAM; empty: the contact has none
+    double stiffness_set = 0.0, damping_set = 0.0;
+    std::map<std::vector<double>, Measured> known;
+    std::map<std::vector<double>, Model> models;
 };
 
 }   // namespace tactus::host

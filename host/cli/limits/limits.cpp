@@ -34,6 +34,7 @@ struct LimitsOptions : FigureSize
     std::vector<std::string> devices, sets;
     double rate_hz = 0.0, duration_s = 0.0;
     int steps = 40;
+    bool json = false;
 };
 
 std::string number (double v) { return roundedText (v, 3); }
@@ -70,10 +71,18 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
         std::cout << "  " << padded (what, 26) << padded (now, 12) << padded (is_passive, 34) << is_stable << '\n';
     };
     const auto rests = [&] (const std::optional<Range>& r, bool is_least) { return here.radius ? describe (r, is_least) : std::string ("unknown"); };
-    row ("", "now", "passive", "stable");
+    row ("", "now", "passive (sufficient)", "stable");
     row ("stiffness (N/m)", number (here.stiffness), describe (passive.stiffness, false), rests (stable.stiffness, false));
     row ("virtual damping (N*s/m)", number (here.damping), describe (passive.damping, false), rests (stable.damping, false));
     row ("rate (Hz)", number (contact.rate()), describe (passive.rate, true), rests (stable.rate, true));
+    std::cout << "  varied: " << (contact.stiffnessParam().empty() ? "the whole response" : printableName (contact.stiffnessParam())) << ", "
+              << (contact.dampingParam().empty() ? "a damper along the steepest direction" : printableName (contact.dampingParam()))
+              << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
+    if (const auto& n = device.numbers; n.quantum && n.quantum->value > 0.0 && n.coulomb)
+        std::cout << "  sensor of " << number (1e6 * n.quantum->value) << " um and dry friction of " << number (n.coulomb->value)
+                  << " N: rests where it is held up to " << number (2.0 * n.coulomb->value / n.quantum->value)
+                  << " N/m (2 f_f/delta), without blows up to a damping of " << number (n.coulomb->value * here.period_s / n.quantum->value)
+                  << " N*s/m over one tick (f_f T/delta) (Abbott & Okamura 2005; Diolaiti et al. 2006)\n";
     std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " (" << number (here.damping)
               << " of " << number (here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
               << number (here.stiffness * here.period_s) << " of " << number (here.damping + B) << " N*s/m)\n";
@@ -113,11 +122,33 @@ void run (LimitsOptions& options)
     if (axes.size() == 2 && axes[0].name == axes[1].name) throw UsageError ("--y", quote (axes[1].name) + " is already along --x");
     watchForStop();
 
-    Contact contact { graph.subject, graph.motion (options.duration_s), roles, options.role };
+    Contact contact { graph.subject, graph.motion (options.duration_s), roles, *graph.plan, options.role };
     LimitRegions limits { options.steps, contact };
     limits.vary (axes);
     const auto passive = limits.limitsOf (LimitRegions::Rule::passive), stable = limits.limitsOf (LimitRegions::Rule::stable);
-    print (limits, contact, options, passive, stable);
+    const auto report = [&] {
+        const auto& here = limits.workingPoint();
+        Json all { { "graph", graph.loaded.graph.name },
+                   { "role", contact.device().device.role },
+                   { "device", contact.device().device.name },
+                   { "rate_hz", contact.rate() } };
+        all["node"] = contact.node();
+        all["t"] = contact.time();
+        all["stiffness"] = here.stiffness;
+        all["damping"] = here.damping;
+        all["stiffness_param"] = contact.stiffnessParam();
+        all["damping_param"] = contact.dampingParam();
+        all["load"] = here.load;
+        all["radius"] = here.radius ? Json (*here.radius) : Json();
+        all["largest_damper"] = here.largest_damper;
+        all["passive"] = toJson (passive);
+        all["stable"] = toJson (stable);
+        return all;
+    };
+    if (options.json)
+        std::cout << writeJson (report());
+    else
+        print (limits, contact, options, passive, stable);
     if (options.file.empty()) return;
 
     std::vector<View> views;
@@ -154,20 +185,7 @@ void run (LimitsOptions& options)
             orFail (table.row (row));
         return orFail (table.commit());
     }
-    const auto& here = limits.workingPoint();
-    Json all { { "graph", graph.loaded.graph.name },
-               { "role", contact.device().device.role },
-               { "device", contact.device().device.name },
-               { "rate_hz", contact.rate() } };
-    all["node"] = contact.node();
-    all["t"] = contact.time();
-    all["stiffness"] = here.stiffness;
-    all["damping"] = here.damping;
-    all["load"] = here.load;
-    all["radius"] = here.radius ? Json (*here.radius) : Json();
-    all["largest_damper"] = here.largest_damper;
-    all["passive"] = toJson (passive);
-    all["stable"] = toJson (stable);
+    auto all = report();
     all["columns"] = Json::array();
     for (const auto& column : limits.columns())
         all["columns"].push_back (column);
@@ -203,9 +221,10 @@ void addLimitsOf (const Command& app)
     command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's rate").check (finiteWithin (10.0, 1e5));
     command.addOption ("--duration", options->duration_s, "Length of the motion in s").check (finiteWithin (1e-3, 60.0));
     command.addOption ("--set", options->sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
+    command.addFlag ("--json", options->json, "Print JSON, for use by programs");
     addLimits (command);
     addPlugins (command);
-    command.footer ("passive: (2d + 1) sigma T/2 + |b| <= B (Colgate). "
+    command.footer ("passive: sup of T/2 Re[(1 - e^-jwT) H]/(1 - cos wT) <= B (Colgate), which is sufficient. "
                     "stable: the sampled loop comes to rest without a hand and with the usual hands (docs/check.md).\n\n"
                     "Examples:\n"
                     "  tactus limits granite_wall\n"

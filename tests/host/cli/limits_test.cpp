@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `tactus limits`.
+#include "framework/check/own_loop.hpp"
 #include "program.hpp"
 
 #include <tactus/check/sampled_loop.hpp>
 #include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/sim.hpp>
 #include <tactus/text/json.hpp>
 
@@ -99,6 +101,45 @@ TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact 
     CHECK (ran.out.find ("1e+03       at least 500 ") != std::string::npos);   // sigma/(2B)
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=50000" }).out.find ("N*s/m; it swings\n") != std::string::npos);
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=5000" }).out.find ("stable, but not passive") != std::string::npos);
+}
+
+TEST_CASE ("the limits of a wall behind a predictor are where a tool begins to swing, within 5 %", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto wall = [&] (double stiffness, double rate_hz) {
+        return R"({ "format": "tactus-graph", "version": 2, "name": "Wall", "rate_hz": )" + std::to_string (rate_hz) + R"(, "devices": { "h":
+            { "driver": "sim", "mass": 0.1, "damping": 3, "position": [0, 0, "-0.2 mm"], "hand_force": [0, 0, "-0.6 N"] } }, "nodes": {
+            "hand": { "type": "device.position", "role": "h" }, "motor": { "type": "device.force", "role": "h" },
+            "wall": { "type": "deform.plane", "params": { "stiffness": )"
+               + std::to_string (stiffness) + R"(, "damping": 0.3 } }, "ahead": { "type": "hold.predictive", "params": { "limit": 1e6 } } },
+            "wires": ["hand.position -> wall.position", "wall.force -> ahead.in", "ahead.out -> motor.force"] })";
+    };
+    const auto ran = runTactus ({ "limits", scratch.write ("wall.json", wall (3000.0, 2000.0)), "--json" });
+    INFO (ran.out << ran.err);
+    REQUIRE (ran.status == 0);
+    const auto limits = Json::parse (ran.out);
+    CHECK (limits.at ("stiffness_param") == Json ("wall.stiffness"));
+    CHECK (limits.at ("damping").get<double>() == Approx (0.3).epsilon (1e-3));   // the half tick of the predictor is no damper
+
+    const auto swings = [&] (double stiffness, double rate_hz) {
+        const auto loaded = readGraph (wall (stiffness, rate_hz));
+        own::Loop loop { loaded.graph, catalogue(), {}, { .mass = 0.1, .damping = 3.0 } };
+        const Vec3 rest { 0.0, 0.0, -0.6 / stiffness };
+        bool any = false;
+        for (const auto& grip : { own::Grip {}, { 6e-3, 2.0, 200.0 }, { 6e-3, 4.0, 200.0 }, { 6e-3, 2.0, 800.0 }, { 6e-3, 4.0, 800.0 }, { 0.554, 6.45, 135.0 } })
+        {
+            loop.follow ({ rest });
+            const auto third = loop.letGo ({ 0.0, 0.0, 1e-7 }, grip, { 0.0, 0.0, -0.6 });
+            any = any || third.is_far || third.swing > 1e-8;
+        }
+        return any;
+    };
+    const double stiffest = limits.at ("stable").at ("stiffness").at ("to").get<double>(), slowest = limits.at ("stable").at ("rate").at ("from").get<double>();
+    INFO (stiffest << " N/m, " << slowest << " Hz");
+    CHECK_FALSE (swings (0.95 * stiffest, 2000.0));
+    CHECK (swings (1.05 * stiffest, 2000.0));
+    CHECK (swings (3000.0, 0.95 * slowest));
+    CHECK_FALSE (swings (3000.0, 1.05 * slowest));
 }
 
 TEST_CASE ("each point of a table of `tactus limits` is the exact loop of a wall", "[check][cli]")
