@@ -26,7 +26,7 @@ public:
     /// The tool is where the reading says.
     void hold (const Reading& at) noexcept;
 
-    /// How a tool is let go, from where it is held.
+    /// The release of a tool from where it is held.
     struct Start
     {
         Vec3 off = Vec3::Zero();     ///< m, from where it is held, which is where the hand's spring is relaxed

@@ -74,7 +74,7 @@ struct RoleDevice
     std::optional<Simulation> simulated {};   ///< a simulated device: its brake and its axes
 };
 
-/// What the trials of a role showed.
+/// The result of the trials of a role.
 struct Trial
 {
     std::string role, axis {};   ///< as in RoleDemand
@@ -87,7 +87,7 @@ struct Trial
     HeldHand hand {};
 };
 
-/// What tryLoops() found.
+/// The result of tryLoops().
 struct Trials
 {
     std::vector<Trial> by_role {};   ///< in the order of Demand::roles

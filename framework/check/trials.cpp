@@ -309,7 +309,7 @@ private:
         return ticks_of;
     }
 
-    /// How all tools are let go at once.
+    /// The release of all tools at once.
     struct Release
     {
         double along = 0.0, across = 0.0, third = 0.0;   // m; out of the contact, sideways

@@ -6,7 +6,7 @@
 namespace tactus::check
 {
 
-/// How much tryLoops() may do.
+/// The budget of tryLoops().
 struct TrialEffort
 {
     std::size_t places = 6;                                        ///< along the motion

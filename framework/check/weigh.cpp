@@ -15,7 +15,7 @@ std::string handText (const HeldHand& hand)
     return "with a hand of " + text (1e3 * hand.mass, "g") + ", " + text (hand.damping, "N*s/m") + " and " + text (hand.stiffness, "N/m");
 }
 
-/// What the trials of these roles showed.
+/// The result of the trials of these roles.
 struct Shown
 {
     const Trial* worst = nullptr;   // that swings; null if none does

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // What the check says of the loops of presets, and what a simulation of our own shows at the same place. With TACTUS_ROUNDS=1000, all presets.
 #include "framework/check/own_loop.hpp"
 #include "support/rounds.hpp"

@@ -4,6 +4,8 @@
 #include "placed_surface.hpp"
 #include "surface_contact.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,7 +70,7 @@ std::string placeOf (const Mesh& mesh, int t)
     return "triangle " + std::to_string (t) + ", around (" + short3 (middle.x()) + ", " + short3 (middle.y()) + ", " + short3 (middle.z()) + ") of the file";
 }
 
-/// Which triangles run the other way round than most of those that they are connected with, and the pieces of the mesh.
+/// The triangles that run the other way round than most of those that they are connected with, and the pieces of the mesh.
 struct Orientation
 {
     std::vector<char> turned;    // by triangle
@@ -133,7 +135,7 @@ Orientation orientationOf (const Mesh& mesh)
     return made;
 }
 
-/// How much a piece of a mesh is closed, and on which side it is: its volume as seen from its middle, and the sum of its normals over its area, which is 0
+/// The closure of a piece of a mesh, and its side: its volume as seen from its middle, and the sum of its normals over its area, which is 0
 /// if it is closed and 1 if it is flat.
 struct PieceShape
 {
@@ -231,7 +233,7 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface)
             low = low.cwiseMin (corners[i]);
             high = high.cwiseMax (corners[i]);
         }
-        if (const double degrees = std::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi; degrees > turned) turns.emplace_back (degrees, t);
+        if (const double degrees = math::atan2 (std::sqrt (std::max (0.0, 1.0 - least * least)), least) * 180.0 / std::numbers::pi; degrees > turned) turns.emplace_back (degrees, t);
     }
     if (turns.empty()) return {};
     const auto count = std::min (turns.size(), most_presses);
