@@ -66,33 +66,31 @@ TEST_CASE ("`tactus check` takes the name of a preset, and lists a texture that 
 TEST_CASE ("`tactus check` judges an axis like a tool, and says first what it does not judge", "[check][cli]")
 {
     Scratch scratch;
-    const auto knob = [&] (const std::string& wires, const std::string& nodes = "") { return scratch.write ("knob.json", R"({ "format": "tactus-graph", "version": 2, "name": "detents", "rate_hz": 1000,
+    const auto knob = [&] (const std::string& wires, const std::string& nodes = "") {
+        return scratch.write ("knob.json", R"json({ "format": "tactus-graph", "version": 2, "name": "detents", "rate_hz": 1000,
             "devices": { "knob": { "driver": "sim", "mass": "50 g", "axes": { "slide": { "mass": "50 g", "damping": "1 N*s/m", "position": "0.2 mm" } } } },
             "nodes": { "p": { "type": "device.axis", "role": "knob", "settings": { "axis": "slide" } },
-                       "law": { "type": "signal.expression", "settings": { "inputs": 1, "text": "-2*sin(2000*in0)" }
-},
-                       "m": { "type": "device.effort", "role": "knob", "settings": { "axis": "slide" } })" + nodes + R"(
-},
-            "wires": ["p.axis -> law.in[0]", )" + wires + " ]
-}
-");
-}
-;
-const auto stiff = runTactus ({ "check", knob (R"("law.out -> m.effort")"), "--json" });
-INFO (stiff.out << stiff.err);
-CHECK (stiff.status == 1);
-CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("verdict") == Json ("unstable"));
-CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("axis") == Json ("slide"));
-const auto soft = runTactus ({ "check", knob (R"({ "wire": "law.out -> m.effort", "gain": 0.2 })"), "--json" });
-INFO (soft.out << soft.err);
-CHECK (soft.status == 0);
-CHECK (conditionOf (Json::parse (soft.out), "stiffness").at ("verdict") == Json ("passive_here"));
+                       "law": { "type": "signal.expression", "settings": { "inputs": 1, "text": "-2*sin(2000*in0)" } },
+                       "m": { "type": "device.effort", "role": "knob", "settings": { "axis": "slide" } })json"
+                                               + nodes + R"json( },
+            "wires": ["p.axis -> law.in[0]", )json"
+                                               + wires + " ] }");
+    };
+    const auto stiff = runTactus ({ "check", knob (R"("law.out -> m.effort")"), "--json" });
+    INFO (stiff.out << stiff.err);
+    CHECK (stiff.status == 1);
+    CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("verdict") == Json ("unstable"));
+    CHECK (conditionOf (Json::parse (stiff.out), "stiffness").at ("axis") == Json ("slide"));
+    const auto soft = runTactus ({ "check", knob (R"({ "wire": "law.out -> m.effort", "gain": 0.2 })"), "--json" });
+    INFO (soft.out << soft.err);
+    CHECK (soft.status == 0);
+    CHECK (conditionOf (Json::parse (soft.out), "stiffness").at ("verdict") == Json ("passive_here"));
 
-const auto both = knob (R"("law.out -> m.effort", "law.out -> turn.x", "turn.out -> wrist.torque")",
-                        R"(, "turn": { "type": "vector.join" }, "wrist": { "type": "device.force", "role": "knob" })");
-const auto text = runTactus ({ "check", both }).out;
-INFO (text);
-CHECK (text.find ("not judged: of knob, torque of 'wrist'") < text.find ("stiffness"));
+    const auto both = knob (R"("law.out -> m.effort", "law.out -> turn.x", "turn.out -> wrist.torque")",
+                            R"(, "turn": { "type": "vector.join" }, "wrist": { "type": "device.force", "role": "knob" })");
+    const auto text = runTactus ({ "check", both }).out;
+    INFO (text);
+    CHECK (text.find ("not judged: of knob, torque of 'wrist'") < text.find ("stiffness"));
 }
 
 TEST_CASE ("`tactus check` says that a damper on a coarse sensor strikes the tool", "[check][cli]")
