@@ -372,12 +372,12 @@ private:
         if (limit > 0.0)
         {
             ways.push_back ("a window of " + atLeast (1e3 * virtualDamping() * delta / limit, "ms")
-                            + " for the speed (the setting \"window\", or a motion.velocity)");
+                            + " for the speed (the setting \"window\" or a motion.velocity)");
             ways.push_back ("a virtual damping of " + atMost (virtualDamping() * limit / value, "N*s/m"));
             ways.push_back ("a quantum of " + atMost (1e6 * delta * limit / value, "um"));
         }
         else
-            ways.emplace_back ("a longer window for the speed (the setting \"window\", or a motion.velocity)");
+            ways.emplace_back ("a longer window for the speed (the setting \"window\" or a motion.velocity)");
         ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
         decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }

@@ -74,6 +74,9 @@ struct RoleDevice
     std::optional<Simulation> simulated {};   ///< a simulated device: its brake and its axes
 };
 
+/// The numbers of a role's device, or of one of its axes if the demand is about one. Empty where they are not known. [any thread]
+DeviceNumbers numbersFor (std::span<const RoleDevice>, const RoleDemand&);
+
 /// The result of the trials of a role.
 struct Trial
 {
@@ -81,6 +84,8 @@ struct Trial
     bool is_tried = false;       ///< its tool was let go, all planned trials were made or one of them swings
     bool swings = false;         ///< it did not come to rest in one of them
     bool runs_away = false;      ///< the graph drove it away
+    bool is_doubtful = false;    ///< none swings, but one of them nearly does, or still moves on in the third second and rests later
+    bool is_lost = false;        ///< in one of them, the hand drove it away from the motion, so that trial shows nothing
     double range = 0.0;          ///< how far it moved in the third second, in m
     double t_s = 0.0;            ///< the time of the motion at which it was let go
     double off = 0.0;            ///< how far off its rest, in m

@@ -174,9 +174,6 @@ inline bool drags (const Demand& demand, std::size_t node)
 
 inline constexpr std::string_view passive_law = "sup of T/2 Re[(1 - e^-jwT) H]/(1 - cos wT) <= B";
 
-/// The numbers of a role's device, or of one of its axes. Empty where they are not known.
-DeviceNumbers numbersFor (std::span<const RoleDevice>, const RoleDemand&);
-
 /// What the judges of slopes cannot see of these roles, which are linked if there are several: whether all nodes claim what was measured, whether the
 /// graph gave energy along the motion, and what the trials showed. `turns`: the slopes are not those of an energy.
 /// `holds_as_claimed`: the condition holds for all that the nodes claim, wherever the tool goes.

@@ -128,6 +128,59 @@ std::vector<TextureWatch> texturesIn (const Plan& plan)
     return all;
 }
 
+/// A node that no device leads to. It plays if its outputs still change in the second half of the motion, or are 0 again after they changed: what only
+/// settles, such as a filter after a constant, does not play.
+struct PlayWatch
+{
+    std::size_t node;
+    std::vector<const double*> outputs;
+    std::vector<double> first {}, middle {};
+    bool changes = false, plays = false;
+
+    void poll (bool is_second_half)
+    {
+        if (plays) return;
+        auto& before = is_second_half ? middle : first;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            if (*outputs[i] != before[i]) (is_second_half ? plays : changes) = true;
+        if (before.empty())
+            for (const auto* v : outputs)
+                before.push_back (*v);
+    }
+
+    bool hasPlayed() const
+    {
+        return plays || (changes && std::ranges::all_of (outputs, [] (const double* v) { return *v == 0.0; }));
+    }
+};
+
+std::vector<PlayWatch> freeNodes (const Plan& plan)
+{
+    const auto& flat = plan.flat();
+    std::vector<bool> follows (flat.nodes.size(), false);
+    for (std::size_t n = 0; n < follows.size(); ++n)
+        follows[n] = flat.nodes[n].type->bind != nullptr;
+    for (bool changes = true; changes;)
+    {
+        changes = false;
+        for (const auto& w : flat.wires)
+            if (w.from && follows[static_cast<std::size_t> (w.from->node)] && ! follows[static_cast<std::size_t> (w.to.node)])
+                follows[static_cast<std::size_t> (w.to.node)] = changes = true;
+    }
+    std::vector<PlayWatch> all;
+    for (std::size_t n = 0; n < follows.size(); ++n)
+    {
+        const auto& instance = plan.instances()[n];
+        if (instance.outputs == nullptr || follows[n] || ! flat.nodes[n].runs()) continue;
+        PlayWatch w { .node = n, .outputs = {} };
+        for (const auto& row : flat.nodes[n].type->outputs)
+            for (int i = 0; i < row.width && ! row.list; ++i)
+                w.outputs.push_back (instance.output (row.offset + sizeof (double) * static_cast<std::size_t> (i)));
+        if (! w.outputs.empty()) all.push_back (std::move (w));
+    }
+    return all;
+}
+
 /// Removes from a velocity the directions in which a node does not feel a displacement. `directions`: see slopes.hpp.
 class Across
 {
@@ -163,7 +216,7 @@ public:
         followMotion();
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
             addRole (r);
-        addGivenTogether();
+        addGiven();
         addSlopes (how);
         addTextures (how);
         return std::move (demand);
@@ -191,18 +244,24 @@ private:
     void followMotion()
     {
         std::vector<StretchWatch> stretches;
+        std::vector<PlayWatch> free;
         std::size_t ticks = 0;
         forces = forcesAlong (subject, motion, {}, [&] (const Plan& running) {
             if (ticks == 0)
             {
                 stretches = stretchesIn (running);
                 textures = texturesIn (running);
+                free = freeNodes (running);
             }
+            for (auto& w : free)
+                w.poll (2 * ticks >= motion.ticks);
             for (auto& w : stretches)
                 w.poll (running);
             for (auto& w : textures)
                 w.poll (running, w.is_driven && ticks % 16 == 0);
-            ++ticks;
+            if (++ticks == motion.ticks)
+                for (const auto& w : free)
+                    if (w.hasPlayed()) demand.players.push_back (w.node);
         });
         for (const auto& role : motion.roles)
         {
@@ -235,10 +294,6 @@ private:
         }
         if (! role.axis) d.others = otherSinks (role.role);
         lookAtClaims (d, between[r]);
-        Energy own;
-        for (std::size_t k = 1; k < motion.ticks; ++k)
-            own.add (takenAt (r, k));
-        d.given = isClosed (r) ? own.given : 0.0;
         demand.roles.push_back (std::move (d));
     }
 
@@ -255,28 +310,39 @@ private:
     };
 
     /// The work of the hand on the graph since the tick before, by the mean of the two forces, in J.
-    double takenAt (std::size_t r, std::size_t k) const
+    double takenAt (const Forces& of, std::size_t r, std::size_t k) const
     {
         const auto& readings = motion.roles[r].readings;
-        return -0.5 * (forces[r][k - 1] + forces[r][k]).dot (Vec3 (readings[k].position - readings[k - 1].position));
+        return -0.5 * (of[r][k - 1] + of[r][k]).dot (Vec3 (readings[k].position - readings[k - 1].position));
     }
 
-    /// True if nothing is stored in the graph when the motion begins.
-    bool isClosed (std::size_t r) const { return forces[r].front().norm() <= 1e-3; }
-
-    void addGivenTogether()
+    /// Fills in the energy that the graph has given to each hand, and to all together; 0 where something is stored in the graph when the motion begins.
+    void addGiven()
     {
-        Energy all;
-        for (std::size_t k = 1; k < motion.ticks; ++k)
-        {
-            double more = 0.0;
-            for (std::size_t r = 0; r < motion.roles.size(); ++r)
-                more += takenAt (r, k);
-            all.add (more);
-        }
-        for (std::size_t r = 0; r < motion.roles.size(); ++r)
-            if (! isClosed (r)) return;
-        demand.given_together = all.given;
+        const auto fill = [&] (const Forces& of) {
+            Energy all;
+            std::vector<Energy> own (motion.roles.size());
+            for (std::size_t k = 1; k < motion.ticks; ++k)
+            {
+                double more = 0.0;
+                for (std::size_t r = 0; r < own.size(); ++r)
+                {
+                    own[r].add (takenAt (of, r, k));
+                    more += takenAt (of, r, k);
+                }
+                all.add (more);
+            }
+            const auto isClosed = [&] (std::size_t r) { return of[r].front().norm() <= 1e-3; };
+            demand.given_together = all.given;
+            for (std::size_t r = 0; r < own.size(); ++r)
+            {
+                demand.roles[r].given = isClosed (r) ? own[r].given : 0.0;
+                if (! isClosed (r)) demand.given_together = 0.0;
+            }
+        };
+        fill (forces);
+        const bool is_any = demand.given_together > 0.0 || std::ranges::any_of (demand.roles, [] (const RoleDemand& d) { return d.given > 0.0; });
+        if (is_any && ! demand.players.empty()) fill (forcesAlong (subject, motion, demand.players, [] (const Plan&) {}));
     }
 
     /// Lists the nodes between hand and motor that do not claim to be passive: a claim is about a node whose params stay as they are, whose position is

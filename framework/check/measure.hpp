@@ -80,7 +80,7 @@ struct RoleDemand
     std::vector<std::string> claims_nothing {};   ///< paths of the nodes between hand and motor that do not claim to be passive, as they are wired here
     double claimed_stiffness = 0.0;               ///< sum of what the others claim, in N/m
     double claimed_damping = 0.0;                 ///< the same, in N s/m
-    double given = 0.0;                           ///< the most energy that the graph has given along the motion, over what it has taken before, in J
+    double given = 0.0;                           ///< the most energy that the graph has given along the motion, over what it has taken before, in J, without the players
 };
 
 /// A contact that stretches a little before it slides: any node with a param d_max in m, and deform.surface.
@@ -142,7 +142,8 @@ struct Demand
     std::vector<Deadbeat> deadbeats {};
     std::vector<Texture> textures {};
     std::vector<Unreached> unreached {};
-    std::vector<MeasuredNode> nodes {};   ///< by node number
+    std::vector<std::size_t> players {};   ///< numbers of the nodes that play by themselves, whatever the tools do, such as an lfo
+    std::vector<MeasuredNode> nodes {};    ///< by node number
 };
 
 /// The number of points and ticks with which a graph is measured. More points take longer.

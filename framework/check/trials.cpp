@@ -18,10 +18,11 @@ namespace
 {
 constexpr double lasts_s = 3.0;
 constexpr double least_swing = 1e-6;   // m, or rad
-constexpr double cautious = 0.6;       // of a swing: from another start, it may be as much larger
+constexpr double doubtful = 0.5;       // of a swing: from another start, it may be a whole one
 constexpr double window_s = 0.125;
 constexpr std::size_t windows = 24;   // in three seconds
 constexpr double far_m = 1.0;
+constexpr double beside = 5e-3;                     // m outside the motion: what happens there is no longer about it
 constexpr std::size_t most_over = 4;                // times the planned ticks
 constexpr double near_off = 2e-4, far_off = 2e-3;   // m
 
@@ -44,9 +45,10 @@ struct Reached
 /// A coordinate of a tool, or one of its axes.
 struct Coordinate
 {
-    double threshold = cautious * least_swing;
+    double threshold = least_swing;
     std::array<Reached, windows> by_window {};
     Reached third {}, second {};
+    double of_graph = 0.0, of_hand = 0.0;   // work in the third second, in J
 };
 
 class TrialRun
@@ -74,7 +76,7 @@ public:
             engine->attach (role.role, *tools.back(), limits);
             devices_of.push_back (numbers);
             for (int i = 0; i < 3; ++i)
-                thresholds.push_back (cautious * std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
+                thresholds.push_back (std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
         }
     }
 
@@ -158,47 +160,12 @@ private:
         engine->tick ([this] (Plan& plan) noexcept { tickWithout (plan, silent); });
     }
 
-    /// The nodes that play by themselves: no device source leads to them, and their outputs change while the tools are held.
     void silencePlayers()
     {
-        const auto& plan = engine->newest();
-        const auto& flat = plan.flat();
-        std::vector<bool> follows (flat.nodes.size(), false);
-        for (std::size_t n = 0; n < follows.size(); ++n)
-            follows[n] = flat.nodes[n].type->bind != nullptr;
-        for (bool changes = true; changes;)
-        {
-            changes = false;
-            for (const auto& w : flat.wires)
-                if (w.from && follows[static_cast<std::size_t> (w.from->node)] && ! follows[static_cast<std::size_t> (w.to.node)])
-                    follows[static_cast<std::size_t> (w.to.node)] = changes = true;
-        }
-        const auto outputsOf = [&] (std::size_t n) {
-            std::vector<double> all;
-            const auto& instance = plan.instances()[n];
-            if (instance.outputs == nullptr || follows[n] || ! flat.nodes[n].runs()) return all;
-            for (const auto& row : flat.nodes[n].type->outputs)
-                for (int i = 0; i < row.width && ! row.list; ++i)
-                    all.push_back (*instance.output (row.offset + sizeof (double) * static_cast<std::size_t> (i)));
-            return all;
-        };
-        std::vector<std::size_t> own;
-        for (std::size_t n = 0; n < follows.size(); ++n)
-            if (! outputsOf (n).empty()) own.push_back (n);
-        if (own.empty()) return;
-        std::vector<bool> plays (follows.size(), false);
-        holdAt (0);
-        std::vector<std::vector<double>> first;
-        for (const auto n : own)
-            first.push_back (outputsOf (n));
-        const auto wait = static_cast<std::size_t> (motion.rate_hz);
-        for (std::size_t k = 0; k < wait; ++k)
-        {
-            holdAt (0);
-            for (std::size_t i = 0; i < own.size(); ++i)
-                if (! plays[own[i]] && outputsOf (own[i]) != first[i]) plays[own[i]] = true;
-        }
-        if (std::ranges::count (plays, true) > 0) silent = std::move (plays);
+        if (demand.players.empty()) return;
+        silent.assign (engine->newest().flat().nodes.size(), false);
+        for (const auto n : demand.players)
+            silent[n] = true;
     }
 
     void holdAt (std::size_t k)
@@ -440,8 +407,7 @@ private:
         const auto whole = static_cast<std::size_t> (lasts_s * motion.rate_hz);
         const auto each = std::max<std::size_t> (1, static_cast<std::size_t> (window_s * motion.rate_hz));
         bool is_away = false;
-        for (std::size_t k = 0; k < whole && ! is_away; ++k)
-        {
+        const auto step = [&] (std::size_t k) {
             tick();
             const auto window = std::min (k / each, windows - 1);
             eachCoordinate ([&] (std::size_t c, std::size_t r, int, double x, double force, double push) {
@@ -452,6 +418,8 @@ private:
                 if (3 * k >= 2 * whole)
                 {
                     one.third.to (x);
+                    one.of_graph += force * (x - last[c]);
+                    one.of_hand += push * (x - last[c]);
                     of_graph[r] += force * (x - last[c]);
                     of_hand[r] += push * (x - last[c]);
                 }
@@ -460,37 +428,105 @@ private:
                 last[c] = x;
                 if (! (std::abs (x - starts[c]) < far_m)) is_away = true;
             });
-            if ((k + 1) % each == 0 && window + 1 < windows && isQuiet (all, window)) return;
-        }
+            return (k + 1) % each == 0 && window + 1 < windows && isQuiet (all, window);
+        };
+        for (std::size_t k = 0; k < whole && ! is_away; ++k)
+            if (step (k)) return;
+        struct Seen
+        {
+            std::size_t tool;
+            int axis;
+            double range;
+            bool swings, goes_on, is_near;
+        };
+        std::vector<Seen> seen;
+        const auto lost = lostTools (all, is_away, [&] (std::size_t r) { return all_of_graph[r].most > all_of_hand[r].most; });
         eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
             const auto& one = all[c];
+            if (lost[r]) return;
             const bool left = ! (std::abs (x - starts[c]) < far_m) && all_of_graph[r].most > all_of_hand[r].most;
             const bool goes_on = ! is_away && one.third.range() > one.threshold && one.third.range() >= 0.5 * one.second.range()
-                                 && of_graph[r] > std::max (0.0, of_hand[r]);
+                                 && one.of_graph > std::max (0.0, one.of_hand) && of_graph[r] > std::max (0.0, of_hand[r]);
             const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.third.swing() && of_graph[r] <= of_hand[r];   // over bumps
             const bool dies = plan.speed != 0.0 && one.third.swing() < 0.5 * one.second.swing();
-            const bool swings = ! is_away && one.third.swing() > one.threshold && ! slides && ! dies;
-            if (! left && ! swings && ! goes_on) return;
-            auto* const its = trialOf (r, axis);
-            const double range = left ? far_m : one.third.range();
-            if (its == nullptr || (its->swings && its->range >= range)) return;
+            const bool may_swing = ! is_away && ! slides && ! dies;
+            const bool swings = may_swing && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
+            if (left || swings || goes_on || is_near) seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, ! swings && (left || goes_on), is_near });
+        });
+        for (std::size_t r = 0; r < lost.size(); ++r)
+            for (std::size_t d = 0; d < owners.size() && lost[r]; ++d)
+                if (owners[d].tool == r) found.by_role[d].is_lost = true;
+        if (seen.empty()) return;
+        // What only moves on may come to rest later, as a tool that falls from a crest into a valley.
+        if (! is_away && std::ranges::any_of (seen, &Seen::goes_on) && std::ranges::none_of (seen, &Seen::swings))
+        {
+            for (auto& one : all)
+                one.by_window = {};
+            for (std::size_t k = 0; k < whole && ! is_away; ++k)
+                if (step (k))
+                {
+                    for (auto& s : seen)
+                        s.is_near = true, s.goes_on = false;
+                    break;
+                }
+        }
+        for (const auto& s : seen)
+        {
+            auto* const its = trialOf (s.tool, s.axis);
+            const bool is_bad = s.swings || s.goes_on;
+            if (its == nullptr) continue;
+            const auto rank = [] (bool swings, bool goes_on) { return swings && ! goes_on ? 2 : swings ? 1
+                                                                                                       : 0; };
+            const int now = rank (is_bad, s.goes_on), before = rank (its->swings, its->runs_away);
+            if ((its->swings || its->is_doubtful) && (before > now || (before == now && its->range >= s.range))) continue;
             auto& trial = *its;
             trial = { .role = trial.role,
                       .axis = trial.axis,
                       .is_tried = true,
-                      .swings = true,
-                      .runs_away = ! swings,
-                      .range = range,
+                      .swings = is_bad,
+                      .runs_away = s.goes_on,
+                      .is_doubtful = ! is_bad,
+                      .is_lost = trial.is_lost,
+                      .range = s.range,
                       .t_s = static_cast<double> (at) / motion.rate_hz,
                       .off = plan.off(),
                       .hand = plan.hand };
+        }
+    }
+
+    /// The tools that the hand has driven away from the motion, as over the edge of a surface: their trial shows nothing about a place of the motion.
+    template <typename IsDriven>
+    std::vector<bool> lostTools (const std::vector<Coordinate>& all, bool is_away, IsDriven&& isDrivenByGraph) const
+    {
+        std::vector<bool> lost (tools.size(), false);
+        eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
+            if (axis >= 0 || lost[r]) return;
+            const auto i = static_cast<Eigen::Index> (c - firstOf (r));
+            double low = 1e300, high = -1e300;
+            for (const auto& reading : motion.roles[r].readings)
+            {
+                low = std::min (low, reading.true_position[i]);
+                high = std::max (high, reading.true_position[i]);
+            }
+            const auto& third = all[c].third;
+            const bool is_outside = is_away ? x < low - beside || x > high + beside : third.range() > 0.0 && (third.high < low - beside || third.low > high + beside);
+            lost[r] = is_outside && ! isDrivenByGraph (r);
         });
+        return lost;
+    }
+
+    std::size_t firstOf (std::size_t tool) const
+    {
+        std::size_t c = 0;
+        for (std::size_t r = 0; r < tool; ++r)
+            c += 3 + tools[r]->axes();
+        return c;
     }
 
     /// True if nothing has moved to and fro, and nothing moves more than before, in the last two windows.
     static bool isQuiet (const std::vector<Coordinate>& all, std::size_t window)
     {
-        constexpr double little = 0.3;
+        constexpr double little = 0.2;
         return window > 0 && std::ranges::all_of (all, [&] (const Coordinate& c) {
                    const auto& now = c.by_window[window];
                    const auto& before = c.by_window[window - 1];

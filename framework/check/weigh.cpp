@@ -3,61 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
-namespace tactus::check::judging
+namespace tactus::check
 {
-
-namespace
-{
-std::string handText (const HeldHand& hand)
-{
-    if (hand.mass == 0.0 && hand.stiffness == 0.0) return "without a hand";
-    return "with a hand of " + text (1e3 * hand.mass, "g") + ", " + text (hand.damping, "N*s/m") + " and " + text (hand.stiffness, "N/m");
-}
-
-/// The result of the trials of these roles.
-struct Shown
-{
-    const Trial* worst = nullptr;   // that swings; null if none does
-    bool are_tried = true;
-};
-
-Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
-{
-    Shown shown;
-    for (const auto* role : roles)
-    {
-        const auto trial = std::ranges::find_if (trials.by_role, [&] (const Trial& t) { return t.role == role->role && t.axis == role->axis; });
-        shown.are_tried = shown.are_tried && trial != trials.by_role.end() && trial->is_tried;
-        if (trial != trials.by_role.end() && trial->swings && (shown.worst == nullptr || trial->range > shown.worst->range)) shown.worst = &*trial;
-    }
-    return shown;
-}
-
-/// Why a contact whose slopes are passive is not passive for every motion; empty if it is. `is_here`: it is along this one.
-std::string doubt (const Demand& demand, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed, bool& is_here)
-{
-    constexpr double uncertain = 1e-5;   // J
-    is_here = false;
-    double given = demand.given_together;
-    if (roles.size() == 1) given = roles.front()->given;
-    for (const auto* role : roles)
-    {
-        if (std::ranges::any_of (demand.deadbeats, [&] (const Deadbeat& d) { return d.role == role->role; })) return "a hold.deadbeat has no slope";
-        if (std::ranges::any_of (demand.jumps, [&] (const Jump& j) { return j.role == role->role; })) return "a force steps";
-    }
-    if (turns) return "its force turns the tool, so a loop gains energy";
-    if (given > uncertain) return "the graph gives " + text (1e3 * given, "mJ") + " along this motion";
-    is_here = true;
-    for (const auto* role : roles)
-    {
-        if (! role->claims_nothing.empty()) return "'" + role->claims_nothing.front() + "' claims nothing about other motions";
-        for (const auto& u : demand.unreached)
-            if (u.role == role->role) return "'" + demand.nodes[u.node].path + "' is not reached";
-    }
-    return holds_as_claimed ? "" : "deeper or elsewhere, the contact may be stiffer";
-}
-}   // namespace
 
 DeviceNumbers numbersFor (std::span<const RoleDevice> devices, const RoleDemand& role)
 {
@@ -77,6 +26,67 @@ DeviceNumbers numbersFor (std::span<const RoleDevice> devices, const RoleDemand&
     return numbers;
 }
 
+namespace judging
+{
+
+namespace
+{
+std::string handText (const HeldHand& hand)
+{
+    if (hand.mass == 0.0 && hand.stiffness == 0.0) return "without a hand";
+    return "with a hand of " + text (1e3 * hand.mass, "g") + ", " + text (hand.damping, "N*s/m") + " and " + text (hand.stiffness, "N/m");
+}
+
+/// The result of the trials of these roles.
+struct Shown
+{
+    const Trial* worst = nullptr;      // that swings; null if none does
+    const Trial* doubtful = nullptr;   // that nearly swings
+    bool are_tried = true, is_lost = false;
+};
+
+Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
+{
+    Shown shown;
+    for (const auto* role : roles)
+    {
+        const auto trial = std::ranges::find_if (trials.by_role, [&] (const Trial& t) { return t.role == role->role && t.axis == role->axis; });
+        shown.are_tried = shown.are_tried && trial != trials.by_role.end() && trial->is_tried;
+        if (trial == trials.by_role.end()) continue;
+        if (trial->swings && (shown.worst == nullptr || trial->range > shown.worst->range)) shown.worst = &*trial;
+        shown.is_lost = shown.is_lost || trial->is_lost;
+        if (trial->is_doubtful) shown.doubtful = &*trial;
+    }
+    return shown;
+}
+
+/// Why a contact whose slopes are passive is not passive for every motion; empty if it is. `is_here`: it is along this one.
+std::string doubt (const Demand& demand, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed, bool& is_here)
+{
+    is_here = false;
+    double given = demand.given_together, uncertain = 1e-5;   // J
+    if (roles.size() == 1) given = roles.front()->given;
+    for (const auto& t : demand.textures)   // what a ridge may have stored when the motion began, on its crest
+        if (std::ranges::any_of (roles, [&] (const auto* role) { return role->role == t.role; })) uncertain += 1.01 * t.amplitude / (std::numbers::pi * t.spatial_frequency);
+    for (const auto* role : roles)
+    {
+        if (std::ranges::any_of (demand.deadbeats, [&] (const Deadbeat& d) { return d.role == role->role; })) return "a hold.deadbeat has no slope";
+        if (std::ranges::any_of (demand.jumps, [&] (const Jump& j) { return j.role == role->role; })) return "a force steps";
+    }
+    if (turns) return "its force turns the tool, so a loop gains energy";
+    if (given > uncertain) return "the graph gives " + text (1e3 * given, "mJ") + " along this motion";
+    is_here = true;
+    if (! demand.players.empty()) return "'" + demand.nodes[demand.players.front()].path + "' plays by itself, and is left out";
+    for (const auto* role : roles)
+    {
+        if (! role->claims_nothing.empty()) return "'" + role->claims_nothing.front() + "' claims nothing about other motions";
+        for (const auto& u : demand.unreached)
+            if (u.role == role->role) return "'" + demand.nodes[u.node].path + "' is not reached";
+    }
+    return holds_as_claimed ? "" : "deeper or elsewhere, the contact may be stiffer";
+}
+}   // namespace
+
 void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed)
 {
     if (c.verdict == Verdict::unknown) return;
@@ -92,22 +102,34 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         }
     }
     if (trials == nullptr) return;
-    const auto [worst, are_tried] = shownBy (*trials, roles);
+    const auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
+    const auto letGo = [] (const Trial& t) {
+        return "let go " + (t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion")) + " at " + text (t.t_s, "s") + " "
+               + handText (t.hand) + ", the tool ";
+    };
+    const auto moves = [] (const Trial& t) { return "by " + text (1e6 * t.range, "um") + " in the third second"; };
     if (worst != nullptr)
     {
         if (c.verdict != Verdict::unstable) c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of the linear loop says nothing here
         c.verdict = Verdict::unstable;
-        c.text = "let go " + text (1e3 * worst->off, "mm") + " off its rest at " + text (worst->t_s, "s") + " " + handText (worst->hand) + ", the tool "
-                 + (worst->runs_away ? "runs away" : "still moves to and fro by " + text (1e6 * worst->range, "um") + " in the third second") + "; " + c.text;
+        c.text = letGo (*worst) + (worst->runs_away ? "runs away" : "still moves to and fro " + moves (*worst)) + "; " + c.text;
+        if (c.remedy.empty()) c.remedy = "softer or weaker forces at this place, or a device with more damping";
         return;
     }
-    if (! are_tried)
+    if (doubtful != nullptr)
     {
-        c.text += "; the tool was not let go as often as planned";
+        c.verdict = Verdict::unknown;
+        c.text = letGo (*doubtful) + "still moves " + moves (*doubtful) + "; " + c.text;
+        c.remedy = "in a trial, the tool still moves in the third second, hardly enough to call it unstable: try it by hand, or check the same graph with softer or stiffer forces";
+        return;
+    }
+    if (! are_tried || (is_lost && (c.verdict == Verdict::unstable || c.verdict == Verdict::broken)))
+    {
+        c.text += are_tried ? "; in a trial, the hand drove the tool away from the motion" : "; the tool was not let go as often as planned";
         if (c.verdict == Verdict::broken)   // it is not known to be passive, and no more is known
         {
             c.verdict = Verdict::unknown;
-            c.remedy = "its loop is not known, and the tool was not let go: " + c.remedy;
+            c.remedy = std::string ("its loop is not known, and the tool ") + (are_tried ? "did not stay where it was let go" : "was not let go") + ": " + c.remedy;
         }
         return;
     }
@@ -127,4 +149,5 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         c.text += "; " + tried;
 }
 
-}   // namespace tactus::check::judging
+}   // namespace judging
+}   // namespace tactus::check

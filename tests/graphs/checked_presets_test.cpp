@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <set>
 
 using namespace tactus;
@@ -54,15 +55,18 @@ bool swings (const graph::Graph& graph, const CompileOptions& options, const che
              std::string& how)
 {
     const auto mechanics = mechanicsOf (*device.simulated);
-    own::Loop loop { graph, catalogue(), options, mechanics, device.role };
-    loop.follow (path);
-    const Vec3 f = loop.force(), step = path.size() > 1 ? Vec3 (path.back() - path[path.size() - 2]) : Vec3 (Vec3::Zero());
+    const auto placed = [&] {   // each start has a loop of its own: a cut stays, and a tool that is put elsewhere is a blow
+        auto loop = std::make_unique<own::Loop> (graph, catalogue(), options, mechanics, device.role);
+        loop->follow (path);
+        return loop;
+    };
+    const Vec3 f = placed()->force(), step = path.size() > 1 ? Vec3 (path.back() - path[path.size() - 2]) : Vec3 (Vec3::Zero());
     Vec3 push = -f;
     if (step.norm() * 4000.0 > 1e-3) push += 0.5 * f.dot (step.normalized()) * step.normalized();
     const Vec3 out = f.norm() > 1e-6 ? Vec3 (f.normalized()) : Vec3 (Vec3::UnitZ()), aside = out.unitOrthogonal();
     const double threshold = std::max (1e-6, 2.0 * mechanics.quantum);
     const auto moved = [&] (const Vec3& from) {
-        const auto third = loop.letGo (from, grip, push);
+        const auto third = placed()->letGo (from, grip, push);
         if (third.is_far) return third.most_work > third.most_push ? 1.0 : 0.0;
         const bool slides = third.push_work > 2.0 * push.norm() * third.swing && third.work <= third.push_work;
         how += std::to_string (1e6 * third.swing) + " um ";

@@ -74,6 +74,18 @@ const std::vector<std::pair<std::string, Follow>>& remedies()
         { "a device with a dry friction of at least ", [] (Case& c, double v) { c.device.coulomb->value = v; } },
         { "a quantum of at most ", [] (Case& c, double v) { c.device.quantum->value = 1e-6 * v; } },
         { "a quantum below ", [] (Case& c, double v) { c.device.quantum->value = 1e-6 * v / beyond; } },
+        { "a window of at least ",   // in ms: the response to a step of the tool is lower, as it lasts as long; only its height counts here
+          [] (Case& c, double v) {
+              const auto& s = c.role().slopes.front();
+              const auto ticks = static_cast<std::size_t> (std::ceil (1e-3 * v * c.demand.rate_hz * (1.0 - 1e-9)));
+              check::Jacobian held = check::Jacobian::Zero (3, 3), excess = held;
+              held (0, 0) = s.stiffness;
+              excess (0, 0) = s.damping * c.demand.rate_hz / static_cast<double> (ticks);
+              auto& linked = c.demand.linked.emplace_back();
+              linked.responses = { held + excess, held };
+              linked.settled = held;
+              linked.late = linked.excess = check::Jacobian::Zero (3, 3);
+          } },
         { "a device that gives at least ", [] (Case& c, double v) { c.device.peak_force->value = v; } },
         { "a device whose first mode is at least ", [] (Case& c, double v) { c.device.first_mode->value = v; } },
         { "a device whose first mode is above ", [] (Case& c, double v) { c.device.first_mode->value = v * beyond; } },
@@ -162,7 +174,8 @@ void followAll (const Case& c, std::map<std::string, int>& followed)
 {
     for (const auto& condition : c.conditions())
     {
-        if (! condition.isKnown() || condition.verdict == check::Verdict::holds || condition.verdict == check::Verdict::passive) continue;
+        const bool is_passive = condition.id == "stiffness" && ! condition.isBroken() && condition.value <= 1.00001 * condition.limit;   // here, if not everywhere
+        if (! condition.isKnown() || condition.verdict == check::Verdict::holds || is_passive) continue;
         for (const auto& way : waysOf (condition))
         {
             if (isInWords (way)) continue;
