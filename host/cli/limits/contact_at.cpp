@@ -95,14 +95,16 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     : subject (std::move (s)), motion (std::move (m))
 {
     const auto demand = check::measure (subject, motion);
-    double most = 0.0;
+    double most = 0.0, most_pressed = 0.0;
     bool is_known = false, is_felt = false;
     const check::Slope* heaviest = nullptr;
     for (std::size_t r = 0; r < demand.roles.size(); ++r)
     {
-        if ((! chosen.empty() && demand.roles[r].role != chosen) || ! demand.roles[r].axis.empty()) continue;
-        const auto candidate = std::ranges::find (roles, demand.roles[r].role, [] (const CheckedRole& c) { return c.device.role; });
+        if (! chosen.empty() && demand.roles[r].role != chosen) continue;
+        auto candidate = *std::ranges::find (roles, demand.roles[r].role, [] (const CheckedRole& c) { return c.device.role; });
+        candidate.device.numbers = check::numbersFor ({ &candidate.device, 1 }, demand.roles[r]);
         Response last;
+        double load = 0.0;
         for (std::size_t i = 0; i < demand.roles[r].slopes.size(); ++i)
         {
             const auto& slope = demand.roles[r].slopes[i];
@@ -112,13 +114,16 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
             Response response;
             for (const auto& now : demand.linked[i].responses)
                 response.emplace_back (now.block (static_cast<Eigen::Index> (3 * r), static_cast<Eigen::Index> (3 * r), 3, 3));
-            if (is_known && sizeOf (sum (response, -1.0, last)) <= 1e-6 * sizeOf (response)) continue;   // many places have the same
+            if (last.empty() || sizeOf (sum (response, -1.0, last)) > 1e-6 * sizeOf (response))   // many places have the same
+                load = loadOf (response, candidate.device.numbers, 1.0 / motion.rate_hz);
             last = response;
-            const double load = loadOf (response, candidate->device.numbers, 1.0 / motion.rate_hz);
-            if (is_known && load <= most) continue;
+            constexpr double same = 1e-3;
+            if (is_known && (load < (1.0 - same) * most || (load <= (1.0 + same) * most && slope.force.norm() <= most_pressed))) continue;
             is_known = true;
-            most = load;
-            role = *candidate;
+            most = std::max (most, load);
+            most_pressed = slope.force.norm();
+            role = candidate;
+            its_axis = demand.roles[r].axis;
             t_s = slope.t_s;
             heaviest = &slope;
         }
@@ -131,6 +136,14 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
               "sections that run on every tick: leave out `every`, or choose another --role");
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
+    way = motion;
+    way.ticks = std::min (motion.ticks, static_cast<std::size_t> (std::max (0.0, std::round (t_s * motion.rate_hz))) + 1);
+    for (auto& its : way.roles)
+    {
+        its.readings.resize (way.ticks);
+        its.readings.resize (way.ticks + static_cast<std::size_t> (std::ceil (0.1 * motion.rate_hz)), Reading (its.readings.back()));
+    }
+    way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
 }
 
@@ -186,8 +199,9 @@ Contact::Measured Contact::measured (double rate_hz, const std::vector<double>& 
             fail (Message::error (message.id,
                                   (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
                                   message.text, message.remedy));
-    const auto demand = check::measure (changed, rate_hz == motion.rate_hz ? motion : check::atRate (motion, rate_hz), { .at_s = t_s });
-    const auto at = std::ranges::find_if (demand.roles, [&] (const check::RoleDemand& d) { return d.role == role.device.role && d.axis.empty(); });
+    const auto demand = check::measure (changed, rate_hz == way.rate_hz ? way : check::atRate (way, rate_hz),
+                                        { .at_s = static_cast<double> (way.ticks) / way.rate_hz });
+    const auto at = std::ranges::find_if (demand.roles, [&] (const check::RoleDemand& d) { return d.role == role.device.role && d.axis == its_axis; });
     Measured found;
     if (at->slopes.empty() || demand.linked.empty()) return found;
     const auto first = static_cast<Eigen::Index> (3 * (at - demand.roles.begin()));
@@ -282,6 +296,11 @@ Standing Contact::at (const Conditions& c)
     if (varies) response = sum (sum (response, s.stiffness, m.spring), s.damping, m.damper);
     s.load = loadOf (response, numbers, period_s);
     s.largest_damper = check::largestDamper (numbers, period_s);
+    const bool is_smooth = numbers.quantum && numbers.quantum->value <= 0.0;
+    s.stiffest_held = is_smooth                            ? std::numeric_limits<double>::infinity()
+                      : numbers.quantum && numbers.coulomb ? 2.0 * numbers.coulomb->value / numbers.quantum->value
+                                                           : std::numeric_limits<double>::quiet_NaN();
+    s.quietest_damper = 0.5 * s.stiffest_held * period_s;
     const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
     if (period_s <= (1.0 + 1e-9) / rate_hz) s.radius = check::largestRadius (response, axes, period_s);
     return s;

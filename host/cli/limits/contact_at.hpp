@@ -29,16 +29,20 @@ struct Standing
     std::optional<double> radius {};   ///< of the sampled loop, with the worst of the usual hands; empty if it is not known
     double largest_damper = 0.0;       ///< the exact 2M/T + 4B/3, in N s/m
     double period_s = 0.0;             ///< T
+    double stiffest_held = 0.0;        ///< 2 f_f/delta: a held tool does not hunt between the steps of the sensor, in N/m; infinite without steps, nan if not known
+    double quietest_damper = 0.0;      ///< f_f T/delta: no blows of a damper that takes the speed from one tick to the next, in N s/m; the same
 
     /// Below 0 where the contact is passive, rests, and keeps the two conditions of footnote 2: b < 2M/T + 4B/3, and sigma T < b + B.
     double passive (double device_damping) const { return load / device_damping - 1.0 - 1e-5; }
     double rests() const;
     double damperHolds() const { return damping / largest_damper - 1.0; }
+    double isHeld() const { return stiffness / stiffest_held - 1.0; }
+    double isQuiet() const { return damping / quietest_damper - 1.0; }
     double footnote (double device_damping) const { return stiffness * period_s / (damping + device_damping) - 1.0; }
 };
 
-/// The heaviest contact of a role: the place where the load is largest, in all directions together. It is measured again for other params and rates, at the
-/// same place.
+/// The heaviest contact of a role or of an axis: the place where the load is largest, in all directions together, and of those the one that presses most.
+/// It is measured again for other params and rates, with the tool on the same way to exactly the same place.
 ///
 /// Its stiffness and its damping are varied by the params of these names, of the steepest node that has them: what such a param adds to the response is
 /// measured, so that a filter or a hold after the node counts as it is. Without such a param, the whole response grows with the stiffness, and a damper
@@ -54,11 +58,12 @@ public:
     std::vector<std::string> varied;   ///< the params of Conditions::params, as NODE.PARAM
 
     double rate() const noexcept { return motion.rate_hz; }
-    double time() const noexcept { return t_s; }                                     ///< of the steepest contact, in s
+    double time() const noexcept { return t_s; }                                     ///< of the contact, in s
     const std::string& node() const noexcept { return steepest; }                    ///< the node whose own force is steepest there; its path
     const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< what is varied, as NODE.PARAM; empty: the whole response
     const std::string& dampingParam() const noexcept { return damping_param; }       ///< the same; empty: a damper is added
-    const CheckedRole& device() const noexcept { return role; }
+    const CheckedRole& device() const noexcept { return role; }                      ///< the role; its numbers are those of the axis if the contact is one of an axis
+    const std::string& axis() const noexcept { return its_axis; }                    ///< empty: of the tool
     double damping() const noexcept { return role.device.numbers.damping->value; }   ///< of the device, in N s/m
 
 private:
@@ -85,7 +90,9 @@ private:
     check::Subject subject;
     check::HandMotion motion;
     CheckedRole role;
+    std::string its_axis;
     double t_s = 0.0;
+    check::HandMotion way;   // to the place, where the tool stays
     std::string steepest;
     std::string stiffness_param, damping_param;   // NODE.PARAM; empty: the contact has none
     double stiffness_set = 0.0, damping_set = 0.0;

@@ -145,11 +145,18 @@ public:
         panel.series.push_back (line (
             "stable: the sampled loop", [] (const Standing& s, double) { return s.rests(); }, 0));
         panel.series.push_back (line (
-            "passive: Colgate", [] (const Standing& s, double b) { return s.passive (b); }, 1));
+            "passive: Colgate (sufficient)", [] (const Standing& s, double b) { return s.passive (b); }, 1));
         panel.series.push_back (line (
             "b < 2M/T + 4B/3", [] (const Standing& s, double) { return s.damperHolds(); }, 2));
         panel.series.push_back (line (
             "sigma T < b + B", [] (const Standing& s, double b) { return s.footnote (b); }, 3));
+        if (const auto& s = workingPoint(); std::isfinite (s.stiffest_held))   // steps of the sensor, and dry friction that holds the tool
+        {
+            panel.series.push_back (line (
+                "K < 2 f_f/delta (sufficient)", [] (const Standing& at, double) { return at.isHeld(); }, 4));
+            panel.series.push_back (line (
+                "b < f_f T/delta (sufficient)", [] (const Standing& at, double) { return at.isQuiet(); }, 5));
+        }
         panel.series.push_back ({ .label = "working point", .x = { view.x.now }, .y = { view.y.now }, .colour = Colour {}, .style = Series::Style::points });
         return panel;
     }

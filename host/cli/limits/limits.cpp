@@ -60,7 +60,7 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
     const double B = contact.damping();
     std::cout << printableName (options.graph) << " at " << numberText (contact.rate()) << " Hz, " << printableName (device.role) << " on "
               << printableName (device.name) << ": " << check::describe (device.numbers) << '\n';
-    std::cout << "the steepest contact, " << (contact.node().empty() ? "" : quote (contact.node()) + " ") << "at " << number (contact.time())
+    std::cout << "the heaviest contact" << (contact.axis().empty() ? "" : " of the axis " + quote (contact.axis())) << ", " << (contact.node().empty() ? "" : quote (contact.node()) + " ") << "at " << number (contact.time())
               << " s: stiffness " << number (here.stiffness) << " N/m, virtual damping " << number (here.damping) << " N*s/m; "
               << (here.passive (B) < 0.0 ? "passive"
                   : here.rests() < 0.0   ? "stable, but not passive"
@@ -78,11 +78,10 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
     std::cout << "  varied: " << (contact.stiffnessParam().empty() ? "the whole response" : printableName (contact.stiffnessParam())) << ", "
               << (contact.dampingParam().empty() ? "a damper along the steepest direction" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
-    if (const auto& n = device.numbers; n.quantum && n.quantum->value > 0.0 && n.coulomb)
+    if (const auto& n = device.numbers; std::isfinite (here.stiffest_held))
         std::cout << "  sensor of " << number (1e6 * n.quantum->value) << " um and dry friction of " << number (n.coulomb->value)
-                  << " N: rests where it is held up to " << number (2.0 * n.coulomb->value / n.quantum->value)
-                  << " N/m (2 f_f/delta), without blows up to a damping of " << number (n.coulomb->value * here.period_s / n.quantum->value)
-                  << " N*s/m over one tick (f_f T/delta) (Abbott & Okamura 2005; Diolaiti et al. 2006)\n";
+                  << " N: rests where it is held up to " << number (here.stiffest_held) << " N/m (2 f_f/delta), without blows up to a damping of "
+                  << number (here.quietest_damper) << " N*s/m over one tick (f_f T/delta); both are sufficient (Abbott & Okamura 2005; Diolaiti et al. 2006)\n";
     std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " (" << number (here.damping)
               << " of " << number (here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
               << number (here.stiffness * here.period_s) << " of " << number (here.damping + B) << " N*s/m)\n";
@@ -132,6 +131,7 @@ void run (LimitsOptions& options)
                    { "role", contact.device().device.role },
                    { "device", contact.device().device.name },
                    { "rate_hz", contact.rate() } };
+        if (! contact.axis().empty()) all["axis"] = contact.axis();
         all["node"] = contact.node();
         all["t"] = contact.time();
         all["stiffness"] = here.stiffness;
@@ -142,7 +142,10 @@ void run (LimitsOptions& options)
         all["radius"] = here.radius ? Json (*here.radius) : Json();
         all["largest_damper"] = here.largest_damper;
         all["passive"] = toJson (passive);
+        all["passive"]["rule"] = "sufficient";
         all["stable"] = toJson (stable);
+        if (std::isfinite (here.stiffest_held))
+            all["quanta"] = Json { { "rule", "sufficient" }, { "stiffness", here.stiffest_held }, { "damping", here.quietest_damper } };
         return all;
     };
     if (options.json)
@@ -166,12 +169,12 @@ void run (LimitsOptions& options)
     }
     if (isFigureFile (options.file))
     {
-        Figure figure { .title = graph.loaded.graph.name + ": limits of the steepest contact",
+        Figure figure { .title = graph.loaded.graph.name + ": limits of the heaviest contact",
                         .panels = {},
                         .width = options.width,
                         .height = options.height,
                         .dpi = options.dpi };
-        Progress progress { 4 * views.size() };
+        Progress progress { (std::isfinite (limits.workingPoint().stiffest_held) ? 6u : 4u) * views.size() };
         std::size_t done = 0;
         for (const auto& view : views)
             figure.panels.push_back (limits.draw (view, progress, done));
@@ -205,7 +208,7 @@ void addLimitsOf (const Command& app)
 {
     const auto options = std::make_shared<LimitsOptions>();
     const auto command =
-        app.add ("limits", "Find how stiff, damped and slow the steepest contact of a graph may be to stay passive or stable, and plot it");
+        app.add ("limits", "Find how stiff, damped and slow the heaviest contact of a graph may be to stay passive or stable, and plot it");
     command
         .addOption (
             "graph", [options] (const std::string& given) { options->graph = graphArgument (given); }, "The graph file, or the name of a preset")

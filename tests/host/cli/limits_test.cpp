@@ -142,6 +142,44 @@ TEST_CASE ("the limits of a wall behind a predictor are where a tool begins to s
     CHECK_FALSE (swings (3000.0, 1.05 * slowest));
 }
 
+TEST_CASE ("`tactus limits` finds those of an axis, as it finds them for a tool that moves along one line", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto knob = scratch.write ("knob.json", R"json({ "format": "tactus-graph", "version": 2, "name": "detents", "rate_hz": 1000,
+        "devices": { "knob": { "driver": "sim", "mass": "50 g", "axes": { "slide": { "mass": "50 g", "damping": "1 N*s/m", "position": "0.2 mm" } } } },
+        "nodes": { "p": { "type": "device.axis", "role": "knob", "settings": { "axis": "slide" } },
+                   "law": { "type": "signal.expression", "settings": { "inputs": 1, "text": "-2*sin(2000*in0)" } },
+                   "m": { "type": "device.effort", "role": "knob", "settings": { "axis": "slide" } } },
+        "wires": ["p.axis -> law.in[0]", "law.out -> m.effort"] })json");
+    const auto ran = runTactus ({ "limits", knob, "--json" });
+    INFO (ran.out << ran.err);
+    REQUIRE (ran.status == 0);
+    const auto limits = Json::parse (ran.out);
+    CHECK (limits.at ("axis") == Json ("slide"));
+    CHECK (limits.at ("stiffness").get<double>() == Approx (4000.0).epsilon (0.01));
+    CHECK (limits.at ("passive").at ("rule") == Json ("sufficient"));
+    CHECK (limits.at ("passive").at ("stiffness").at ("to").get<double>() == Approx (2000.0).epsilon (0.001));   // 2B/T
+    CHECK (limits.at ("stable").at ("stiffness").at ("to").get<double>() == Approx (2005.0).epsilon (0.01));
+}
+
+TEST_CASE ("the limits of the rate hold for the place of the motion, whatever the rate, and a damper above that of the device is passive at none", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+        "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N", "position": ["0 mm", "0 mm", "3 mm"],
+            "hand": { "stiffness": "300 N/m", "damping": "3 N*s/m", "path": "press", "scale": 0.2, "offset": ["0 mm", "0 mm", "-4 mm"] } } },
+        "nodes": { "p": { "type": "device.position", "role": "h" }, "m": { "type": "device.force", "role": "h" },
+            "w": { "type": "deform.plane", "params": { "stiffness": "1 N/mm", "damping": "10 N*s/m" } } },
+        "wires": ["p.position -> w.position", "w.force -> m.force"] })");
+    const auto ran = runTactus ({ "limits", wall, "--json" });
+    INFO (ran.out << ran.err);
+    REQUIRE (ran.status == 0);
+    const auto limits = Json::parse (ran.out);
+    CHECK (limits.at ("passive").at ("rate").is_null());
+    CHECK (limits.at ("quanta").at ("stiffness").get<double>() == Approx (1200.0));   // 2 f_f/delta
+    CHECK (limits.at ("quanta").at ("damping").get<double>() == Approx (0.6));        // f_f T/delta
+}
+
 TEST_CASE ("each point of a table of `tactus limits` is the exact loop of a wall", "[check][cli]")
 {
     const Scratch scratch;
