@@ -52,10 +52,10 @@ Result<Signal> readWav (const std::filesystem::path& path)
         return Message::error ("wav/unreadable", path.string(), "there is no such file, or it is not readable",
                                "check the path and the permissions");
 
-    const auto bytes_in_file = stream->getTotalLength();
+    auto samples = samplesOnly (std::move (stream));
     std::unique_ptr<juce::AudioFormatReader> reader;
-    if (auto samples = samplesOnly (std::move (stream)); samples != nullptr)
-        reader.reset (juce::WavAudioFormat().createReaderFor (samples.release(), true));
+    if (samples.stream != nullptr)
+        reader.reset (juce::WavAudioFormat().createReaderFor (samples.stream.release(), true));
 
     if (reader == nullptr || ! isKnown (*reader))
         return Message::error ("wav/not_a_wav", path.string(), "it is not a supported WAV file",
@@ -67,15 +67,15 @@ Result<Signal> readWav (const std::filesystem::path& path)
                                "save it with fewer channels");
 
     // Checked before memory is allocated, because a header may claim any size.
-    if (reader->lengthInSamples < 0 || reader->lengthInSamples > bytes_in_file / static_cast<juce::int64> (bytes_per_frame))
+    if (reader->lengthInSamples < 0 || reader->lengthInSamples > samples.bytes / static_cast<juce::int64> (bytes_per_frame))
         return Message::error ("wav/truncated", path.string(), "its header declares more samples than the file contains",
                                "create the file again; writing it was interrupted");
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
-    if (const auto samples = static_cast<double> (frames) * static_cast<double> (channels); samples > budgets().numbers)
+    if (const auto count = static_cast<double> (frames) * static_cast<double> (channels); count > budgets().numbers)
     {
-        const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", samples, "save a part of it");
+        const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", count, "save a part of it");
         return Message::error (over.id, path.string(), over.text, over.remedy);
     }
     Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };

@@ -51,6 +51,15 @@ bool isSupported (const std::string& format)
     return code == 1 || code == 3 || code == 0xfffe;   // integers, floats, extensible; JUCE would decode Ogg Vorbis too
 }
 
+int numberAt (const std::string& format, std::size_t at) { return static_cast<unsigned char> (format[at]) | static_cast<unsigned char> (format[at + 1]) << 8; }
+
+/// The whole frames in a number of bytes.
+juce::int64 wholeFrames (const std::string& format, juce::int64 bytes)
+{
+    const juce::int64 frame = format.size() >= shortest_format ? numberAt (format, 12) : 0;
+    return frame > 0 ? std::max (juce::int64 { 0 }, bytes) / frame * frame : 0;
+}
+
 /// True if a chunk that may follow the samples begins here.
 bool beginsAChunk (juce::InputStream& wav, juce::int64 at)
 {
@@ -60,13 +69,14 @@ bool beginsAChunk (juce::InputStream& wav, juce::int64 at)
     return std::ranges::find (known, name) != std::end (known);
 }
 
-int numberAt (const std::string& format, std::size_t at) { return static_cast<unsigned char> (format[at]) | static_cast<unsigned char> (format[at + 1]) << 8; }
-
-/// The whole frames in a number of bytes.
-juce::int64 wholeFrames (const std::string& format, juce::int64 bytes)
+/// True if a size of samples is what programs write that stream, or that end before they write the size: the largest number, just below 2 GB (sox
+/// and arecord; counts only if the file is shorter), or 0 before other bytes, unless the chunk `fact` says 0 as well.
+bool isUnknown (juce::InputStream& wav, std::uint64_t size, juce::int64 start, bool says_none)
 {
-    const juce::int64 frame = format.size() >= shortest_format ? numberAt (format, 12) : 0;
-    return frame > 0 ? std::max (juce::int64 { 0 }, bytes) / frame * frame : 0;
+    constexpr std::uint64_t near_2_gb = 0x7fff0000, past_2_gb = 0x80000000;
+    if (size == unknown_size) return true;
+    if (size == 0) return ! says_none && ! beginsAChunk (wav, start);
+    return size >= near_2_gb && size <= past_2_gb && start + static_cast<juce::int64> (size) > wav.getTotalLength();
 }
 
 /// Finds the chunks as JUCE does: the claimed size of the file ends the search. None if the file is not a WAV.
@@ -92,18 +102,19 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
     }
 
     Chunks found;
+    bool says_none = false;
     for (int chunk = 0; static_cast<std::uint64_t> (wav.getPosition()) < end && ! wav.isExhausted(); ++chunk)
     {
         if (chunk == most_chunks) return std::nullopt;
         const auto name = take (wav, 4);
         const auto size = takeSize (wav), start = wav.getPosition();
         if (name == "fmt ") found.format = take (wav, static_cast<int> (std::min<juce::int64> (size, longest_format)));
+        if (name == "fact" && size >= 4) says_none = wav.readInt() == 0;
         if (name == "data" && ! found.format.empty())
         {
             found.data_bytes = long_size.value_or (size);
             found.data_start = start;
-            const bool is_open = size == unknown_size || (size == 0 && ! beginsAChunk (wav, start));
-            if (! long_size && is_open) found.data_bytes = wholeFrames (found.format, wav.getTotalLength() - start);
+            if (! long_size && isUnknown (wav, static_cast<std::uint64_t> (size), start, says_none)) found.data_bytes = wholeFrames (found.format, wav.getTotalLength() - start);
             break;
         }
         wav.setPosition (start + padded (size));
@@ -196,12 +207,12 @@ void setNumber (std::string& format, std::size_t at, std::uint32_t value, std::s
         format[at + i] = static_cast<char> (static_cast<unsigned char> (value >> 8u * i));
 }
 
-/// 64-bit floats as 32-bit ones, because JUCE reads no doubles: rounded by less than 1e-7 of their value.
+/// 64-bit floats as 32-bit ones, because JUCE reads no doubles: rounded by less than 1e-7 of their value. Without samples if they are too many, which
+/// the reader sees from the claimed size.
 std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wav, juce::int64 bytes)
 {
-    const auto count = bytes / 8;
-    if (static_cast<double> (count) > budgets().numbers) return nullptr;
     const auto claimed = chunks.data_bytes.value_or (0) / 2;
+    const auto count = static_cast<double> (bytes / 8) > budgets().numbers ? 0 : bytes / 8;
     auto& format = chunks.format;
     const auto rate = static_cast<std::uint32_t> (numberAt (format, 4)) | static_cast<std::uint32_t> (numberAt (format, 6)) << 16u;
     const auto frame = static_cast<std::uint32_t> (numberAt (format, 12)) / 2;
@@ -220,14 +231,14 @@ std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wa
 }
 }   // namespace
 
-std::unique_ptr<juce::InputStream> samplesOnly (std::unique_ptr<juce::InputStream> wav)
+WavSamples samplesOnly (std::unique_ptr<juce::InputStream> wav)
 {
     const auto chunks = findChunks (*wav);
-    if (! chunks || ! isSupported (chunks->format)) return nullptr;
+    if (! chunks || ! isSupported (chunks->format)) return {};
     const auto in_file = std::max (juce::int64 { 0 }, wav->getTotalLength() - chunks->data_start);
     const auto bytes = std::clamp (chunks->data_bytes.value_or (0), juce::int64 { 0 }, in_file);
-    if (hasDoubles (chunks->format)) return rounded (*chunks, *wav, bytes);
-    return std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes);
+    if (hasDoubles (chunks->format)) return { rounded (*chunks, *wav, bytes), bytes / 2 };
+    return { std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes), bytes };
 }
 
 }   // namespace tactus::host
