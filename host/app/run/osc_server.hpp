@@ -22,6 +22,7 @@ public:
     OscServer (std::unique_ptr<OscPort>, Playback&, Document&, std::function<bool()> is_asking = {});
 
     int port() const noexcept { return osc->number(); }
+    std::string losses() const { return osc->losses(); }
 
     /// Call many times a second, at least after onMessage.
     void poll (RemoteControl::Clock::time_point now = RemoteControl::Clock::now());

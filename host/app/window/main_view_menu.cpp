@@ -183,11 +183,13 @@ juce::PopupMenu MainView::windowMenu()
 
 void MainView::tellAboutOsc()
 {
-    const auto text = osc_server == nullptr
-                          ? TRANS ("No OSC messages are received. Another program may have the port. `tactus-host --osc 0` takes any free port.")
-                          : filled (TRANS ("OSC messages to the UDP port %1 set parameters, turn controls, probe ports, and stop the run: "
-                                           "`tactus set roughness=0.5`, or /tactus/control with a name and a number from 0 to 1. docs/osc.md lists them."),
-                                    osc_server->port());
+    auto text = osc_server == nullptr
+                    ? TRANS ("No OSC messages are received. Another program may have the port. `tactus-host --osc 0` takes any free port.")
+                    : filled (TRANS ("OSC messages to the UDP port %1 set parameters, turn controls, probe ports, and stop the run: "
+                                     "`tactus set roughness=0.5`, or /tactus/control with a name and a number from 0 to 1. docs/osc.md lists them."),
+                              osc_server->port());
+    if (const auto losses = osc_server == nullptr ? std::string() : osc_server->losses(); ! losses.empty())
+        text += "\n\n" + filled (TRANS ("Packets or messages dropped: %1"), losses);
     tell (TRANS ("Remote control (OSC)"), text);
 }
 

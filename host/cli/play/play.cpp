@@ -202,6 +202,8 @@ private:
         {
             command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
             control->poll();
+            if (port->dropped() > 0 && ! std::exchange (told_of_losses, true))
+                print ("warning: an OSC message was dropped; the end of the run says how many, and why [osc/dropped]\n");
         }
         if (i % 5 != 0 || ! terminal) return;
         const auto fusion = options.fuse ? "   " + session.fuser()->describe() : std::string {};
@@ -282,6 +284,8 @@ private:
 
         std::fputs (accountOf (session.realDevices(), session.pluginRoles(), session.health(), session.deviceClock()).c_str(), stderr);
         std::fputs (accountOf (sound).c_str(), stderr);
+        if (const auto losses = port ? port->losses() : std::string(); ! losses.empty())
+            std::fprintf (stderr, "OSC: packets or messages dropped: %s\n", losses.c_str());
         command.reportRun();
         const auto end = runner.status();
         if (end.let_go_under_force)
@@ -307,7 +311,7 @@ private:
     const std::string token = randomToken();
     const std::optional<TokenFile> token_file = port ? std::optional<TokenFile> (std::in_place, port->number(), token) : std::nullopt;
     std::optional<RemoteControl> control;
-    bool was_fused = false, holds_clutch = false;
+    bool was_fused = false, holds_clutch = false, told_of_losses = false;
     const bool terminal = stderrIsTerminal();
 
     std::uint64_t last_ticks = 0;

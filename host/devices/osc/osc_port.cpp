@@ -92,14 +92,26 @@ std::string OscPort::answersTo (const std::string& from) const
 std::size_t OscPort::dropped() const
 {
     const std::lock_guard lock (guard);
-    return lost;
+    return unread + overflowed;
+}
+
+std::string OscPort::losses() const
+{
+    const std::lock_guard lock (guard);
+    std::string text;
+    const auto add = [&] (std::size_t count, const char* why) {
+        if (count > 0) text += (text.empty() ? "" : "; ") + std::to_string (count) + why;
+    };
+    add (unread, " that are not OSC 1.0, whose arguments have types that are not read, or that start a run with a button's value");
+    add (overflowed, " that came faster than they could be handled");
+    return text;
 }
 
 /// Counts a message that could not be taken.
 void OscPort::lose()
 {
     const std::lock_guard lock (guard);
-    ++lost;
+    ++unread;
 }
 
 void OscPort::listen (const std::stop_token& stop)
@@ -128,12 +140,12 @@ void OscPort::take (std::string_view bytes, const std::string& sender_address, i
                 first_look (message);
     }
     const std::lock_guard lock (guard);
-    lost += ! packet.right;
+    unread += ! packet.right;
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
             waiting.push_back ({ std::move (message), answers_to, now, from });
         else
-            ++lost;
+            ++overflowed;
     arrived.notify_one();
 }
 

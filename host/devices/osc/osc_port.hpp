@@ -71,6 +71,7 @@ public:
     void send (const OscReturn&, const juce::OSCMessage&);
 
     std::size_t dropped() const;
+    std::string losses() const;   ///< what was dropped, and why, in words; "" if nothing was
 
     /// True if a program on this machine listens on this port.
     static bool isTaken (int number);
@@ -95,8 +96,8 @@ private:
     mutable std::mutex guard;   // protects the members below
     std::condition_variable arrived;
     std::deque<ReceivedMessage> waiting;
-    std::size_t lost = 0;
-    std::jthread listening;   // declared last: it uses the other members
+    std::size_t unread = 0, overflowed = 0;   // packets; messages
+    std::jthread listening;                   // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -228,6 +228,7 @@ TEST_CASE ("malformed packets are harmless and counted", "[osc]")
             CHECK (alive());
         }
         CHECK (port->dropped() > 10);
+        CHECK (port->losses().starts_with (std::to_string (port->dropped()) + " that are not OSC 1.0"));
     }
     SECTION ("packets that are almost right")
     {
@@ -245,6 +246,7 @@ TEST_CASE ("malformed packets are harmless and counted", "[osc]")
         for (int i = 0; i < 1'000'000 && port->dropped() == 0; ++i)
             attack (padded ("/flood") + padded (","));
         CHECK (port->dropped() > 0);
+        CHECK (port->losses().find (" that came faster than they could be handled") != std::string::npos);
         CHECK (alive());
     }
 }
