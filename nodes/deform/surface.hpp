@@ -222,10 +222,12 @@ struct ElasticSurface
     std::string warning (const Setup&) const
     {
         const auto& surface = *settings.surface;
+        auto all = wrongSide (surface);
+        if (all.empty()) all = unevenForce (settings.surface, settings.scale);
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
-            return std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
-        if (auto wrong = wrongSide (surface); ! wrong.empty()) return wrong;
-        return unevenForce (settings.surface);
+            all += (all.empty() ? "" : "; ") + std::to_string (triangles)
+                   + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
+        return all;
     }
 
     void prepare (const Setup& setup)

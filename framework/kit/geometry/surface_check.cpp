@@ -5,11 +5,11 @@
 #include "surface_contact.hpp"
 
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -56,12 +56,7 @@ std::string problemOf (const Surface& s)
 
 namespace
 {
-std::string short3 (double v)
-{
-    char digits[32];
-    std::snprintf (digits, sizeof digits, "%.3g", v);
-    return digits;
-}
+std::string short3 (double v) { return roundedText (v, 3); }
 
 std::string placeOf (const Mesh& mesh, int t)
 {
@@ -209,11 +204,52 @@ std::string wrongSide (const Surface& s)
     return {};
 }
 
-std::string unevenForce (const std::shared_ptr<const Surface>& surface)
+namespace
+{
+double degreesBetween (const Vec3& a, const Vec3& b) { return math::atan2 (a.cross (b).norm(), a.dot (b)) * 180.0 / std::numbers::pi; }
+
+/// By triangle: the angle between it and the neighbour that differs most, in degrees.
+std::vector<double> sharpestEdges (const Mesh& mesh)
+{
+    std::vector<double> sharpest (mesh.triangles.size());
+    std::map<std::pair<int, int>, std::vector<int>> users;
+    for (int t = 0; t < mesh.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            auto& others = users[std::minmax (mesh.triangles[at (t)][i], mesh.triangles[at (t)][(i + 1) % 3])];
+            for (const int other : others)
+            {
+                const double angle = degreesBetween (areaNormal (cornersOf (mesh, t)), areaNormal (cornersOf (mesh, other)));
+                sharpest[at (t)] = std::max (sharpest[at (t)], angle);
+                sharpest[at (other)] = std::max (sharpest[at (other)], angle);
+            }
+            others.push_back (t);
+        }
+    return sharpest;
+}
+
+/// The force of the law of a spot at a depth, in N: pressed along the frame of the spot until it is as deep.
+double lawAt (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, double depth)
+{
+    const Vec3 inwards = body.frameAt (spot, tool).row (2).transpose();
+    double pressed = depth;
+    PlacedSurface::ContactSample felt;
+    for (int i = 0; i < 20; ++i)
+    {
+        felt = body.feel (spot, spot.on.point + pressed * inwards, nullptr, tool);
+        if (std::abs (felt.d.z() - depth) < 1e-6 * depth) break;
+        pressed += depth - felt.d.z();
+    }
+    return felt.f.z();
+}
+}   // namespace
+
+std::string unevenForce (const std::shared_ptr<const Surface>& surface, double scale)
 {
     constexpr double turned = 25.0, wrong = 0.25;   // degrees; of the force of the law
+    constexpr double crease = 35.0;                 // degrees; an edge that turns by less belongs to a body that is round
     constexpr std::size_t most_presses = 50;        // triangles; a graph is judged at each edit
-    const PlacedSurface body (surface, 1.0, Vec3::Zero(), Vec3::Zero());
+    const PlacedSurface body (surface, scale, Vec3::Zero(), Vec3::Zero());
     const auto& mesh = body.walk().mesh();
     auto tool = body.noTool();
     body.choose (0.0, { 0, { { 1.0, 0.0, 0.0 }, mesh.corner (0, 0) } }, tool);
@@ -236,6 +272,9 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface)
         if (const double degrees = math::atan2 (std::sqrt (std::max (0.0, 1.0 - least * least)), least) * 180.0 / std::numbers::pi; degrees > turned) turns.emplace_back (degrees, t);
     }
     if (turns.empty()) return {};
+    const auto sharpest = sharpestEdges (*surface->mesh);
+    std::erase_if (turns, [&] (const auto& turn) { return ! (sharpest[at (turn.second)] > crease); });
+    if (turns.empty()) return {};
     const auto count = std::min (turns.size(), most_presses);
     std::ranges::partial_sort (turns, turns.begin() + static_cast<std::ptrdiff_t> (count), std::greater {});
     turns.resize (count);
@@ -253,11 +292,10 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface)
             const auto corners = cornersOf (mesh, t);
             const Vec3 out = direction (areaNormal (corners)), on = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
             const Vec3 p = on - depth * out;
-            // The law of the face: that of its corners, at the depth below it.
-            PlacedSurface::ContactSample flat = body.feel ({ t, { weights, on } }, p, nullptr, tool);
-            const double at_depth = flat.d.z() > 0.0 ? flat.f.z() / flat.d.z() * depth : 0.0;   // exact if the law is linear
+            const Spot spot { t, { weights, on } };
+            const double at_depth = lawAt (body, tool, spot, depth);
             if (! (at_depth > 0.0)) continue;
-            const auto felt = begun (body, tool, { t, { weights, on } }, true, p);
+            const auto felt = begun (body, tool, spot, true, p);
             const double share = felt.touch.foot.triangle < 0 ? 0.0 : forceOf (body, tool, felt, p).dot (out) / at_depth;
             if (std::abs (share - 1.0) > std::max (most - 1.0, 1.0 - least))
             {
@@ -270,7 +308,7 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface)
     }
     if (worst < 0 || std::max (most - 1.0, 1.0 - least) < wrong) return {};
     return "the mesh is too coarse for its edges: its frames turn by " + short3 (turns.front().first) + " degrees within a flat face, so a press of "
-           + short3 (depth_there) + " units into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most) + " times the force of its law, most wrongly at "
+           + short3 (1e3 * depth_there) + " mm into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most) + " times the force of its law, most wrongly at "
            + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
 }
 

@@ -102,9 +102,13 @@ TEST_CASE ("mesh: inside out, closed or open, is noticed, and a bowl is not", "[
 
 TEST_CASE ("mesh: a block of 8 points says how wrong the force on its faces is, and a smooth body does not", "[mesh]")
 {
-    const auto warning = unevenForce (bodyOf (block (1)));
+    const auto warning = unevenForce (bodyOf (block (1)), 1.0);
     INFO (warning);
     CHECK (warning.starts_with ("the mesh is too coarse for its edges: its frames turn by 54.7 degrees within a flat face"));
+    auto large = block (1);   // the same in mm
+    for (auto& p : large.points)
+        p *= 1e3;
+    CHECK (unevenForce (bodyOf (std::move (large)), 1e-3).substr (0, warning.find ("most wrongly")) == warning.substr (0, warning.find ("most wrongly")));
 
     std::ostringstream ball;
     constexpr int rings = 24, sides = 48;
@@ -118,7 +122,7 @@ TEST_CASE ("mesh: a block of 8 points says how wrong the force on its faces is, 
         for (int k = 0; k < sides; ++k)
             ball << "f " << i * sides + k + 1 << ' ' << (i + 1) * sides + k + 1 << ' ' << (i + 1) * sides + (k + 1) % sides + 1 << ' '
                  << i * sides + (k + 1) % sides + 1 << '\n';
-    CHECK (unevenForce (bodyOf (*readers::readMesh (ball.str(), "ball.obj"))) == "");
+    CHECK (unevenForce (bodyOf (*readers::readMesh (ball.str(), "ball.obj")), 1.0) == "");
 }
 
 TEST_CASE ("mesh: a concave face is cut as it is", "[mesh]")
