@@ -379,11 +379,11 @@ TEST_CASE ("height map: a picture lies as it is seen from above, a table as its 
         rig.tick();
         return rig.out ("value");
     };
-    CHECK (heightAt ({ Image { corner }, Sheet {}, 1e-3, 0.0 }, 3e-3, 2e-3) == Approx (1e-4));
-    CHECK (heightAt ({ Image { corner }, Sheet {}, 1e-3, -5e-4 }, 3e-3, 2e-3) == Approx (-5e-4));
-    CHECK (heightAt ({ Image {}, Sheet { corner }, 1e-3, 0.0 }, 3e-3, 0.0) == Approx (1.0));
-    CHECK (heightAt ({ Image {}, Sheet { corner }, 1e-3, 1e-6 }, 3e-3, 0.0) == Approx (1e-6));
-    CHECK (heightAt ({ Image {}, Sheet {}, 1e-3, 1e-6 }, 3e-3, 0.0) == 0.0);
+    CHECK (heightAt ({ Image { corner }, Sheet {}, 1e-3, 0.0, 0.0 }, 3e-3, 2e-3) == Approx (1e-4));
+    CHECK (heightAt ({ Image { corner }, Sheet {}, 1e-3, -5e-4, 0.0 }, 3e-3, 2e-3) == Approx (-5e-4));
+    CHECK (heightAt ({ Image {}, Sheet { corner }, 1e-3, 0.0, 0.0 }, 3e-3, 0.0) == Approx (1.0));
+    CHECK (heightAt ({ Image {}, Sheet { corner }, 1e-3, 1e-6, 0.0 }, 3e-3, 0.0) == Approx (1e-6));
+    CHECK (heightAt ({ Image {}, Sheet {}, 1e-3, 1e-6, 0.0 }, 3e-3, 0.0) == 0.0);
 }
 
 TEST_CASE ("height map: a quantised position makes the detail coarse, but nothing flutters", "[nodes][texture]")
@@ -484,4 +484,20 @@ TEST_CASE ("height map: no input breaks it, and a tick allocates nothing", "[nod
             RC_ASSERT (isFinite (out.force) && isFinite (out.value) && ! allocated);
         }
     });
+}
+
+TEST_CASE ("height map: the force that the warning states is the one that is felt at each step", "[nodes][texture][height_map]")
+{
+    // Stairs of one step in a row of columns, as a ramp in 8 bits is. The force of the whole ramp would be less than 0.4 of a step per pitch.
+    const int run = GENERATE (3, 4, 5, 8, 20);
+    const auto stairs = grid (4, 60 * run, [&] (int, int column) { return 1e-6 * (column / run); });
+    auto node = over (stairs);
+    double most = 0.0;
+    for (double x = 20.0 * run * pitch; x < 24.0 * run * pitch; x += 0.02 * pitch)
+        most = std::max (most, std::abs (at (node, x, 1.5 * pitch).force.x()));
+    CHECK (most / (1e-6 / pitch) == Approx (1.2).margin (0.1));
+
+    char stated[64];
+    std::snprintf (stated, sizeof stated, "with about %.3g N at each step", 1.2 * 1e-6 / pitch);
+    CHECK (node.warning ({}).find (stated) != std::string::npos);
 }
