@@ -19,7 +19,7 @@ namespace
 {
 struct ImportOptions
 {
-    std::string kind, folder, out, mass, rate;
+    std::string kind, folder, out, mass, rate, unit;
 };
 
 /// Starts `python3 -m tactus.data` in the place of this program, so that its output and its status are those of the command. Without the package, a
@@ -35,7 +35,7 @@ sys.exit(data.main(sys.argv[1:]))
 void run (const ImportOptions& options)
 {
     std::vector<std::string> words { "python3", "-c", script, options.kind, options.folder, "-o", options.out };
-    for (const auto& [name, value] : { std::pair { "--mass", &options.mass }, std::pair { "--rate", &options.rate } })
+    for (const auto& [name, value] : { std::pair { "--mass", &options.mass }, std::pair { "--rate", &options.rate }, std::pair { "--unit", &options.unit } })
         if (! value->empty()) words.insert (words.end(), { name, *value });
     std::cout.flush();
 #if ! defined(_WIN32)
@@ -53,11 +53,12 @@ void addImportData (const Command& app)
 {
     const auto options = std::make_shared<ImportOptions>();
     const auto command = app.add ("import-data", "Make presets from recordings and models of others, with the Python package");
-    command.addOption ("kind", options->kind, "hatt: the Penn Haptic Texture Toolkit, one .xml a texture").required();
+    command.addOption ("kind", options->kind, "hatt: the Penn Haptic Texture Toolkit, one .xml a texture; lmt: the texture database of the LMT of TU Munich; cluster: the Cluster Haptic Texture Dataset").required();
     command.addOption ("folder", options->folder, "The folder with its files").required();
     command.addOption ("-o", options->out, "The folder to write presets to").required();
-    command.addOption ("--mass", options->mass, "kg that turn the acceleration of the models into a force; default: 0.05");
-    command.addOption ("--rate", options->rate, "Hz of the models; default: 1000");
+    command.addOption ("--mass", options->mass, "kg that turn the acceleration into a force; default: 0.05");
+    command.addOption ("--rate", options->rate, "Hz of the models or recordings; default: 1000 (hatt), 10000 (lmt), from the times (cluster)");
+    command.addOption ("--unit", options->unit, "m/s2 or g: the unit of the recordings of lmt; default: m/s2");
     command.footer ("Starts python3 -m tactus.data. See docs/import.md.\n\n"
                     "Example:\n"
                     "  tactus import-data hatt HaTT/Models -o textures");

@@ -46,6 +46,14 @@ def frequencies_of(polynomial):
     return sorted(found)
 
 
+def noise(polynomial, count, rng):
+    """White noise of variance 1 through 1 / polynomial, from where it has settled."""
+    out = []
+    for _ in range(count + 200):
+        out.append(rng.gauss(0.0, 1.0) - sum(c * out[-k] for k, c in enumerate(polynomial[1:], 1) if k <= len(out)))
+    return out[200:]
+
+
 def listed(tag, values):
     return f"<{tag}>" + "".join(f"<value>{v!r}</value>" for v in values) + f"</{tag}>"
 
@@ -61,16 +69,17 @@ def texture(models, friction=0.4, count=None):
 
 
 class Data(TestCase):
-    def imported(self, files, *options):
+    def imported(self, files, *options, kind="hatt"):
         """The presets by name, what was printed, and the status."""
         with tempfile.TemporaryDirectory() as folder:
             source, out = pathlib.Path(folder) / "in", pathlib.Path(folder) / "out"
             source.mkdir()
             for name, text in files.items():
+                (source / name).parent.mkdir(parents=True, exist_ok=True)
                 (source / name).write_text(text, encoding="utf-8")
             said = io.StringIO()
             with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-                status = data.main(["hatt", str(source), "-o", str(out), *options])
+                status = data.main([kind, str(source), "-o", str(out), *options])
             presets = {p.name: p.read_text(encoding="utf-8") for p in out.glob("*.json")}
             return presets, said.getvalue(), status
 
@@ -126,6 +135,83 @@ class Data(TestCase):
             self.assertIn(why, said)
             self.assertEqual(list(presets), ["good.json"])
         self.assertEqual(self.imported({})[2], 1)
+
+    def models_in(self, preset):
+        return json.loads(preset)["nodes"]["texture"]["settings"]["models"]
+
+    def assert_spectrum(self, model, polynomial, variance, most_db):
+        """The spectrum of a model is that of the process which made its recordings."""
+        for angle in (0.3, 0.8, 1.4, 2.1, 2.8):
+            wanted = variance / data.magnitude(polynomial, angle)**2
+            got = model["variance"] / data.magnitude([1.0] + [-c for c in model["coefficients"]], angle)**2
+            self.assertLess(abs(10.0 * math.log10(got / wanted)), most_db)
+
+    def test_recordings_of_cluster_become_models_of_their_spectra(self):
+        rng = random.Random(4)
+        files, made = {}, {}
+        for speed in (20, 60):
+            for force in (500, 1000):
+                polynomial = made[speed, force] = stable(3, rng)
+                for direction in (0, 90):
+                    axes = [noise(polynomial, 6000, rng) for _ in range(3)]
+                    rows = [f"{(i + 0.2 * rng.uniform(-1, 1)) / 6000:.12f},{axes[0][i]:.6f},{axes[1][i]:.6f},{axes[2][i] - 0.98:.6f}" for i in range(6000)]
+                    files[f"sensor_data/accel/7_{direction}_{speed}_{force}_0.csv"] = "time,X,Y,Z\n" + "\n".join(rows) + "\n"
+        files["sensor_data/force/7_0_20_500_0.csv"] = "time,force\n0,1\n"   # not an acceleration
+        presets, said, status = self.imported(files, "--mass", "0.1", kind="cluster")
+        self.assertEqual(status, 0, said)
+        self.assertEqual(list(presets), ["texture_7.json"])
+        self.assertRegex(said, r"4 models of 8 recordings; the AR models of order 20 miss their autocorrelations by at most \S+ % of the variance")
+        self.assertRegex(said, r"their rows were interpolated: read back, they differ by at most \S+ % \(rms\)")
+        self.assertIn("read the licence", said)
+        models = self.models_in(presets["texture_7.json"])
+        self.assertEqual([(m["speed"], m["force"]) for m in models], [(0.02, 0.5), (0.02, 1.0), (0.06, 0.5), (0.06, 1.0)])
+        for m in models:
+            self.assertAlmostEqual(m["rate"], 6000.0, delta=1.0)
+        Graph.parse(presets["texture_7.json"]).render(record=["texture.value"], duration=0.1)
+
+    def test_even_recordings_of_cluster_keep_their_spectrum(self):
+        rng = random.Random(5)
+        polynomial = stable(3, rng)
+        axes = [noise(polynomial, 20000, rng) for _ in range(3)]
+        text = "time,X,Y,Z\n" + "\n".join(f"{i / 6000!r},{axes[0][i]!r},{axes[1][i]!r},{axes[2][i]!r}" for i in range(20000))
+        presets, said, status = self.imported({"accel/1_0_20_500_0.csv": text}, "--mass", "0.1", kind="cluster")
+        self.assertEqual(status, 0, said)
+        self.assert_spectrum(self.models_in(presets["texture_1.json"])[0], polynomial, 3.0 * (0.1 * data.GRAVITY)**2, 2.0)
+
+    def test_recordings_of_lmt_become_models_with_guesses_that_are_named(self):
+        rng = random.Random(6)
+        polynomial = stable(4, rng)
+        files = {f"Testing/AccelScansDFT321/G6Carpet_{person}.txt": "\n".join(map(repr, noise(polynomial, 20000, rng))) for person in ("Andrea", "Matti")}
+        files["Testing/FricScans/G6Carpet_Friction_Andrea.txt"] = "1\n2\n"
+        files["Testing/AccelTappings/G6Carpet_Tapping1.txt"] = "1\n2\n"
+        presets, said, status = self.imported(files, "--unit", "g", kind="lmt")
+        self.assertEqual(status, 0, said)
+        self.assertEqual(list(presets), ["g6carpet.json"])
+        self.assertIn("1 models of 2 recordings", said)
+        self.assertIn("are guesses, and the numbers are taken as g", said)
+        model, = self.models_in(presets["g6carpet.json"])
+        self.assertEqual(model["rate"], 1e4)
+        self.assert_spectrum(model, polynomial, (0.05 * data.GRAVITY)**2, 2.0)
+
+    def test_recordings_that_are_wrong_are_refused_with_their_place(self):
+        rng = random.Random(7)
+        good = "time,X,Y,Z\n" + "\n".join(f"{i / 6000},{rng.gauss(0, 1)},0.1,1" for i in range(1200))
+        lines = good.split("\n")
+        for text, why in ((good.replace("time,X", "t,X", 1), "its first row is not time,X,Y,Z"), ("\n".join(lines[:500]), "it has 499 samples"),
+                          ("\n".join(lines[:700] + ["1,2"] + lines[700:]), "line 701 has 2 fields instead of 4"),
+                          ("\n".join(lines[:700] + ["nan,1,1,1"] + lines[700:]), "a number is not finite"),
+                          ("\n".join(lines[:700] + [lines[600]] + lines[700:]), "its times do not increase"),
+                          ("\n".join(lines[:700] + ["x,1,1,1"] + lines[700:]), "could not convert")):
+            presets, said, status = self.imported({"accel/1_0_20_500_0.csv": text, "accel/2_0_20_500_0.csv": good}, kind="cluster")
+            self.assertEqual(status, 1)
+            self.assertIn(why, said)
+            self.assertIn("1_0_20_500_0.csv", said)
+            self.assertEqual(list(presets), ["texture_2.json"])
+        slow = "time,X,Y,Z\n" + "\n".join(f"{i / 5000},{rng.gauss(0, 1)},0.1,1" for i in range(1200))
+        said = self.imported({"accel/1_0_20_500_0.csv": slow, "accel/1_45_20_500_0.csv": good}, kind="cluster")[1]
+        self.assertIn("rates from 5000 to 6000 Hz", said)
+        self.assertIn("there is no .txt in a folder Accel", self.imported({"a.txt": "1"}, kind="lmt")[1])
+        self.assertIn("do not vary", self.imported({"Accel/A_query1.txt": "0\n" * 2000}, kind="lmt")[1])
 
 
 if __name__ == "__main__":
