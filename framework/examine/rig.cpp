@@ -124,6 +124,12 @@ void Rig::prepare()
         sources.push_back (&value);
 }
 
+void Rig::wire()
+{
+    const auto* params = static_cast<const std::byte*> (sheet.paramsOf (node.get()));
+    stored.assign (params, params + sheet.params_size);
+}
+
 void Rig::adopt (const Rig& old)
 {
     if (! sheet.adopt) return;
@@ -158,7 +164,10 @@ void Rig::tick() noexcept
         sheet.peek (node.get(), sources.data(), results.get());
     }
     Stage::enter ("tick");
-    sheet.tick (node.get(), sources.data(), results.get());
+    if (sheet.tickStored && ! stored.empty())
+        sheet.tickStored (node.get(), stored.data(), sources.data(), results.get());
+    else
+        sheet.tick (node.get(), sources.data(), results.get());
 }
 
 double Rig::out (std::string_view id, int index) const { return out (firstOf (id, outputs, index)); }

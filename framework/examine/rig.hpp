@@ -43,6 +43,7 @@ public:
     std::string problem() const;
 
     void prepare();   ///< calls the node's bind, prepare and update
+    void wire();      ///< from now on a wire drives params: the node also gets those of file and knobs, which stay as they are now
     void adopt (const Rig& old);
 
     Rig& input (std::string_view id, double value, int index = 0);
@@ -76,6 +77,7 @@ private:
     std::shared_ptr<void> node;
     std::unique_ptr<std::byte[]> results;
     std::vector<const double*> sources;
+    std::vector<std::byte> stored;   // the params of file and knobs, if wires drive params
     int list_size = 0;
     bool params_moved = false;
 };

@@ -21,9 +21,6 @@ namespace
 /// Outputs under params that move are at most this times those under params that stand still, at values of the same range.
 constexpr double most_growth = 10.0;
 
-/// Outputs for which there is no such bound, and why.
-const std::map<std::string, std::string> unbounded_when_moved {};
-
 enum class Movement
 {
     square,
@@ -47,6 +44,23 @@ struct Trial
     std::vector<std::string> choices;   // an alternative for each choice of the node
 };
 
+/// A bound of an output while a param moves, of its largest magnitude while the param stands still.
+struct OwnBound
+{
+    double (*most) (const Trial&, double still);
+    std::string_view reason;
+};
+
+/// Outputs that have a bound of their own, and why.
+const std::map<std::string, OwnBound, std::less<>> own_bounds {
+    { "filter.biquad.out by gain_db",
+      { [] (const Trial& trial, double still) { return std::max (most_growth * still, 2.0 * std::pow (10.0, trial.high / 20.0)); },
+        "a shelf that moves gives up to its highest gain times its input, which is within 1; one that stands still at that gain passes little noise" } },
+    { "hold.deadbeat.force by mass",
+      { [] (const Trial&, double still) { return 30.0 * still; },
+        "it plans two forces for a mass, and takes the error of that plan for a push when the mass is another one on the next tick" } },
+};
+
 /// The largest magnitude of each output. `next` gives the param on each tick. The inputs of all runs are the same.
 template <typename Next>
 std::vector<double> peaks (const Trial& trial, Next next)
@@ -57,6 +71,7 @@ std::vector<double> peaks (const Trial& trial, Next next)
     for (const auto& p : trial.type.params)
         if (! p.choices.empty()) rig.choose (p.id, trial.choices[choice++]);
     rig.prepare();
+    rig.wire();
     NodeDice inputs { 7 };
     std::vector<double> most;
     for (int k = 0; k < ticks; ++k)
@@ -78,7 +93,7 @@ std::vector<double> peaks (const Trial& trial, Next next)
 std::vector<std::string> faultsOf (const Trial& trial)
 {
     std::vector<double> still;
-    for (const double share : { 0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0 })
+    for (const double share : { 0.0, 1e-3, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0 })
     {
         const auto most = peaks (trial, [&] (int) { return std::lerp (trial.low, trial.high, share); });
         still.resize (most.size());
@@ -97,8 +112,8 @@ std::vector<std::string> faultsOf (const Trial& trial)
             for (std::size_t i = 0; i < most.size(); ++i)
             {
                 const auto name = std::string (trial.type.info.id) + "." + std::string (names.outputs[i].port->id);
-                if (most[i] <= most_growth * still[i] + 1e-9) continue;
-                if (std::isfinite (most[i]) && unbounded_when_moved.contains (name)) continue;
+                const auto own = own_bounds.find (name + " by " + std::string (trial.param.id));
+                if (most[i] <= (own == own_bounds.end() ? most_growth * still[i] : own->second.most (trial, still[i])) + 1e-9) continue;
                 faults.push_back (name + " reaches " + std::to_string (most[i]) + ", and " + std::to_string (still[i]) + " while " + std::string (trial.param.id)
                                   + " stands still, at " + std::to_string (trial.rate_hz) + " Hz, from " + std::to_string (trial.low) + " to "
                                   + std::to_string (trial.high) + ", movement " + std::to_string (static_cast<int> (movement)) + " period " + std::to_string (period));
@@ -145,7 +160,7 @@ TEST_CASE ("no node grows because a wired param moves fast", "[nodes][contract]"
             for (const auto& p : type.params)
                 for (const auto& range : rangesOf (p))
                     for (const auto& kind : kinds)
-                        for (const double rate : { 1000.0, 20'000.0 })
+                        for (const double rate : { 1000.0, 4000.0, 20'000.0 })
                         {
                             const auto more = faultsOf ({ type, p, range.min, range.max, rate, kind });
                             faults.insert (faults.end(), more.begin(), more.end());

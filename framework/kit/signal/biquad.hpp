@@ -29,19 +29,18 @@ inline double prewarped (double cutoff_hz, double rate_hz) noexcept
 ///
 ///     H(s) = direct + (band s + low) / (s^2 + k s + 1)
 ///
-/// Its state is that of the analogue filter, whose energy no change of g or k > 0 can raise: without input, s1^2 + s2^2 never grows. So
-/// its output stays near that of a filter whose cutoff stands still. Source: V. Zavalishin, The Art of VA Filter Design (2012), ch. 3-5.
+/// Source: V. Zavalishin, The Art of VA Filter Design (2012), ch. 3-5.
 struct StateVariable
 {
-    double a1 = 1.0, a2 = 0.0, a3 = 0.0;   ///< 1 / (1 + g (g + k)), g a1, g a2
+    double g = 1.0, k = 1.0;
     double direct = 1.0, band = 0.0, low = 0.0;
+    double share = 1.0 / 3.0;   ///< 1 / (1 + g (g + k))
 };
 
 /// The coefficients for g = prewarped (cutoff) and k = 1/q.
 inline StateVariable stateVariable (double g, double k, double direct, double band, double low) noexcept
 {
-    const double a1 = 1.0 / (1.0 + g * (g + k));
-    return { a1, g * a1, g * g * a1, direct, band, low };
+    return { g, k, direct, band, low, 1.0 / (1.0 + g * (g + k)) };
 }
 
 /// The second-order Butterworth low-pass, prewarped so that the cutoff is exact.
@@ -51,31 +50,53 @@ inline StateVariable movingButterworth2 (double cutoff_hz, double rate_hz) noexc
 }
 
 /// The memory of a state variable filter. A sample that the filter cannot process, non-finite or too large, gives 0 and resets the filter.
+///
+/// It keeps the two outputs of the analogue filter, b (band) and l (low), and steps them by the implicit midpoint rule:
+///
+///     b' = b + g (h + h'),  l' = l + g (b + b'),  h = x - k b - l
+///
+/// Without input, b^2 + l^2 never grows, whatever g and k > 0 are on each tick: its change is -g k (b + b')^2. Near half the rate, and where the
+/// damping g k is large, that rule swaps the sign of an error on each tick and hardly makes it smaller, so a jump to there would leave it
+/// ringing, and the next jump would add to it. So on a tick on which g or k moves to there, the step is the backward Euler rule, which forgets the
+/// error at once, and whose energy does not grow either. Source: Rannacher 1984 (backward steps after jumps).
 class StateVariableState
 {
 public:
     static constexpr double silence = 1e-100;   ///< a smaller state becomes 0; far below anything felt, far above the slow denormal numbers
 
-    double operator() (const StateVariable& c, double x) noexcept
+    double operator() (const StateVariable& c, double input) noexcept
     {
-        const double rest = x - s2;
-        const double band = c.a1 * s1 + c.a2 * rest;
-        const double low = s2 + c.a2 * s1 + c.a3 * rest;
-        const double y = c.direct * x + c.band * band + c.low * low;
-        s1 = 2.0 * band - s1;
-        s2 = 2.0 * low - s2;
+        constexpr double highest = 6.3, stiffest = 2.0;   // g at 0.45 of the rate; g k
+        const bool jumps = (c.g != g || c.k != k) && g > 0.0 && (c.g > highest || c.g * c.k > stiffest);
+        if (jumps)
+        {
+            const double twice = 2.0 * c.g;
+            b = (b + twice * (input - l)) / (1.0 + twice * (c.k + twice));
+            l += twice * b;
+        }
+        else
+        {
+            const double h = x - c.k * b - l, last = b;
+            b = c.share * (last + c.g * (h + input - l - c.g * last));
+            l += c.g * (last + b);
+        }
+        x = input;
+        g = c.g;
+        k = c.k;
+        const double y = c.direct * x + c.band * b + c.low * l;
 
-        if (! isFinite (y, s1, s2))
+        if (! isFinite (y, b, l))
         {
             *this = {};
             return 0.0;
         }
-        if (std::abs (s1) + std::abs (s2) < silence) *this = {};
+        if (std::abs (b) + std::abs (l) + std::abs (x) < silence) *this = {};
         return y;
     }
 
 private:
-    double s1 = 0.0, s2 = 0.0;
+    double b = 0.0, l = 0.0, x = 0.0;   // x: the last input
+    double g = 0.0, k = 0.0;            // of the last sample; 0: there was none
 };
 
 /// H(z) = (b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2), for coefficients that stand still. Those that move need a StateVariable.

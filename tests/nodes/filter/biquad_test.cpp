@@ -155,6 +155,6 @@ TEST_CASE ("biquad: a cutoff on a square wave does not make it grow", "[nodes][f
         node.update();
         most = std::max (most, std::abs (node.tick ({ .in = noise (random) }).out));
     }
-    CHECK (most > 1.0);
-    CHECK (most < 20.0);
+    CHECK (most > 0.5);   // the band at 450 Hz lets little noise through
+    CHECK (most < 8.0);
 }
