@@ -83,6 +83,12 @@ std::vector<double> lastDigits (const std::vector<double>& time)
 }
 }   // namespace
 
+double roundedTo (const std::vector<double>& time)
+{
+    const auto digits = lastDigits (time);
+    return *std::ranges::max_element (digits);
+}
+
 Result<double> evenStep (const std::vector<double>& time)
 {
     const double step = (time.back() - time.front()) / static_cast<double> (time.size() - 1);

@@ -88,6 +88,9 @@ Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, s
 /// The mean time step between two rows, in s. Each step may be off by 10 % of the mean, and also by what rounding to the printed digits changes; each
 /// time may be off by up to half a step. Errors: fit/time, fit/uneven.
 Result<double> evenStep (const std::vector<double>& time);
+
+/// The size of 1 in the last digit with which times were written, in s; 0 if they were not rounded.
+double roundedTo (const std::vector<double>& time);
 }   // namespace detail
 
 }   // namespace tactus

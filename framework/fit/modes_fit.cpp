@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modes_fit.hpp"
+#include "even_clock.hpp"
 #include "least_squares.hpp"
 #include "ring_search.hpp"
 #include "ring_sums.hpp"
@@ -93,13 +94,9 @@ std::size_t endOfRing (const std::vector<double>& v, std::size_t from)
     return std::min (v.size(), from + std::max (is_short, 4 * (loud + 1) * rows));
 }
 
-Result<Ring> ringOf (const RecordedRing& recorded)
+/// The part to fit, from rows that are `step` apart.
+Result<Ring> ringOf (const RecordedRing& recorded, double step)
 {
-    if (auto checked = detail::checkColumns ({ &recorded.value, &recorded.time }, fewest_ring_rows, "the ring from the blow until it cannot be felt any more");
-        ! checked)
-        return checked.error();
-    const auto step = detail::evenStep (recorded.time);
-    if (! step) return step.error();
     const auto& v = recorded.value;
     const auto size = [&] (std::size_t i) { return std::abs (v[i]); };
     const auto rowAt = [&] (double t) { return at (std::ranges::lower_bound (recorded.time, t) - recorded.time.begin()); };
@@ -113,7 +110,7 @@ Result<Ring> ringOf (const RecordedRing& recorded)
         return fitError ("fit/too_short",
                          "the ring has " + std::to_string (to > from ? to - from : 0) + " rows; a fit needs at least " + std::to_string (fewest_ring_rows),
                          "record faster or longer, or choose another part of the recording");
-    Ring ring { .value = Eigen::Map<const VectorXd> (v.data() + from, static_cast<Index> (to - from)), .dt = *step, .start = recorded.time[from] };
+    Ring ring { .value = Eigen::Map<const VectorXd> (v.data() + from, static_cast<Index> (to - from)), .dt = step, .start = recorded.time[from] };
     ring.largest = ring.value.cwiseAbs().maxCoeff();
     if (! (ring.largest > 0.0)) return fitError ("fit/silent", "the fitted part is 0 throughout", "choose another part of the recording");
     ring.value /= ring.largest;
@@ -286,9 +283,15 @@ void examineResidual (const Ring& ring, const VectorXd& residual, double least, 
 }
 }   // namespace
 
-Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
+Result<ModesFit> fitModes (const RecordedRing& given, FitCourse* course)
 {
-    auto read = ringOf (recorded);
+    auto recorded = given;
+    if (auto checked = detail::checkColumns ({ &recorded.value, &recorded.time }, fewest_ring_rows, "the ring from the blow until it cannot be felt any more");
+        ! checked)
+        return checked.error();
+    const auto clock = detail::ontoEvenClock (recorded.time, { &recorded.value });
+    if (! clock) return clock.error();
+    auto read = ringOf (recorded, clock->step);
     if (! read) return read.error();
     const auto& ring = *read;
     constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
@@ -316,6 +319,7 @@ Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
     }
     report.picture = { "time", "s", "ring", "", { { "recorded", recorded.time, recorded.value, true }, { "fitted", t, fitted } } };
     examineResidual (ring, residual, least, report);
+    clock->tell (report);
     judge (report, "Strike once, cleanly, and record until the ring has died away, at a sample rate of at least five times the highest frequency.",
            std::numeric_limits<double>::infinity());
     return result;

@@ -11,7 +11,7 @@ namespace tactus
 /// The recorded motion of a struck object after the blow: its acceleration, speed, force or sound, in any unit.
 struct RecordedRing
 {
-    std::vector<double> time {}, value {};   ///< s, evenly spaced
+    std::vector<double> time {}, value {};   ///< s, evenly spaced, give or take less than half a step
     std::optional<double> from {}, to {};    ///< s; the fitted part. Default: from the largest value to the end, without most of the silence
     std::optional<double> blow {};           ///< s; the time of the blow. Default: the start of the half-wave with the largest value before the fitted part
     int most_modes = 20;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "texture_fit.hpp"
+#include "even_clock.hpp"
 #include "spectrum_model.hpp"
 
 #include <tactus/kit/math/math.hpp>
@@ -226,20 +227,21 @@ FitPicture spectrumPicture (const detail::Periodogram& data, const detail::Spect
 }
 }   // namespace
 
-Result<TextureFit> fitTexture (const RecordedTexture& recorded, FitCourse* course)
+Result<TextureFit> fitTexture (const RecordedTexture& given, FitCourse* course)
 {
+    auto recorded = given;
     std::vector<const std::vector<double>*> columns { &recorded.acceleration, &recorded.time };
     for (const auto* column : { &recorded.speed, &recorded.force })
         if (! column->empty()) columns.push_back (column);
     if (auto checked = detail::checkColumns (columns, fewest_texture_rows, "several seconds at each speed and force"); ! checked) return checked.error();
-    const auto step = detail::evenStep (recorded.time);
-    if (! step) return step.error();
+    const auto clock = detail::ontoEvenClock (recorded.time, { &recorded.acceleration, &recorded.speed, &recorded.force });
+    if (! clock) return clock.error();
     const auto groups = groupsOf (recorded);
     if (groups.empty())
         return fitError ("fit/at_rest", "no stretch of " + std::to_string (fewest_texture_rows) + " rows has a steady speed and force above 0",
                          "drag the tool at a steady speed and force for at least a second");
 
-    TextureFit result { .rate = 1.0 / *step };
+    TextureFit result { .rate = 1.0 / clock->step };
     auto& report = result.report;
     double sum = 0.0, count = 0.0, left_out = 0.0, left_out_count = 0.0, squares = 0.0, most_rows = 0.0;
     for (std::size_t i = 0; i < groups.size(); ++i)
@@ -274,6 +276,7 @@ Result<TextureFit> fitTexture (const RecordedTexture& recorded, FitCourse* cours
     report.notes.push_back ("the residual is the part of each row that the previous rows do not predict; a texture is noise, so the residual is large");
     if (recorded.speed.empty()) report.notes.push_back ("the speed was not recorded: it is taken as " + roundedText (recorded.assumed_speed) + " m/s");
     if (recorded.force.empty()) report.notes.push_back ("the force was not recorded: it is taken as " + roundedText (recorded.assumed_force) + " N");
+    clock->tell (report);
     judge (report, "Record at least three seconds at each speed and force, and hold both steady.", std::numeric_limits<double>::infinity());
     return result;
 }

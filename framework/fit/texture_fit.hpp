@@ -9,7 +9,7 @@ namespace tactus
 /// A tool that was dragged over a texture at one or more speeds and forces.
 struct RecordedTexture
 {
-    std::vector<double> time {};                       ///< s, evenly spaced
+    std::vector<double> time {};                       ///< s, evenly spaced, give or take less than half a step
     std::vector<double> acceleration {};               ///< of the tool, in m/s2
     std::vector<double> speed {};                      ///< m/s; empty: not recorded
     std::vector<double> force {};                      ///< N, normal to the surface; empty: not recorded

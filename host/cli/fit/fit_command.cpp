@@ -161,6 +161,8 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
             .addOption ("--sign", options->signs,
                         "Turn the sign of a column, such as --sign \"depth=-\", or keep it: --sign \"depth=+\"; default: as the recording suggests")
             .oneValueEach();
+    if (std::ranges::any_of (info.columns, [] (const FitColumn& column) { return column.role == "t"; }))
+        made.command.addOption ("--rate", options->settings.rate, "Rows per second, if the recording has no column of times").check (finiteWithin (0.01, 1e7));
     made.command.footer (footer);
     made.command.callback ([options, kind] { runFit (kind, *options); });
     return made;

@@ -6,6 +6,7 @@
 
 #include <tactus/fit/curve_fit.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,22 @@ namespace
 {
 using Columns = RecordedColumns;
 
-Result<Columns> columnsOf (FitKind kind, const Table& table, const std::string& file, const ColumnChoice& choice)
+Result<Columns> columnsOf (FitKind kind, const Table& table, const std::string& file, const FitSettings& settings)
 {
+    const auto& choice = settings.columns;
     Columns columns;
     for (const auto& wanted : infoOf (kind).columns)
     {
+        if (wanted.role == "t" && settings.rate > 0.0)
+        {
+            if (const auto found = findColumn (table, wanted, choice))
+                return Message::error ("fit/given_twice", file, "--rate gives the times of the rows, but the recording has a column for them, " + quote (table.columns[*found]),
+                                       "leave out --rate, or leave out the column: --column t=");
+            auto& times = columns[wanted.role];
+            for (std::size_t r = 0; r < table.rows(); ++r)
+                times.push_back (static_cast<double> (r) / settings.rate);
+            continue;
+        }
         auto values = columnOf (table, file, wanted, choice);
         if (! values) return values.error();
         columns[wanted.role] = std::move (*values);
@@ -232,7 +244,7 @@ std::string verdictOf (const FitReport& report) { return report.is_good ? "good"
 
 Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::string& file, const FitSettings& settings, FitCourse* course)
 {
-    auto columns = columnsOf (kind, table, file, settings.columns);
+    auto columns = columnsOf (kind, table, file, settings);
     if (! columns) return columns.error();
     const auto pressing = orient (infoOf (kind).columns, *columns, settings.columns, touchFor (kind, settings));
     if (auto once = checkGivenOnce (*columns, kind, settings); ! once) return Message::error (once.error().id, file, once.error().text, once.error().remedy);
@@ -249,7 +261,7 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
 RecordedPicture pictureOf (FitKind kind, const Table& table, const FitSettings& settings)
 {
     const auto& columns = infoOf (kind).columns;
-    auto recorded = columnsOf (kind, table, {}, settings.columns);
+    auto recorded = columnsOf (kind, table, {}, settings);
     if (! recorded) return {};
     auto turned = orient (columns, *recorded, settings.columns, touchFor (kind, settings)).turned;
     const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };

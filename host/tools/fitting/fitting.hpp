@@ -47,6 +47,7 @@ std::optional<FitKind> guessKind (const Table&);
 struct FitSettings
 {
     ColumnChoice columns {};
+    double rate = 0.0;                      ///< rows per second, for a recording without times; modes, texture, shock
     double load = 0.0;                      ///< N; friction, grating: default 1
     double mass = 0.0;                      ///< kg; shock: by default from the times; texture: default 10 g; modes
     double speed = 0.0;                     ///< m/s; modes: of the blow; texture: of the stroke

@@ -177,7 +177,8 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
             addToList (columns, column);
         return Message::error ("fit/column", file,
                                "there is no column " + quote (is_named ? chosen->second : wanted.role) + "; there are " + columns,
-                               "name the column " + quote (wanted.role) + " (" + wanted.about + "), or say which one it is: --column " + wanted.role + "=NAME");
+                               "name the column " + quote (wanted.role) + " (" + wanted.about + "), or say which one it is: --column " + wanted.role + "=NAME"
+                                   + (wanted.role == "t" ? "; if the rows have no times, give their rate: --rate HZ" : ""));
     }
 
     const auto& name = table.columns[*found];

@@ -209,6 +209,21 @@ TEST_CASE ("fit: a recording with too little information gets a poor verdict tha
     CHECK (runTactus ({ "validate", preset }).status == 0);
 }
 
+TEST_CASE ("fit: a recording without times has those of the rate that is given", "[cli][fit]")
+{
+    const Scratch scratch;
+    Random random { 6 };
+    const auto csv = scratch.write ("ring.csv", table ("value", 1500, [random] (std::ostream& out, int i) mutable {
+                                        out << std::exp (-0.004 * i) * std::sin (full_circle * 0.08 * i) + 0.001 * random.normal();
+                                    }));
+    const auto preset = scratch.path ("ring.json");
+    checkRefused ({ "fit", "modes", csv, "-o", preset }, 1, "give their rate: --rate HZ", preset);
+    const auto ran = runTactus ({ "fit", "modes", csv, "-o", preset, "--rate", "1000" });
+    INFO (ran.out);
+    CHECK (ran.status == 0);
+    CHECK ((ran.out.find ("mode 1 frequency  80.0") != std::string::npos || ran.out.find ("mode 1 frequency  79.9") != std::string::npos));
+}
+
 TEST_CASE ("fit: recordings and options that cannot be used are refused, and nothing is written", "[cli][fit]")
 {
     const Scratch scratch;
@@ -220,6 +235,7 @@ TEST_CASE ("fit: recordings and options that cannot be used are refused, and not
              1, "row 1 of the column 'force' is 1e+300");
     refused ({ "fit", "friction", scratch.write ("still.csv", table ("x,force", 100, [] (std::ostream& out, int i) { out << "1," << i; })), "-o", preset }, 1,
              "[fit/no_motion]");
+    refused ({ "fit", "modes", scratch.write ("ring.csv", ring()), "-o", preset, "--rate", "5000" }, 1, "[fit/given_twice]");
     refused ({ "fit", "friction", csv, "-o", preset, "--load", "2 m" }, 2, "--load");
     refused ({ "fit", "friction", csv, "-o", preset, "--column", "depth=x" }, 2, "--column");
     refused ({ "fit", "friction", csv, "-o", preset, "--unit", "force=1 m" }, 2, "--unit");
