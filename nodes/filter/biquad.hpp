@@ -21,8 +21,8 @@ namespace tactus::nodes
 /// Bilinear transform, prewarped. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after
 /// a non-finite input. Parameters may move while it runs, at any speed: the filter is a trapezoidal state variable filter, which stays stable.
 /// However its parameters move within ten times their usual ranges, the output stays below ten times the largest that it reaches while they stand
-/// still; if gain_db moves, below that or twice its highest gain times the largest input. A new kind takes effect immediately, with a click if there is a signal. High and band give
-/// 0 at rest: in a force path they drop the force on a hand that holds still.
+/// still; if gain_db moves, below that or twice its highest gain times the largest input. A new kind takes effect immediately, with a click if
+/// there is a signal. High and band give 0 at rest: in a force path they drop the force on a hand that holds still.
 ///
 /// Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter coefficients", with alpha from q (the responses); V. Zavalishin,
 /// The Art of VA Filter Design, 2012 (the filter).

@@ -18,8 +18,7 @@ std::string wrongSide (const Surface&);
 
 /// A warning if the force on a flat face differs much from its law, because the frames of its corners turn: or empty. A block of 8 points, whose
 /// frames are means over its edges, feels like a dome. The sentence says by how much, from presses into the faces whose frames turn most. Bodies without
-/// an edge that turns by more than 35 degrees count as round. `scale`
-/// is the length of one unit of the mesh, in m.
+/// an edge that turns by more than 35 degrees count as round. `scale` is the length of one unit of the mesh, in m.
 std::string unevenForce (const std::shared_ptr<const Surface>&, double scale);
 
 }   // namespace tactus
