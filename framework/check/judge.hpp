@@ -85,7 +85,7 @@ struct Trial
     bool swings = false;         ///< it did not come to rest in one of them
     bool runs_away = false;      ///< the graph drove it away
     bool is_doubtful = false;    ///< none swings, but one of them nearly does, or still moves on in the third second and rests later
-    bool is_lost = false;        ///< in one of them, the hand drove it away from the motion, so that trial shows nothing
+    bool is_lost = false;        ///< in one of them, it swung until the hand drove it away from the motion, so that trial shows no rest
     double range = 0.0;          ///< how far it moved in the third second, in m
     double t_s = 0.0;            ///< the time of the motion at which it was let go
     double off = 0.0;            ///< how far off its rest, in m

@@ -167,8 +167,17 @@ std::optional<double> radiusOf (std::vector<LoopMatrix> pulses, std::span<const 
 {
     align (pulses, axes);
     double most = 0.0;
+    constexpr double rounding = 1e-6;   // relative
+    double largest = 0.0;
+    for (const auto& p : pulses)
+        largest = std::max (largest, p.norm());
+    const auto isHeld = [&] (const std::vector<LoopMatrix>& part) {
+        return std::ranges::any_of (part, [&] (const LoopMatrix& p) { return p.norm() > rounding * largest; });
+    };
+    const bool is_any = isHeld (pulses);
     for (const auto& group : groupsOf (pulses, axes.size()))
     {
+        if (is_any && ! isHeld (partOf (pulses, group))) continue;   // an axis that nothing holds slows down
         std::vector<const DeviceNumbers*> its;
         for (const auto i : group)
             its.push_back (axes[i]);

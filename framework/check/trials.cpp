@@ -18,7 +18,7 @@ namespace
 {
 constexpr double lasts_s = 3.0;
 constexpr double least_swing = 1e-6;   // m, or rad
-constexpr double doubtful = 0.5;       // of a swing: from another start, it may be a whole one
+constexpr double doubtful = 0.6;       // of a swing: from another start, it may be a whole one
 constexpr double window_s = 0.125;
 constexpr std::size_t windows = 24;   // in three seconds
 constexpr double far_m = 1.0;
@@ -448,14 +448,18 @@ private:
             const bool goes_on = ! is_away && one.third.range() > one.threshold && one.third.range() >= 0.5 * one.second.range()
                                  && one.of_graph > std::max (0.0, one.of_hand) && of_graph[r] > std::max (0.0, of_hand[r]);
             const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.third.swing() && of_graph[r] <= of_hand[r];   // over bumps
-            const bool dies = plan.speed != 0.0 && one.third.swing() < 0.5 * one.second.swing();
-            const bool may_swing = ! is_away && ! slides && ! dies;
-            const bool swings = may_swing && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
+            const bool dies = one.third.swing() < 0.5 * one.second.swing();
+            const bool may_swing = ! is_away && ! slides && ! (dies && plan.speed != 0.0);
+            const bool swings = may_swing && ! dies && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
             if (left || swings || goes_on || is_near) seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, ! swings && (left || goes_on), is_near });
         });
-        for (std::size_t r = 0; r < lost.size(); ++r)
-            for (std::size_t d = 0; d < owners.size() && lost[r]; ++d)
+        eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
+            // One that hardly swung on its way is no sign of a loop that swings.
+            const auto swung = std::any_of (all[c].by_window.begin() + 2, all[c].by_window.end(),
+                                            [&] (const Reached& w) { return w.swing() > 0.5 * std::max (near_off, plan.off()); });
+            for (std::size_t d = 0; d < owners.size() && lost[r] && swung; ++d)
                 if (owners[d].tool == r) found.by_role[d].is_lost = true;
+        });
         if (seen.empty()) return;
         // What only moves on may come to rest later, as a tool that falls from a crest into a valley.
         if (! is_away && std::ranges::any_of (seen, &Seen::goes_on) && std::ranges::none_of (seen, &Seen::swings))
@@ -494,7 +498,7 @@ private:
         }
     }
 
-    /// The tools that the hand has driven away from the motion, as over the edge of a surface: their trial shows nothing about a place of the motion.
+    /// The tools that the hand has driven away from the motion, as over the edge of a surface: they do not rest, and do not run away either.
     template <typename IsDriven>
     std::vector<bool> lostTools (const std::vector<Coordinate>& all, bool is_away, IsDriven&& isDrivenByGraph) const
     {

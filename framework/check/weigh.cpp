@@ -125,7 +125,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     if (! are_tried || (is_lost && (c.verdict == Verdict::unstable || c.verdict == Verdict::broken)))
     {
-        c.text += are_tried ? "; in a trial, the hand drove the tool away from the motion" : "; the tool was not let go as often as planned";
+        c.text += are_tried ? "; in a trial, the tool swung until the hand drove it away from the motion" : "; the tool was not let go as often as planned";
         if (c.verdict == Verdict::broken)   // it is not known to be passive, and no more is known
         {
             c.verdict = Verdict::unknown;
