@@ -137,11 +137,19 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
     way = motion;
-    way.ticks = std::min (motion.ticks, static_cast<std::size_t> (std::max (0.0, std::round (t_s * motion.rate_hz))) + 1);
+    const double tick = std::clamp (t_s * motion.rate_hz, 0.0, static_cast<double> (motion.ticks) - 1.0);
+    const auto before = static_cast<std::size_t> (tick), after = std::min (before + 1, motion.ticks - 1);
     for (auto& its : way.roles)
     {
-        its.readings.resize (way.ticks);
-        its.readings.resize (way.ticks + static_cast<std::size_t> (std::ceil (0.1 * motion.rate_hz)), Reading (its.readings.back()));
+        auto last = its.readings[before];
+        const auto& next = its.readings[after];
+        const double part = tick - static_cast<double> (before);
+        last.position += part * (next.position - last.position);
+        last.true_position += part * (next.true_position - last.true_position);
+        for (int i = 0; i < static_cast<int> (its.layout.axes.size()); ++i)
+            last.axes.set (i, last.axes[i] + part * (next.axes[i] - last.axes[i]));
+        its.readings.resize (before + 1);
+        its.readings.resize (before + 1 + static_cast<std::size_t> (std::ceil (0.1 * motion.rate_hz)), last);
     }
     way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
@@ -264,6 +272,8 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
             }
         }
     }
+    constexpr double rounding = 1e-6;
+    if (sizeOf (m.rest) <= rounding * sizeOf (base.response)) m.rest = scaled (0.0, m.rest);
     if (m.spring.empty() && base.stiffness > 0.0)   // no param: the whole response
     {
         m.spring = scaled (1.0 / base.stiffness, m.rest);
@@ -288,12 +298,9 @@ Standing Contact::at (const Conditions& c)
     const auto& numbers = role.device.numbers;
     const double period_s = periodOf (numbers, rate_hz);
     const bool varies = c.stiffness || c.damping;
-    const auto& base = asIs (rate_hz, c.params);
-    const auto m = varies ? model (rate_hz, c.params)
-                          : Model { .stiffness = base.stiffness, .damping = base.damping, .rest = base.response, .spring = {}, .damper = {} };
+    const auto& m = model (rate_hz, c.params);
     Standing s { .stiffness = c.stiffness.value_or (m.stiffness), .damping = c.damping.value_or (m.damping), .period_s = period_s };
-    auto response = m.rest;
-    if (varies) response = sum (sum (response, s.stiffness, m.spring), s.damping, m.damper);
+    const auto response = varies ? sum (sum (m.rest, s.stiffness, m.spring), s.damping, m.damper) : asIs (rate_hz, c.params).response;
     s.load = loadOf (response, numbers, period_s);
     s.largest_damper = check::largestDamper (numbers, period_s);
     const bool is_smooth = numbers.quantum && numbers.quantum->value <= 0.0;
