@@ -84,6 +84,7 @@ struct Trial
     bool is_tried = false;       ///< its tool was let go, all planned trials were made or one of them swings
     bool swings = false;         ///< it did not come to rest in one of them
     bool runs_away = false;      ///< the graph drove it away
+    bool dies = false;           ///< the swing was less than half of that in the second before
     bool is_doubtful = false;    ///< none swings, but one of them nearly does, or still moves on in the third second and rests later
     bool is_lost = false;        ///< in one of them, it swung until the hand drove it away from the motion, so that trial shows no rest
     double range = 0.0;          ///< how far it moved in the third second, in m

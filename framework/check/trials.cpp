@@ -437,7 +437,7 @@ private:
             std::size_t tool;
             int axis;
             double range;
-            bool swings, goes_on, is_near;
+            bool swings, dies, goes_on, is_near;
         };
         std::vector<Seen> seen;
         const auto lost = lostTools (all, is_away, [&] (std::size_t r) { return all_of_graph[r].most > all_of_hand[r].most; });
@@ -450,8 +450,8 @@ private:
             const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.third.swing() && of_graph[r] <= of_hand[r];   // over bumps
             const bool dies = one.third.swing() < 0.5 * one.second.swing();
             const bool may_swing = ! is_away && ! slides && ! (dies && plan.speed != 0.0);
-            const bool swings = may_swing && ! dies && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
-            if (left || swings || goes_on || is_near) seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, ! swings && (left || goes_on), is_near });
+            const bool swings = may_swing && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
+            if (left || swings || goes_on || is_near) seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, dies, ! swings && (left || goes_on), is_near });
         });
         eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
             // One that hardly swung on its way is no sign of a loop that swings.
@@ -479,9 +479,10 @@ private:
             auto* const its = trialOf (s.tool, s.axis);
             const bool is_bad = s.swings || s.goes_on;
             if (its == nullptr) continue;
-            const auto rank = [] (bool swings, bool goes_on) { return swings && ! goes_on ? 2 : swings ? 1
-                                                                                                       : 0; };
-            const int now = rank (is_bad, s.goes_on), before = rank (its->swings, its->runs_away);
+            const auto rank = [] (bool swings, bool dies, bool goes_on) { return swings && ! goes_on && ! dies ? 3 : swings && ! goes_on ? 2
+                                                                                                                 : swings                ? 1
+                                                                                                                                         : 0; };
+            const int now = rank (is_bad, s.dies, s.goes_on), before = rank (its->swings, its->dies, its->runs_away);
             if ((its->swings || its->is_doubtful) && (before > now || (before == now && its->range >= s.range))) continue;
             auto& trial = *its;
             trial = { .role = trial.role,
@@ -489,6 +490,7 @@ private:
                       .is_tried = true,
                       .swings = is_bad,
                       .runs_away = s.goes_on,
+                      .dies = s.swings && s.dies,
                       .is_doubtful = ! is_bad,
                       .is_lost = trial.is_lost,
                       .range = s.range,

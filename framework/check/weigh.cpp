@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace tactus::check
 {
@@ -102,7 +103,9 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         }
     }
     if (trials == nullptr) return;
-    const auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
+    auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
+    if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable && c.value <= (1.0 + slope_error) * c.limit)   // slopes that are passive: it rests later
+        doubtful = std::exchange (worst, nullptr);
     const auto letGo = [] (const Trial& t) {
         return "let go " + (t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion")) + " at " + text (t.t_s, "s") + " "
                + handText (t.hand) + ", the tool ";
