@@ -98,6 +98,7 @@ struct Trials
 {
     std::vector<Trial> by_role {};   ///< in the order of Demand::roles
     std::size_t places = 0, runs = 0;
+    bool are_dry = false;   ///< a device has dry friction
 };
 
 struct JudgeOptions

@@ -75,6 +75,7 @@ public:
             if (numbers.peak_force) limits.max_force = numbers.peak_force->value;
             engine->attach (role.role, *tools.back(), limits);
             devices_of.push_back (numbers);
+            found.are_dry = found.are_dry || (is_known && numbers.coulomb && numbers.coulomb->value > 0.0);
             for (int i = 0; i < 3; ++i)
                 thresholds.push_back (std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
         }

@@ -61,6 +61,14 @@ Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
     return shown;
 }
 
+/// True if something holds a tool whose linear loop swings: dry friction of the device or of the graph, or a brake. Else a trial in which the tool
+/// comes to rest has only begun in the wrong place.
+bool mayRest (const Demand& demand, const Trials& trials, std::span<const RoleDemand* const> roles)
+{
+    const auto brakes = [] (const RoleDemand* role) { return std::ranges::any_of (role->slopes, [] (const Slope& s) { return s.brake > 0.0; }); };
+    return trials.are_dry || ! demand.stretches.empty() || std::ranges::any_of (roles, brakes);
+}
+
 /// Why a contact whose slopes are passive is not passive for every motion; empty if it is. `is_here`: it is along this one.
 std::string doubt (const Demand& demand, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed, bool& is_here)
 {
@@ -137,7 +145,9 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         return;
     }
     const auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
-    if (c.verdict == Verdict::unstable)
+    if (c.verdict == Verdict::unstable && ! mayRest (demand, *trials, roles))
+        c.text += "; " + tried + " where it was let go, and nothing there holds it";
+    else if (c.verdict == Verdict::unstable)
     {
         c.verdict = Verdict::stable;
         c.text = tried + ", by what the linear loop leaves out, such as dry friction or a brake; " + c.text;

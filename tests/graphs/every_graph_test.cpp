@@ -54,7 +54,6 @@ Compiled compiled (const graph::Graph& g)
 /// Presets that break a condition of docs/check.md on the simulated device that they describe: which one, and why the preset stays as
 /// it is.
 const std::map<std::string, std::pair<std::string, std::string>> breaks {
-    { "braked_wall", { "stiffness", "it needs the brake of its device, which `tactus check` does not count" } },
     { "denim",
       { "stiffness",
         "its noise grows with speed, so at some moments it pushes the tool on, which a loop that is linearised there cannot tell from a lasting push" } },
