@@ -241,26 +241,26 @@ std::int32_t ForceDevice::read (std::chrono::milliseconds timeout, tactus_readin
             stamp.reached_hz = reached_hz.load (std::memory_order_relaxed);
         return int { TACTUS_DEVICE_OK };
     };
-    const auto until = Clock::now() + std::min<std::chrono::milliseconds> (timeout, state_again);
+    const auto wait = std::min<std::chrono::milliseconds> (timeout, state_again);
+    const auto state = [&] { return has_come ? answer (0.0) : int { TACTUS_DEVICE_NONE }; };
+    const auto until = Clock::now() + wait;
     EventDevice::Event event;
     for (;;)
-    {
-        // Events that say nothing about an axis or a button must not hold this up.
-        const auto left = std::chrono::ceil<std::chrono::milliseconds> (until - Clock::now());
-        if (left.count() < 0) return has_come && ! in_frame ? answer (0.0) : int { TACTUS_DEVICE_NONE };
-        switch (events->next (event, static_cast<int> (left.count())))
+        switch (events->next (event, static_cast<int> (wait.count())))
         {
         case EventDevice::Got::gone:
             return TACTUS_DEVICE_GONE;
         case EventDevice::Got::nothing:
-            return has_come ? answer (0.0) : int { TACTUS_DEVICE_NONE };
+            return state();
         case EventDevice::Got::event:
             note (event);
-            if (event.type != EV_SYN || event.code != SYN_REPORT || ! std::exchange (in_frame, false)) break;
-            has_come = true;
-            return answer (frame_age);
+            if (event.type == EV_SYN && event.code == SYN_REPORT && std::exchange (in_frame, false))
+            {
+                has_come = true;
+                return answer (frame_age);
+            }
+            if (! in_frame && Clock::now() > until) return state();   // events that say nothing of an axis or a button must not hold this up
         }
-    }
 }
 
 //==============================================================================
