@@ -273,8 +273,8 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface, double s
     }
     if (turns.empty()) return {};
     const auto sharpest = sharpestEdges (*surface->mesh);
-    const auto round = std::ranges::remove_if (turns, [&] (const auto& turn) { return ! (sharpest[at (turn.second)] > crease); });
-    turns.resize (static_cast<std::size_t> (round.begin() - turns.begin()));
+    const auto isRound = [&] (const auto& turn) { return ! (sharpest[at (turn.second)] > crease); };
+    turns.erase (std::remove_if (turns.begin(), turns.end(), isRound), turns.end());
     if (turns.empty()) return {};
     const auto count = std::min (turns.size(), most_presses);
     std::ranges::partial_sort (turns, turns.begin() + static_cast<std::ptrdiff_t> (count), std::greater {});
