@@ -23,8 +23,9 @@ struct ImportOptions
 };
 
 /// Starts `python3 -m tactus.data` in the place of this program, so that its output and its status are those of the command. Without the package, a
-/// sentence says so, and the status is that of wrong usage.
+/// sentence says so, and the status is that of wrong usage. The folder of recordings is a stranger's: a module in the current folder is not loaded.
 constexpr auto script = R"(import sys
+if sys.path[:1] == [""]: del sys.path[0]
 try:
     from tactus import data
 except ImportError:

@@ -6,12 +6,15 @@ import contextlib
 import io
 import json
 import math
+import os
 import pathlib
 import random
+import subprocess
+import sys
 import tempfile
 import unittest
 
-from support import TestCase
+from support import PROGRAM, TestCase
 from tactus import Graph, data
 
 
@@ -212,6 +215,41 @@ class Data(TestCase):
         self.assertIn("rates from 5000 to 6000 Hz", said)
         self.assertIn("there is no .txt in a folder Accel", self.imported({"a.txt": "1"}, kind="lmt")[1])
         self.assertIn("do not vary", self.imported({"Accel/A_query1.txt": "0\n" * 2000}, kind="lmt")[1])
+
+
+class Command(TestCase):
+    """`tactus import-data`, which starts the package."""
+
+    def setUp(self):
+        super().setUp()
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+        (self.folder / "Models_Wood.xml").write_text(texture([(50.0, 0.5, 0.2, [0.5, 1.0, 1.5, 2.0], [], 1.0)]), encoding="utf-8")
+
+    def ran(self, **environment):
+        return subprocess.run([PROGRAM, "import-data", "hatt", ".", "-o", "out"], cwd=self.folder,
+                              env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment},   # the same Python
+                              capture_output=True, text=True)
+
+    def test_it_writes_presets_and_loads_no_module_from_the_folder_of_recordings(self):
+        for name in ("tactus.py", "argparse.py", "json.py"):
+            (self.folder / name).write_text("open('planted', 'w')\n", encoding="utf-8")
+        ran = self.ran()
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("wood.json: 1 models", ran.stdout)
+        self.assertTrue((self.folder / "out/wood.json").exists())
+        self.assertFalse((self.folder / "planted").exists())
+
+    def test_without_the_package_a_sentence_names_it(self):
+        packages = self.folder / "packages"
+        packages.mkdir()
+        (packages / "tactus.py").write_text("raise ImportError\n", encoding="utf-8")
+        ran = self.ran(PYTHONPATH=str(packages))
+        self.assertEqual(ran.returncode, 2)
+        self.assertEqual(ran.stdout, "")
+        self.assertTrue(ran.stderr.startswith("error: the Python package tactus is not there"), ran.stderr)
+        self.assertFalse((self.folder / "out").exists())
 
 
 if __name__ == "__main__":
