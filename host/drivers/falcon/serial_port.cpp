@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
@@ -132,9 +131,11 @@ bool SerialPort::expects (std::span<const std::uint8_t> all, std::chrono::millis
 
 std::string SerialPort::load (const std::string& from)
 {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size (from, failed);   // fails for what is no file, such as a device that never ends
+    std::vector<std::uint8_t> image (failed || size > most_firmware ? 0 : size);
     std::ifstream in (from, std::ios::binary);
-    std::vector<std::uint8_t> image { std::istreambuf_iterator<char> (in), {} };
-    if (image.empty() || image.size() > most_firmware) return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
+    if (image.empty() || ! in.read (reinterpret_cast<char*> (image.data()), static_cast<std::streamsize> (image.size()))) return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
     setLowLatency (false);   // people report that loading fails otherwise
     setSpeed (hello_baud);
     purge();

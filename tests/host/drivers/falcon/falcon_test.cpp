@@ -223,6 +223,7 @@ TEST_CASE ("a Falcon is read and pushed in the axes of Tactus, one packet at a t
     CHECK (desk.device->layout().axes == std::vector<std::string> { "saturated" });
     CHECK (desk.reading.axes[0] == 0.0);
     falcon.hold ({ 0.01, 0.005, 0.13 }, 0);
+    REQUIRE (desk.ticksUntil ([&] { return is_at (middle); }));   // the driver turns a force into torques at the place that it knows
     CHECK (desk.ticksUntil ([&] { return desk.reading.axes[0] == 1.0; }, { 30.0, 0.0, 0.0 }));
     CHECK (falcon.largest_motor == 4096);
     const Place pushed = falcon_legs::forceOf ({ -1e-4 * falcon.motors[0], -1e-4 * falcon.motors[1], -1e-4 * falcon.motors[2] }, falcon.place());
@@ -443,6 +444,7 @@ TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what i
     Desk desk { false, image.size() };
     CHECK (contains (desk.said(), R"(Give the file that has its firmware with the key "firmware")"));
     CHECK (contains (desk.said ({ { "firmware", (folder / "none.bin").string() } }), "it cannot be read"));
+    CHECK (contains (desk.said ({ { "firmware", "/dev/zero" } }), "it cannot be read"));   // it never ends
     CHECK (desk.falcon.loaded == 0);
     desk.falcon.first_tries_that_fail = 3;
     REQUIRE (desk.opens ({ { "firmware", file } }));
