@@ -120,10 +120,11 @@ bool check (const std::string& file)
     auto messages = compiled.messages;
     std::ranges::move (plan::unheardNodes (loaded.graph, catalogue()), std::back_inserter (messages));
     if (compiled.plan) std::ranges::move (undescribedRoles (loaded.graph, *compiled.plan), std::back_inserter (messages));
+    const bool has_warnings = ! loaded.messages.empty() || ! messages.empty();   // no errors, if it comes to that
     errors += report (ordered (std::move (messages), loaded, file), loaded, file) + checkDevices (loaded, file);
     if (errors > 0) return false;
 
-    std::cout << printableName (file) << ": ok\n";
+    std::cout << printableName (file) << (has_warnings ? ": ok, with warnings\n" : ": ok\n");
     for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);
     return true;
