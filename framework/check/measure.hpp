@@ -80,7 +80,7 @@ struct RoleDemand
     std::vector<std::string> claims_nothing {};   ///< paths of the nodes between hand and motor that do not claim to be passive, as they are wired here
     double claimed_stiffness = 0.0;               ///< sum of what the others claim, in N/m
     double claimed_damping = 0.0;                 ///< the same, in N s/m
-    double given = 0.0;                           ///< the most energy that the graph has given along the motion, over what it has taken before, in J, without the players
+    double given = 0.0;                           ///< most energy given by the graph along the motion beyond what it took before, in J, without players
 };
 
 /// A contact that stretches a little before it slides: any node with a param d_max in m, and deform.surface.

@@ -128,7 +128,11 @@ private:
     /// larger of the two responses is kept.
     Slope slopeOf (std::size_t role, Linked& all)
     {
-        Slope slope { .t_s = pair.time(), .position = pair.position (role), .force = pair.force (role), .brake = pair.brake (role), .by_node = std::vector<double> (pair.nodes(), 0.0) };
+        Slope slope { .t_s = pair.time(),
+                      .position = pair.position (role),
+                      .force = pair.force (role),
+                      .brake = pair.brake (role),
+                      .by_node = std::vector<double> (pair.nodes(), 0.0) };
         std::array<std::vector<double>, 3> own;
         own.fill (std::vector<double> (pair.numberOfForces(), 0.0));
         for (int axis = 0; axis < (motion.roles[role].axis ? 1 : 3); ++axis)

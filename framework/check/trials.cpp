@@ -452,7 +452,8 @@ private:
             const bool dies = one.third.swing() < 0.5 * one.second.swing();
             const bool may_swing = ! is_away && ! slides && ! (dies && plan.speed != 0.0);
             const bool swings = may_swing && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
-            if (left || swings || goes_on || is_near) seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, dies, ! swings && (left || goes_on), is_near });
+            if (left || swings || goes_on || is_near)
+                seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, dies, ! swings && (left || goes_on), is_near });
         });
         eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
             // One that hardly swung on its way is no sign of a loop that swings.
@@ -516,7 +517,8 @@ private:
                 high = std::max (high, reading.true_position[i]);
             }
             const auto& third = all[c].third;
-            const bool is_outside = is_away ? x < low - beside || x > high + beside : third.range() > 0.0 && (third.high < low - beside || third.low > high + beside);
+            const bool is_outside = is_away ? x < low - beside || x > high + beside
+                                            : third.range() > 0.0 && (third.high < low - beside || third.low > high + beside);
             lost[r] = is_outside && ! isDrivenByGraph (r);
         });
         return lost;

@@ -76,7 +76,8 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
     double given = demand.given_together, uncertain = 1e-5;   // J
     if (roles.size() == 1) given = roles.front()->given;
     for (const auto& t : demand.textures)   // what a ridge may have stored when the motion began, on its crest
-        if (std::ranges::any_of (roles, [&] (const auto* role) { return role->role == t.role; })) uncertain += 1.01 * t.amplitude / (std::numbers::pi * t.spatial_frequency);
+        if (std::ranges::any_of (roles, [&] (const auto* role) { return role->role == t.role; }))
+            uncertain += 1.01 * t.amplitude / (std::numbers::pi * t.spatial_frequency);
     for (const auto* role : roles)
     {
         if (std::ranges::any_of (demand.deadbeats, [&] (const Deadbeat& d) { return d.role == role->role; })) return "a hold.deadbeat has no slope";
@@ -112,11 +113,11 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     if (trials == nullptr) return;
     auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
-    if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable && c.value <= (1.0 + slope_error) * c.limit)   // slopes that are passive: it rests later
-        doubtful = std::exchange (worst, nullptr);
+    const bool is_passive = c.verdict != Verdict::unstable && c.value <= (1.0 + slope_error) * c.limit;
+    if (worst != nullptr && worst->dies && is_passive) doubtful = std::exchange (worst, nullptr);   // the tool comes to rest later
     const auto letGo = [] (const Trial& t) {
-        return "let go " + (t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion")) + " at " + text (t.t_s, "s") + " "
-               + handText (t.hand) + ", the tool ";
+        const auto from = t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion");
+        return "let go " + from + " at " + text (t.t_s, "s") + " " + handText (t.hand) + ", the tool ";
     };
     const auto moves = [] (const Trial& t) { return "by " + text (1e6 * t.range, "um") + " in the third second"; };
     if (worst != nullptr)
@@ -131,7 +132,8 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     {
         c.verdict = Verdict::unknown;
         c.text = letGo (*doubtful) + "still moves " + moves (*doubtful) + "; " + c.text;
-        c.remedy = "in a trial, the tool still moves in the third second, hardly enough to call it unstable: try it by hand, or check the same graph with softer or stiffer forces";
+        c.remedy = "in a trial, the tool still moves in the third second, hardly enough to call it unstable: try it by hand, or check the same graph with "
+                   "softer or stiffer forces";
         return;
     }
     if (! are_tried || (is_lost && (c.verdict == Verdict::unstable || c.verdict == Verdict::broken)))
@@ -140,7 +142,8 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         if (c.verdict == Verdict::broken)   // it is not known to be passive, and no more is known
         {
             c.verdict = Verdict::unknown;
-            c.remedy = std::string ("its loop is not known, and the tool ") + (are_tried ? "did not stay where it was let go" : "was not let go") + ": " + c.remedy;
+            c.remedy = std::string ("its loop is not known, and the tool ") + (are_tried ? "did not stay where it was let go" : "was not let go") + ": "
+                       + c.remedy;
         }
         return;
     }

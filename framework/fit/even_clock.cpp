@@ -102,8 +102,8 @@ void EvenClock::tell (FitReport& report) const
 {
     constexpr double much = 0.1;
     if (! (jitter > 0.0)) return;
-    report.notes.push_back ("the times of the rows jitter by up to " + percentText (jitter) + " of a step, so the rows were interpolated at even times; read back at "
-                            + "the recorded times, they differ by " + percentText (difference) + " (rms)");
+    report.notes.push_back ("the times of the rows jitter by up to " + percentText (jitter) + " of a step, so the rows were interpolated at even times; "
+                            + "read back at the recorded times, they differ by " + percentText (difference) + " (rms)");
     if (difference > much)
         report.lacking.push_back ("the values change too fast for times that jitter: interpolation changed them by " + percentText (difference) + " (rms)");
 }

@@ -248,7 +248,11 @@ void reportTones (const Ring& ring, const RingModel& model, const VectorXd& resi
         const std::vector<Index> of_amplitude { i, i + 2, i + 3 };
         const auto deviation = [] (double variance) { return variance >= 0.0 ? std::sqrt (variance) : std::numeric_limits<double>::infinity(); };
         const double energy = size * size / decay * (1.0 - math::exp (-2.0 * decay * ring.duration()));
-        rows.push_back ({ { .frequency = rate.imag() / full_turn / ring.dt, .decay = decay, .amplitude = ring.largest * size * math::exp (-rate.real() * since), .phase = math::atan2 (a.real(), -a.imag()), .energy = energy },
+        rows.push_back ({ { .frequency = rate.imag() / full_turn / ring.dt,
+                            .decay = decay,
+                            .amplitude = ring.largest * size * math::exp (-rate.real() * since),
+                            .phase = math::atan2 (a.real(), -a.imag()),
+                            .energy = energy },
                           deviation (covariance (i + 1, i + 1)) / rate.imag(),
                           deviation (covariance (i, i)) / -rate.real(),
                           deviation (along.dot (covariance (of_amplitude, of_amplitude) * along)) });
@@ -273,10 +277,11 @@ void examineResidual (const Ring& ring, const VectorXd& residual, double least, 
 {
     if (const auto left = detail::ResidualSpectrum (residual, least).strongest())
         report.lacking.push_back ("a tone at " + roundedText (left->rate.imag() / full_turn / ring.dt, 4)
-                                  + " Hz is left in the residual: more modes are needed (--most), or a mode changes its pitch, or is two modes that are closer than "
-                                    "their bandwidths");
+                                  + " Hz is left in the residual: more modes are needed (--most), or a mode changes its pitch, or is two modes that are "
+                                    "closer than their bandwidths");
     const Index third = ring.size() / 3;
-    const double early = residual.head (third).squaredNorm() / static_cast<double> (third), late = residual.tail (third).squaredNorm() / static_cast<double> (third);
+    const auto rows = static_cast<double> (third);
+    const double early = residual.head (third).squaredNorm() / rows, late = residual.tail (third).squaredNorm() / rows;
     const double chance = 5.0 * std::sqrt (12.0 / std::max (12.0, detail::independentRows (residual)));
     if (early > (1.0 + chance) * std::max (late, least))
         report.lacking.push_back ("the residual decays with the ring, so it is not noise: the decay of the modes is not exponential, or the blow still lasts");

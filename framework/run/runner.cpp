@@ -35,7 +35,8 @@ void noteEfforts (const Plan& plan, RunStatus& now) noexcept
 }   // namespace
 
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
-    : engine (e), clock (c), options (o), period_s (1.0 / rate_hz), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
+    : engine (e), clock (c), options (o), period_s (1.0 / rate_hz),
+      longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
       passed_time (1.0 / rate_hz),
       node_costs (c)
 {

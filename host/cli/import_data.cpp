@@ -54,7 +54,11 @@ void addImportData (const Command& app)
 {
     const auto options = std::make_shared<ImportOptions>();
     const auto command = app.add ("import-data", "Make presets from recordings and models of others, with the Python package");
-    command.addOption ("kind", options->kind, "hatt: the Penn Haptic Texture Toolkit, one .xml a texture; lmt: the texture database of the LMT of TU Munich; cluster: the Cluster Haptic Texture Dataset").required();
+    command
+        .addOption ("kind", options->kind,
+                    "hatt: the Penn Haptic Texture Toolkit, one .xml a texture; lmt: the texture database of the LMT of TU Munich; "
+                    "cluster: the Cluster Haptic Texture Dataset")
+        .required();
     command.addOption ("folder", options->folder, "The folder with its files").required();
     command.addOption ("-o", options->out, "The folder to write presets to").required();
     command.addOption ("--mass", options->mass, "kg that turn the acceleration into a force; default: 0.05");

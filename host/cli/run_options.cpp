@@ -62,8 +62,10 @@ void RunOptions::addTo (const Command& app, Files files)
         app.addOption ("--out", outputs, "Output file, .csv or .wav; may be given more than once").oneValueEach();
     }
     app.addOption ("--rate", rate_hz, "Ticks per second; default: the feed's rate, else the graph's").check (finiteWithin (1.0, 1e6));
-    app.addOption ("--duration", duration_s, "Length of the run in s: of wall time if it runs in real time, or else of simulated time").check (finiteWithin (1e-9, 1e9));
-    app.addOption ("--ticks", ticks, "Length of the run in ticks, instead of --duration; a run in real time that loses ticks lasts longer").check (within (1, 2'000'000'000));
+    app.addOption ("--duration", duration_s, "Length of the run in s: of wall time if it runs in real time, or else of simulated time")
+        .check (finiteWithin (1e-9, 1e9));
+    app.addOption ("--ticks", ticks, "Length of the run in ticks, instead of --duration; a run in real time that loses ticks lasts longer")
+        .check (within (1, 2'000'000'000));
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
                    "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto), "

@@ -51,8 +51,8 @@ own::Mechanics mechanicsOf (const Simulation& s)
 }
 
 /// True if a tool that is let go from here does not come to rest, although it would if it were let go from where it rests.
-bool swings (const graph::Graph& graph, const CompileOptions& options, const check::RoleDevice& device, const std::vector<Vec3>& path, double off, const own::Grip& grip,
-             std::string& how)
+bool swings (const graph::Graph& graph, const CompileOptions& options, const check::RoleDevice& device, const std::vector<Vec3>& path, double off,
+             const own::Grip& grip, std::string& how)
 {
     const auto mechanics = mechanicsOf (*device.simulated);
     const auto placed = [&] {   // each start has a loop of its own: a cut stays, and a tool that is put elsewhere is a blow

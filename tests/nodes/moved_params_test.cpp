@@ -114,9 +114,10 @@ std::vector<std::string> faultsOf (const Trial& trial)
                 const auto name = std::string (trial.type.info.id) + "." + std::string (names.outputs[i].port->id);
                 const auto own = own_bounds.find (name + " by " + std::string (trial.param.id));
                 if (most[i] <= (own == own_bounds.end() ? most_growth * still[i] : own->second.most (trial, still[i])) + 1e-9) continue;
-                faults.push_back (name + " reaches " + std::to_string (most[i]) + ", and " + std::to_string (still[i]) + " while " + std::string (trial.param.id)
-                                  + " stands still, at " + std::to_string (trial.rate_hz) + " Hz, from " + std::to_string (trial.low) + " to "
-                                  + std::to_string (trial.high) + ", movement " + std::to_string (static_cast<int> (movement)) + " period " + std::to_string (period));
+                faults.push_back (name + " reaches " + std::to_string (most[i]) + ", and " + std::to_string (still[i]) + " while "
+                                  + std::string (trial.param.id) + " stands still, at " + std::to_string (trial.rate_hz) + " Hz, from "
+                                  + std::to_string (trial.low) + " to " + std::to_string (trial.high) + ", movement "
+                                  + std::to_string (static_cast<int> (movement)) + " period " + std::to_string (period));
             }
         }
     return faults;
@@ -129,7 +130,8 @@ std::vector<Interval> rangesOf (const PortSheet& p)
     if (! std::isfinite (usual.min) || ! std::isfinite (usual.max)) return {};
     const double beyond = 4.5 * (usual.max - usual.min);
     const bool is_positive = usual.min > 0.0;
-    const double low = p.limits.hard.clamp (is_positive ? usual.min / 10.0 : usual.min - beyond), high = p.limits.hard.clamp (is_positive ? 10.0 * usual.max : usual.max + beyond);
+    const double low = p.limits.hard.clamp (is_positive ? usual.min / 10.0 : usual.min - beyond);
+    const double high = p.limits.hard.clamp (is_positive ? 10.0 * usual.max : usual.max + beyond);
     return { usual, { low, high } };
 }
 }   // namespace

@@ -98,8 +98,8 @@ class Data(TestCase):
     def test_a_texture_becomes_a_preset_that_compiles(self):
         rng = random.Random(1)
         ar = [stable(4, rng) for _ in range(3)]
-        presets, said, status = self.imported({"Models_Wood 1.xml": texture([(50.0 + 40 * i, 0.5 + i, 0.2, frequencies_of(a), [], 1.0) for i, a in enumerate(ar)])},
-                                              "--mass", "0.1")
+        models = [(50.0 + 40 * i, 0.5 + i, 0.2, frequencies_of(a), [], 1.0) for i, a in enumerate(ar)]
+        presets, said, status = self.imported({"Models_Wood 1.xml": texture(models)}, "--mass", "0.1")
         self.assertEqual(status, 0, said)
         self.assertIn("AR, as in the file", said)
         self.assertIn("does not allow to pass it on", said)
@@ -128,7 +128,8 @@ class Data(TestCase):
 
     def test_what_is_wrong_is_refused_with_its_place(self):
         good = [(50.0, 1.0, 0.3, [0.5, 1.5], [], 1.0)]
-        for text, why in (("<modelSet", "it is not XML"), ("<a/>", "its root is <a>"), (texture([]), "it has no <model>"), (texture(good, count=3), "<numMod> says 3"),
+        for text, why in (("<modelSet", "it is not XML"), ("<a/>", "its root is <a>"), (texture([]), "it has no <model>"),
+                          (texture(good, count=3), "<numMod> says 3"),
                           (texture([(50.0, 1.0, 0.3, [1.5, 0.5], [], 1.0)]), "model 1: line spectral frequencies must increase"),
                           (texture([(50.0, 1.0, -1.0, [0.5, 1.5], [], 1.0)]), "model 1: <var> must be above 0"),
                           (texture([(50.0, "x", 0.3, [0.5, 1.5], [], 1.0)]), "model 1: could not convert"),

@@ -54,7 +54,8 @@ class Words(TestCase):
                 ("give it one with tactus_run_device or tactus_run_pushed_device", "give it one with devices={'ROLE': …}"),
                 ("use a name that tactus_run_role returns", "use one of Engine.roles"),
                 ("choose with --clock ROLE, or in the session: tactus session --clock ROLE", "choose with clock='ROLE'"),
-                ("name a role with a HID device, or write --clock timer or --clock audio", "name a role with a HID device, or write clock='timer' or clock='audio'"),
+                ("name a role with a HID device, or write --clock timer or --clock audio",
+                 "name a role with a HID device, or write clock='timer' or clock='audio'"),
                 ("`tactus nodes friction.elasto_plastic` lists them", "tactus.nodes()['friction.elasto_plastic'] lists them")):
             self.assertEqual(in_python(text), words)
         self.assertEqual(in_python("--device stylus=sim", "device"), "device={'stylus': 'sim'}")

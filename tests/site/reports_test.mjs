@@ -106,7 +106,8 @@ const guard = textOf ('framework/run/guard.hpp'), [, listed] = /enum class Stop 
 const stops = listed.split (',').map (name => name.trim()), first_latching = /latches \(Stop stop\) noexcept \{ return stop >= Stop::(\w+);/.exec (guard)[1];
 assert.deepEqual (quoted (textOf ('host/code/generate/targets/tactus_graph.js'), 'const stops = ['), stops);
 assert.deepEqual (quoted (textOf ('docs/site/playground/engine.js'), 'const latching = ['), stops.slice (stops.indexOf (first_latching)));
-assert.equal (/const longest_silence_s = [\d.]+, fade_s = ([\d.]+)/.exec (textOf ('docs/site/playground/engine.js'))[1], /double fade_s = ([\d.]+);/.exec (guard)[1]);
+assert.equal (/const longest_silence_s = [\d.]+, fade_s = ([\d.]+)/.exec (textOf ('docs/site/playground/engine.js'))[1],
+              /double fade_s = ([\d.]+);/.exec (guard)[1]);
 const worded = [...textOf ('docs/site/playground/playground.js').split ('const words = {')[1].split ('}')[0].matchAll (/(\w+): '/g)].map (([, name]) => name);
 assert.deepEqual (worded.filter (name => name !== 'limit').sort(), [...stops].sort());
 

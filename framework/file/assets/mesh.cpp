@@ -132,7 +132,10 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
         for (std::size_t i = 2; i < polygon.size(); ++i)
             add (polygon[0], polygon[i - 1], polygon[i]);
     else if (polygon.size() > most_corners_cut)
-        throw MeshProblem { "mesh/too_large", "a face that is not convex has " + std::to_string (polygon.size()) + " corners; at most " + std::to_string (most_corners_cut) + " are cut into triangles", line, "triangulate it in the program that made it" };
+        throw MeshProblem { "mesh/too_large",
+                            "a face that is not convex has " + std::to_string (polygon.size()) + " corners; at most " + std::to_string (most_corners_cut)
+                                + " are cut into triangles",
+                            line, "triangulate it in the program that made it" };
     else
         for (const auto& [a, b, c] : cutIntoTriangles (made.points, polygon))
             add (a, b, c);

@@ -72,7 +72,8 @@ Header readHeader (Lines& lines)
 {
     Header header;
     const auto first = lines.next();
-    if (! first || (first->substr (0, 3) != "ply" && first->substr (0, 3) != "PLY") || first->find_first_not_of (" \t", 3) != first->npos) throw MeshProblem { "mesh/syntax", "it does not start with the word ply", 1 };
+    if (! first || (first->substr (0, 3) != "ply" && first->substr (0, 3) != "PLY") || first->find_first_not_of (" \t", 3) != first->npos)
+        throw MeshProblem { "mesh/syntax", "it does not start with the word ply", 1 };
     while (auto line = lines.next())
     {
         const auto keyword = takeWord (*line);
@@ -204,7 +205,8 @@ void readStrips (const Element& element, Body& body, MeshBuilder& mesh)
                 strip.clear();
                 continue;
             }
-            if (! (number >= 0.0 && number <= std::numeric_limits<int>::max())) throw MeshProblem { "mesh/syntax", "a point index is out of range", body.line() };
+            if (! (number >= 0.0 && number <= std::numeric_limits<int>::max()))
+                throw MeshProblem { "mesh/syntax", "a point index is out of range", body.line() };
             strip.push_back (static_cast<long long> (number));
             const auto n = strip.size();
             if (n < 3) continue;

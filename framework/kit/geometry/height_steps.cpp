@@ -41,8 +41,9 @@ void average (std::vector<double>& values, std::size_t begin, std::size_t stride
     std::vector<double> sums { 0.0 };   // sums[i]: of the first i numbers from -half on
     for (int i = -half; i < count + half; ++i)
         sums.push_back (sums.back() + at (i));
+    const int width = 2 * half + 1;
     for (int i = 0; i < count; ++i)
-        values[begin + stride * static_cast<std::size_t> (i)] = (sums[static_cast<std::size_t> (i + 2 * half + 1)] - sums[static_cast<std::size_t> (i)]) / (2 * half + 1);
+        values[begin + stride * static_cast<std::size_t> (i)] = (sums[static_cast<std::size_t> (i + width)] - sums[static_cast<std::size_t> (i)]) / width;
 }
 }   // namespace
 

@@ -170,8 +170,8 @@ std::string wrongWayRound (const Mesh& mesh)
         const auto count = std::ranges::count (orientation.turned, 1);
         return placeOf (mesh, static_cast<int> (found - orientation.turned.begin()))
                + (count > 1 ? " and " + std::to_string (count - 1) + " more run" : std::string (" runs"))
-               + " through an edge in the same direction as a neighbour, so the mesh faces inwards there, and cannot be felt from outside: reverse the order of the"
-                 " corners of these faces (\"recalculate normals outside\" in 3-D programs)";
+               + " through an edge in the same direction as a neighbour, so the mesh faces inwards there, and cannot be felt from outside: reverse the order"
+                 " of the corners of these faces (\"recalculate normals outside\" in 3-D programs)";
     }
     constexpr int most_pieces = 64;          // each takes a pass over the mesh
     constexpr double nearly_closed = 0.45;   // a hemisphere has 0.5, and may be a bowl
@@ -269,7 +269,8 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface, double s
             low = low.cwiseMin (corners[i]);
             high = high.cwiseMax (corners[i]);
         }
-        if (const double degrees = math::atan2 (std::sqrt (std::max (0.0, 1.0 - least * least)), least) * 180.0 / std::numbers::pi; degrees > turned) turns.emplace_back (degrees, t);
+        const double degrees = math::atan2 (std::sqrt (std::max (0.0, 1.0 - least * least)), least) * 180.0 / std::numbers::pi;
+        if (degrees > turned) turns.emplace_back (degrees, t);
     }
     if (turns.empty()) return {};
     const auto sharpest = sharpestEdges (*surface->mesh);
@@ -309,8 +310,8 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface, double s
     }
     if (worst < 0 || std::max (most - 1.0, 1.0 - least) < wrong) return {};
     return "the mesh is too coarse for its edges: its frames turn by " + short3 (turns.front().first) + " degrees within a flat face, so a press of "
-           + short3 (1e3 * depth_there) + " mm into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most) + " times the force of its law, most wrongly at "
-           + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
+           + short3 (1e3 * depth_there) + " mm into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most)
+           + " times the force of its law, most wrongly at " + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
 }
 
 }   // namespace tactus

@@ -376,8 +376,8 @@ def import_hatt(given: argparse.Namespace) -> tuple[list[str], bool]:
             continue
         worst = max(m["error"] for m in models)
         error = f"ARMA as AR of order {MOST_COEFFICIENTS}, off by at most {worst:.2g} dB rms" if worst > 0.0 else "AR, as in the file"
-        sentences.append(f"{target}: {len(models)} models ({error}); between models, the nearest on the grid of their speeds and forces plays, where the toolkit "
-                         "interpolates in triangles")
+        sentences.append(f"{target}: {len(models)} models ({error}); between models, the nearest on the grid of their speeds and forces plays, "
+                         "where the toolkit interpolates in triangles")
     return sentences, refused
 
 

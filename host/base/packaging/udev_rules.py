@@ -14,8 +14,9 @@ DRIVERS = """
 # Arms of Force Dimension
 SUBSYSTEM=="usb", ATTRS{idVendor}=="1451", TAG+="uaccess"
 
-# Novint Falcon. The kernel does not know it as a serial port, and its adapter keeps answers for 16 ms if nobody asks otherwise.
-ACTION=="add", SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", RUN+="/bin/sh -c 'modprobe ftdi_sio && echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'"
+# Novint Falcon. The kernel does not know it as a serial port, and its adapter keeps answers for 16 ms unless a program sets another time.
+ACTION=="add", SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", \
+RUN+="/bin/sh -c 'modprobe ftdi_sio && echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'"
 ACTION=="add", SUBSYSTEM=="usb-serial", ATTRS{idVendor}=="0403", ATTRS{idProduct}=="cb48", ATTR{latency_timer}="1"
 SUBSYSTEM=="usb", ATTRS{idVendor}=="0403", ATTRS{idProduct}=="cb48", TAG+="uaccess"
 SUBSYSTEM=="tty", ATTRS{idVendor}=="0403", ATTRS{idProduct}=="cb48", TAG+="uaccess"

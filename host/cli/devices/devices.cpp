@@ -195,7 +195,8 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     if (const auto* device = driverOf (p))
     {
         const auto slow = slowAdapter (p);
-        return text + device->what + ": --device ROLE=" + device->driver + ":" + printableName (p.path) + "\n" + (slow.empty() ? "" : "    " + printable (slow) + "\n");
+        return text + device->what + ": --device ROLE=" + device->driver + ":" + printableName (p.path) + "\n"
+               + (slow.empty() ? "" : "    " + printable (slow) + "\n");
     }
     const auto fitting = profilesFor (p, profiles.profiles);
     std::string ids;

@@ -144,7 +144,8 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
             (columns.empty() ? "" : ", ") + column.role + (column.unit.empty() ? "" : " (" + column.unit + ")") + (column.required ? "" : " if recorded");
         addToList (roles, column.role);
     }
-    made.command.addOption ("recording", options->recording, "CSV file with the columns " + columns + ", in order of time; or a WAV with the columns t and \"channel 1\", \"channel 2\" …").required();
+    const auto recorded = "CSV file with the columns " + columns + ", in order of time; or a WAV with the columns t and \"channel 1\", \"channel 2\" …";
+    made.command.addOption ("recording", options->recording, recorded).required();
     made.command.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();
     made.command.addOption ("--plot", options->plot, "Plot the recording and the fit into this PNG, SVG or PDF file");
     made.command.addFlag ("--json", options->json, "Print JSON, for use by programs");

@@ -29,8 +29,8 @@ struct Standing
     std::optional<double> radius {};   ///< of the sampled loop, with the worst of the usual hands; empty if it is not known
     double largest_damper = 0.0;       ///< the exact 2M/T + 4B/3, in N s/m
     double period_s = 0.0;             ///< T
-    double stiffest_held = 0.0;        ///< 2 f_f/delta: a held tool does not hunt between the steps of the sensor, in N/m; infinite without steps, nan if not known
-    double quietest_damper = 0.0;      ///< f_f T/delta: no blows of a damper that takes the speed from one tick to the next, in N s/m; the same
+    double stiffest_held = 0.0;        ///< 2 f_f/delta, in N/m; up to it, a held tool does not hunt between steps; infinite without steps, nan if unknown
+    double quietest_damper = 0.0;      ///< f_f T/delta, in N s/m; up to it, steps of the sensor give no blows if the speed is that of one tick; likewise
 
     /// Below 0 where the contact is passive, rests, and keeps the two conditions of footnote 2: b < 2M/T + 4B/3, and sigma T < b + B.
     double passive (double device_damping) const { return load / device_damping - 1.0 - 1e-5; }
@@ -62,7 +62,7 @@ public:
     const std::string& node() const noexcept { return steepest; }                    ///< the node whose own force is steepest there; its path
     const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< what is varied, as NODE.PARAM; empty: the whole response
     const std::string& dampingParam() const noexcept { return damping_param; }       ///< the same; empty: a damper is added
-    const CheckedRole& device() const noexcept { return role; }                      ///< the role; its numbers are those of the axis if the contact is one of an axis
+    const CheckedRole& device() const noexcept { return role; }                      ///< of the role; with the numbers of the axis if the contact is on an axis
     const std::string& axis() const noexcept { return its_axis; }                    ///< empty: of the tool
     double damping() const noexcept { return role.device.numbers.damping->value; }   ///< of the device, in N s/m
 

@@ -128,7 +128,8 @@ public:
     void play()
     {
         announce();
-        for (const auto& refused : session.start ({ .length = command.ticks(), .length_s = command.seconds(), .core = options.core, .stop_wanted = stopRequested }))
+        const LiveSession::Start wanted { .length = command.ticks(), .length_s = command.seconds(), .core = options.core, .stop_wanted = stopRequested };
+        for (const auto& refused : session.start (wanted))
             std::fprintf (stderr, "note: %s\n", refused.c_str());
         for (int i = 0; ! command.run().live().isOver(); ++i)
         {

@@ -241,8 +241,8 @@ bool PluginDevice::Link::isWhole (const tactus_reading& r) const noexcept
     const auto axes = about.layout.axes.size();
     const auto signals = static_cast<std::size_t> (about.layout.signal_inputs);
     if (r.axis_count < axes || r.signal_count < signals) return false;
-    return areFinite (r.position) && areFinite (r.rotation) && isFinite (r.pressure) && isFinite (r.age_s) && r.age_s >= 0.0 && areFinite (std::span (r.axes).first (axes))
-           && areFinite (std::span (r.signals).first (signals));
+    return areFinite (r.position) && areFinite (r.rotation) && isFinite (r.pressure) && isFinite (r.age_s) && r.age_s >= 0.0
+           && areFinite (std::span (r.axes).first (axes)) && areFinite (std::span (r.signals).first (signals));
 }
 
 void PluginDevice::Link::take (tactus_reading& r, const tactus_device_stamp& stamp, Clock::time_point now) noexcept

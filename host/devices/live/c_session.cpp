@@ -196,7 +196,8 @@ void tactus_session::tellStops()
     }
     if (now.phase != tactus::RunStatus::Phase::over || std::exchange (is_over, true)) return;
     if (now.end == tactus::RunStatus::End::overrun)
-        events.push_back (Message::error ("run/overrun", "", "stopped, because the graph takes longer than a tick period", "simplify the graph, or use a lower rate"));
+        events.push_back (Message::error ("run/overrun", "", "stopped, because the graph takes longer than a tick period",
+                                          "simplify the graph, or use a lower rate"));
 }
 
 void tactus_session::attendOnce()

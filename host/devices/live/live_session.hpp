@@ -43,7 +43,7 @@ public:
     {
         RoleDevices::Choice devices {};
         CompileOptions compile {};                           ///< its rate is a fixed rate of the run, or 0
-        std::string clock {};                                ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or else that of chooseClock
+        std::string clock {};                                ///< role of the device that ticks, "timer" or "audio"; "": that of the session, else chooseClock
         bool keeps_records = false;                          ///< the ports that the first plan taps without listeners stay tapped (Run::keepRecords)
         std::vector<RunListener*> listeners {};              ///< in the order in which they are called; must outlive this object
         StopSwitch* stops = nullptr;                         ///< obeyed from the first tick on; may be null; must outlive this object

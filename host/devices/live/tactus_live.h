@@ -133,7 +133,9 @@ TACTUS_API uint64_t tactus_session_lost (const tactus_session*); /**< recorded t
 
 TACTUS_API tactus_result tactus_session_status (const tactus_session*, tactus_status*); /**< [any thread] */
 TACTUS_API double tactus_session_rate (const tactus_session*);                          /**< in Hz [any thread] */
-TACTUS_API const char* tactus_session_clock (const tactus_session*);                    /**< the role whose device ticks the run; "" if a timer does [any thread] */
+
+/** The role of the device that ticks the run; "" if a timer does. [any thread] */
+TACTUS_API const char* tactus_session_clock (const tactus_session*);
 
 /** The state of a real device. */
 typedef struct tactus_health

@@ -79,8 +79,8 @@ public:
     bool hasElsewhere (const std::string& port, const EventDeviceInfo& info) const
     {
         const std::lock_guard lock (mutex);
-        return ! info.place.empty()
-               && std::ranges::any_of (all, [&] (const auto& one) { return one.first != port && one.second.isSameAs (info) && one.second.place == info.place; });
+        const auto isElsewhere = [&] (const auto& one) { return one.first != port && one.second.isSameAs (info) && one.second.place == info.place; };
+        return ! info.place.empty() && std::ranges::any_of (all, isElsewhere);
     }
 
 private:

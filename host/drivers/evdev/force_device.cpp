@@ -154,9 +154,10 @@ std::string ForceDevice::whatStaysChanged() const
     const auto& info = events->info();
     const bool gain = info.has_gain && ! info.gain, spring = info.has_autocenter && pushes && ! info.autocenter;
     if (! gain && ! spring) return {};
-    return std::string ("the kernel does not tell ") + (gain ? "the gain" : "") + (gain && spring ? " and " : "") + (spring ? "the centring spring" : "") + " of "
-           + printableName (info.name) + ", so after the program " + (gain ? "the gain stays full" : "") + (gain && spring ? " and " : "")
-           + (spring ? "the spring stays off" : "") + ", until another program sets " + (gain && spring ? "them" : "it") + " or the device is plugged in again";
+    const auto between = gain && spring ? " and " : "";
+    return std::string ("the kernel does not tell ") + (gain ? "the gain" : "") + between + (spring ? "the centring spring" : "") + " of "
+           + printableName (info.name) + ", so after the program " + (gain ? "the gain stays full" : "") + between + (spring ? "the spring stays off" : "")
+           + ", until another program sets " + (gain && spring ? "them" : "it") + " or the device is plugged in again";
 }
 
 void ForceDevice::describe (tactus_device_about& to)

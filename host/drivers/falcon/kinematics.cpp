@@ -11,7 +11,8 @@ namespace tactus::host::falcon
 namespace
 {
 // In m. The thigh, the shin, and the offsets of their joints.
-constexpr double thigh = 0.060, shin = 0.1025, offset_c = 0.01443, offset_d = 0.01125, offset_e = 0.01125, offset_f = -0.025, offset_r = 0.0400, offset_s = -0.02309;
+constexpr double thigh = 0.060, shin = 0.1025;
+constexpr double offset_c = 0.01443, offset_d = 0.01125, offset_e = 0.01125, offset_f = -0.025, offset_r = 0.0400, offset_s = -0.02309;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double legs[] { 105.0 * degree, -15.0 * degree, -135.0 * degree };   // top, right, left
 constexpr double first_angle = 35.0 * degree, per_count = 0.01425 / 1280.0 * 360.0 / 0.110 * degree;
@@ -35,7 +36,9 @@ Miss missOf (std::size_t leg, const Triple& place, double angle)
     const double reach = offset_d + offset_e + shin * along;
     const double x = u + offset_c - thigh * std::cos (angle), z = w - thigh * std::sin (angle);
     const double by_v = 2.0 * reach * aside / along;   // the reach shrinks by aside / along
-    return { x * x + z * z - reach * reach, 2.0 * thigh * (x * std::sin (angle) - z * std::cos (angle)), { 2.0 * x * c - by_v * s, 2.0 * x * s + by_v * c, 2.0 * z } };
+    return { x * x + z * z - reach * reach,
+             2.0 * thigh * (x * std::sin (angle) - z * std::cos (angle)),
+             { 2.0 * x * c - by_v * s, 2.0 * x * s + by_v * c, 2.0 * z } };
 }
 }   // namespace
 

@@ -151,7 +151,8 @@ std::string SerialPort::load (const std::string& from)
     for (std::span<const std::uint8_t> left = image; ! left.empty();)
     {
         const auto block = left.first (std::min (left.size(), block_size));
-        if (! put (block) || ! expects (block, 1s)) return "it does not repeat the firmware as it was sent, after " + std::to_string (image.size() - left.size()) + " bytes";
+        if (! put (block) || ! expects (block, 1s))
+            return "it does not repeat the firmware as it was sent, after " + std::to_string (image.size() - left.size()) + " bytes";
         left = left.subspan (block.size());
     }
     return {};

@@ -28,7 +28,8 @@ Result<Columns> columnsOf (FitKind kind, const Table& table, const std::string& 
         if (wanted.role == "t" && settings.rate > 0.0)
         {
             if (const auto found = findColumn (table, wanted, choice))
-                return Message::error ("fit/given_twice", file, "--rate gives the times of the rows, but the recording has a column for them, " + quote (table.columns[*found]),
+                return Message::error ("fit/given_twice", file,
+                                       "--rate gives the times of the rows, but the recording has a column for them, " + quote (table.columns[*found]),
                                        "leave out --rate, or leave out the column: --column t=");
             auto& times = columns[wanted.role];
             for (std::size_t r = 0; r < table.rows(); ++r)

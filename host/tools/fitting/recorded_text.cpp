@@ -53,7 +53,8 @@ Fields fieldsOf (const std::string& line)
     const char separator = separatorOf (line);
     Fields fields;
     for (auto& part : split (separator == ' ' ? trimmed (line) : line, separator))
-        if (auto field = trimmed (part); separator != ' ' || ! field.empty()) fields.push_back (separator == ',' ? std::move (field) : withPoint (std::move (field)));
+        if (auto field = trimmed (part); separator != ' ' || ! field.empty())
+            fields.push_back (separator == ',' ? std::move (field) : withPoint (std::move (field)));
     return fields;
 }
 

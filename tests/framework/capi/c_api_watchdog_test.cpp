@@ -77,7 +77,8 @@ std::vector<double> silence (const RunHandle& run, int ticks, double passed_s = 
     return forces;
 }
 
-/// How many ticks bear the whole force (the age is a sum, and its rounding may cost the last of them); then it fades to zero within 5 ms, without a step, and stays there.
+/// The number of ticks with the whole force. The age is a sum, and its rounding may cost the last of them. Then the force fades to zero within 5 ms,
+/// without a step, and stays there.
 long wholeTicks (const std::vector<double>& forces)
 {
     const auto begins = std::ranges::find_if (forces, [] (double f) { return f != force; });

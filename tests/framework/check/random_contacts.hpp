@@ -145,7 +145,8 @@ private:
         made.kinds += "hertz ";
         // The slope at the depth is that of the wall that the device could have, times a factor: 1.5 a sqrt (depth).
         const double a = stiffness() / (1.5 * std::sqrt (depth));
-        node ("floor", "deform.plane", R"("settings": { "law": { "power": [)" + number (a) + R"(, 1.5] } }, "params": { "damping": )" + number (damper()) + " }");
+        node ("floor", "deform.plane",
+              R"("settings": { "law": { "power": [)" + number (a) + R"(, 1.5] } }, "params": { "damping": )" + number (damper()) + " }");
         wire ("at.position -> floor.position");
         wire ("floor.force -> motor.force");
         has_load = true;
@@ -204,8 +205,8 @@ private:
         made.kinds += "liquid ";
         const double most = made.mechanics.mass * made.rate_hz * between (0.05, 4.0) / (2.0 * made.mechanics.delay + 1.0);   // 2M/T is the limit
         const auto law = chance (0.5) ? R"("linear": )" + number (most) + R"(, "max_damping": )" + number (most)
-                                      : R"("linear": )" + number (0.05 * most) + R"(, "quadratic": )" + number (most * between (0.3, 20.0)) + R"(, "max_damping": )"
-                                            + number (most);
+                                      : R"("linear": )" + number (0.05 * most) + R"(, "quadratic": )" + number (most * between (0.3, 20.0))
+                                            + R"(, "max_damping": )" + number (most);
         node ("liquid", "field.viscous", R"("params": { )" + law + " }");
         wire ("at.position -> liquid.position");
         wire ("liquid.force -> motor.force");

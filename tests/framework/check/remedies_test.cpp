@@ -174,7 +174,8 @@ void followAll (const Case& c, std::map<std::string, int>& followed)
 {
     for (const auto& condition : c.conditions())
     {
-        const bool is_passive = condition.id == "stiffness" && ! condition.isBroken() && condition.value <= 1.00001 * condition.limit;   // here, if not everywhere
+        // Passive here, if not everywhere.
+        const bool is_passive = condition.id == "stiffness" && ! condition.isBroken() && condition.value <= 1.00001 * condition.limit;
         if (! condition.isKnown() || condition.verdict == check::Verdict::holds || is_passive) continue;
         for (const auto& way : waysOf (condition))
         {

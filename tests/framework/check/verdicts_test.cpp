@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random contacts: what the check says of a loop, and what a simulation of our own says. With TACTUS_ROUNDS=5000 there are 500 of them; TACTUS_SEED is the first.
+// Random contacts: the check judges a loop, and a simulation that shares no code with it shows whether the tool comes to rest. TACTUS_ROUNDS=5000 tries
+// 500 contacts; TACTUS_SEED is the first.
 #include "random_contacts.hpp"
 
 #include "support/rounds.hpp"
@@ -62,8 +63,9 @@ Seen simulated (const graph::Graph& graph, const RandomContact& contact, RandomC
             {
                 const Vec3 away = off * (draw.chance (0.5) && f.norm() > 1e-6 ? Vec3 (f.normalized()) : draw.direction());
                 const auto third = loop.letGo (away, grip, push);
-                const bool goes_on = third.range > threshold && third.range >= 0.5 * third.second && third.work > std::max (0.0, third.push_work);   // else the hand drives it
-                const bool slides = third.push_work > 2.0 * push.norm() * third.swing && third.work <= third.push_work;                              // over bumps
+                const bool is_graph = third.work > std::max (0.0, third.push_work);   // else the hand drives it
+                const bool goes_on = third.range > threshold && third.range >= 0.5 * third.second && is_graph;
+                const bool slides = third.push_work > 2.0 * push.norm() * third.swing && third.work <= third.push_work;   // over bumps
                 const bool is_driven = third.is_far && third.most_work > third.most_push;
                 const double moved = third.is_far ? (is_driven ? 1e3 : 0.0) : std::max (slides ? 0.0 : third.swing, goes_on ? third.range : 0.0) / threshold;
                 if (moved <= seen.most) continue;
@@ -115,8 +117,8 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
     }
     INFO (list.str());
     if (tells)
-        WARN (count << " contacts, " << swings << " swing: " << blessed << " blessed though they swing, " << alarms << " called unstable though they rest, " << none
-                    << " without a verdict\n"
+        WARN (count << " contacts, " << swings << " swing: " << blessed << " blessed though they swing, " << alarms << " called unstable though they rest, "
+                    << none << " without a verdict\n"
                     << list.str());
     CHECK (blessed == 0);
     CHECK (alarms <= count / 50);
@@ -165,7 +167,8 @@ Both bothOf (const RandomContact& contact)
 
 std::string plane (const std::string& name, const std::string& params) { return '"' + name + R"(": { "type": "deform.plane", "params": { )" + params + " } }"; }
 
-const std::string felt_floor = R"("at.position -> floor.position", "floor.force -> motor.force")", felt_side = R"(, "at.position -> side.position", "side.force -> motor.force")",
+const std::string felt_floor = R"("at.position -> floor.position", "floor.force -> motor.force")",
+                  felt_side = R"(, "at.position -> side.position", "side.force -> motor.force")",
                   felt_drag = R"(, "at.position -> drag.position", "floor.resistance -> drag.normal_force", "drag.force -> motor.force")";
 }   // namespace
 
@@ -182,7 +185,8 @@ TEST_CASE ("a damped floor does not hide an undamped wall beside it, nor the fri
     CHECK (side.swings);
     CHECK (side.row.verdict == check::Verdict::unstable);
 
-    const auto rough = bothOf (made (floor + R"(, "drag": { "type": "friction.elasto_plastic", "params": { "mu": 0.5, "stiffness": 6000 } })", felt_floor + felt_drag));
+    const std::string drag = R"(, "drag": { "type": "friction.elasto_plastic", "params": { "mu": 0.5, "stiffness": 6000 } })";
+    const auto rough = bothOf (made (floor + drag, felt_floor + felt_drag));
     INFO (rough.row.text);
     CHECK (rough.swings);
     CHECK (rough.row.verdict == check::Verdict::unstable);
@@ -191,7 +195,8 @@ TEST_CASE ("a damped floor does not hide an undamped wall beside it, nor the fri
 TEST_CASE ("a tool on a saddle runs away, and a field that turns is not passive", "[check]")
 {
     const auto field = [] (const char* x, const char* y, const char* more = "") {
-        return std::string (R"({ "wire": "at.position.x -> motor.force.x", "gain": ")") + x + R"( N/m" }, { "wire": "at.position.y -> motor.force.y", "gain": ")" + y
+        return std::string (R"({ "wire": "at.position.x -> motor.force.x", "gain": ")") + x
+               + R"( N/m" }, { "wire": "at.position.y -> motor.force.y", "gain": ")" + y
                + R"( N/m" }, { "wire": "at.position.z -> motor.force.z", "gain": "-500 N/m" })" + more;
     };
     const auto saddle = bothOf (made ("", field ("-1000", "400")));
@@ -217,12 +222,14 @@ TEST_CASE ("only a contact whose nodes all claim it is passive whatever the hand
     INFO (soft.row.text);
     CHECK (soft.row.verdict == check::Verdict::passive);
 
-    const std::string hertz = R"("floor": { "type": "deform.plane", "settings": { "law": { "power": [40000, 1.5] } } })";   // 1.9 N/mm at 1 mm, and more deeper down
+    // 1.9 N/mm at 1 mm, and more deeper down.
+    const std::string hertz = R"("floor": { "type": "deform.plane", "settings": { "law": { "power": [40000, 1.5] } } })";
     const auto curved = bothOf (made (hertz, felt_floor, 1e-3));
     INFO (curved.row.text);
     CHECK (curved.row.verdict == check::Verdict::passive_here);
 
-    const std::string scaled = plane ("floor", R"("stiffness": 1000)") + R"(, "drag": { "type": "friction.elasto_plastic", "params": { "load": "scale", "d_max": 0.001 } })";
+    const std::string scaled = plane ("floor", R"("stiffness": 1000)")
+                               + R"(, "drag": { "type": "friction.elasto_plastic", "params": { "load": "scale", "d_max": 0.001 } })";
     CHECK (bothOf (made (scaled, felt_floor + felt_drag, 1e-3)).row.verdict != check::Verdict::passive);
 
     const std::string planned = R"("floor": { "type": "hold.deadbeat", "params": { "stiffness": "4 N/mm" } })";
@@ -238,7 +245,8 @@ TEST_CASE ("a liquid that swings at the speed of the motion is called unstable, 
         fast.emplace_back (0.06 * std::sin (0.02 * k), 0.0, 0.0);   // 1.2 m/s
     const std::string wires = R"("at.position -> liquid.position", "liquid.force -> motor.force")";
     const auto liquid = [&] (double most) {
-        auto c = made (R"("liquid": { "type": "field.viscous", "params": { "linear": 1, "quadratic": 400, "max_damping": )" + std::to_string (most) + " } }", wires, 0.0, fast);
+        const auto params = R"("linear": 1, "quadratic": 400, "max_damping": )" + std::to_string (most);
+        auto c = made (R"("liquid": { "type": "field.viscous", "params": { )" + params + " } }", wires, 0.0, fast);
         c.places = { 10 };
         return bothOf (c).row;
     };
@@ -254,7 +262,9 @@ TEST_CASE ("dry friction and a brake may hold what the linear loop alone would l
     auto contact = made (plane ("floor", R"("stiffness": 6000)"), felt_floor, 2e-4);
     CHECK (bothOf (contact).row.verdict == check::Verdict::unstable);
     contact.mechanics.brake = 20.0;
-    contact.text.replace (contact.text.find (R"("at": {)"), 0, R"("brakes": { "type": "device.brake", "role": "h" }, "much": { "type": "signal.constant", "params": { "value": "3 N*s/m" } }, )");
+    contact.text.replace (contact.text.find (R"("at": {)"), 0,
+                          R"("brakes": { "type": "device.brake", "role": "h" },
+                             "much": { "type": "signal.constant", "params": { "value": "3 N*s/m" } }, )");
     contact.text.replace (contact.text.find (R"("at.position -> floor)"), 0, R"("much.out -> brakes.damping", )");
     const auto braked = bothOf (contact);
     INFO (braked.row.text);

@@ -284,8 +284,8 @@ TEST_CASE ("tables of spreadsheets are read: semicolons and tabs, decimal commas
     const auto wanted = readTable (plain, "a.csv");
     REQUIRE (wanted);
     const std::string semicolons = "t;x\r\n0,5;-1,25\r\n1,5;2e-3\r\n", tabs = "t\tx\n0,5\t-1,25\n1,5\t0,002\n";
-    for (const auto& text : { semicolons, tabs, std::string ("\"t\";\"x\"\n0.5;-1.25\n1.5;\"0,002\"\n"), wide (semicolons, false, true), wide (plain, true, true),
-                              wide (tabs, false, false), wide (plain, true, false) })
+    for (const auto& text : { semicolons, tabs, std::string ("\"t\";\"x\"\n0.5;-1.25\n1.5;\"0,002\"\n"), wide (semicolons, false, true),
+                              wide (plain, true, true), wide (tabs, false, false), wide (plain, true, false) })
     {
         const auto table = readTable (text, "a.csv");
         INFO ((table ? "" : describe (table.error())));

@@ -26,7 +26,10 @@ std::vector<double> jittered (int rows, double most, unsigned seed)
     return time;
 }
 
-double tonesAt (double t, double highest) { return std::sin (2.0 * std::numbers::pi * highest * t) + 0.5 * std::cos (2.0 * std::numbers::pi * 0.3 * highest * t + 1.0); }
+double tonesAt (double t, double highest)
+{
+    return std::sin (2.0 * std::numbers::pi * highest * t) + 0.5 * std::cos (2.0 * std::numbers::pi * 0.3 * highest * t + 1.0);
+}
 
 double rms (const std::vector<double>& v) { return detail::rootMeanSquare (v); }
 }   // namespace
@@ -102,7 +105,10 @@ TEST_CASE ("modes: a ring whose times jitter has the tone that it has, and the r
     RecordedRing ring { .time = jittered (2000, 0.3, 5) };
     std::mt19937 random (1);
     for (const double t : ring.time)
-        ring.value.push_back (std::exp (-4.0 * (t - 2.0)) * std::sin (2.0 * std::numbers::pi * 80.0 * (t - 2.0)) + std::normal_distribution { 0.0, 1e-3 }(random));
+    {
+        const double tone = std::exp (-4.0 * (t - 2.0)) * std::sin (2.0 * std::numbers::pi * 80.0 * (t - 2.0));
+        ring.value.push_back (tone + std::normal_distribution { 0.0, 1e-3 }(random));
+    }
     const auto fit = fitModes (ring);
     REQUIRE (fit);
     REQUIRE (fit->tones.size() == 1);

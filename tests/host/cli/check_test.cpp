@@ -98,7 +98,8 @@ TEST_CASE ("`tactus check` says that a damper on a coarse sensor strikes the too
     Scratch scratch;
     const auto wall = [&] (const char* window) {
         return scratch.write ("wall.json", std::string (R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
-            "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N", "position": ["0 mm", "0 mm", "3 mm"],
+            "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N",
+                "position": ["0 mm", "0 mm", "3 mm"],
                 "hand": { "stiffness": "300 N/m", "damping": "3 N*s/m", "path": "press", "scale": 0.2, "offset": ["0 mm", "0 mm", "-4 mm"] } } },
             "nodes": { "p": { "type": "device.position", "role": "h" }, "m": { "type": "device.force", "role": "h" },
                 "w": { "type": "deform.plane", "params": { "stiffness": "1 N/mm", "damping": "10 N*s/m" }, "settings": { "window": ")")

@@ -143,7 +143,8 @@ TEST_CASE ("with a board on UDP, a message changes its force only with the token
         REQUIRE (answer->getAddressPattern().toString() == "/tactus/error");
         CHECK ((*answer)[2].getString() == "osc/token");
     }
-    const auto other = runProgram ("/usr/bin/env", { "XDG_RUNTIME_DIR=" + fake.scratch.path (""), TACTUS_PROGRAM, "set", "half.value=1", "--osc", std::to_string (port) });
+    const auto folder = "XDG_RUNTIME_DIR=" + fake.scratch.path ("");
+    const auto other = runProgram ("/usr/bin/env", { folder, TACTUS_PROGRAM, "set", "half.value=1", "--osc", std::to_string (port) });
     CHECK (other.status != 0);   // another user's folder
     CHECK (other.err.find ("[osc/token]") != std::string::npos);
     CHECK (runTactus ({ "probe", "half.out", "--duration", "0.01", "--osc", std::to_string (port) }).out.find (",0.5\n") != std::string::npos);
@@ -306,7 +307,8 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     INFO (fake.err());
     REQUIRE (is_there);
     const auto device = "stylus=serial:tactus_board@" + link;
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "9" });   // longer than two spans of 2 s
+    // Longer than two spans of 2 s.
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "9" });
     INFO (ran.err);
     CHECK (ran.err.find (" reports/s, its profile says 1000: the graph runs at ") != std::string::npos);
     CHECK (ran.err.find ("[device/rate]") != std::string::npos);

@@ -126,7 +126,8 @@ TEST_CASE ("the limits of a wall behind a predictor are where a tool begins to s
         own::Loop loop { loaded.graph, catalogue(), {}, { .mass = 0.1, .damping = 3.0 } };
         const Vec3 rest { 0.0, 0.0, -0.6 / stiffness };
         bool any = false;
-        for (const auto& grip : { own::Grip {}, { 6e-3, 2.0, 200.0 }, { 6e-3, 4.0, 200.0 }, { 6e-3, 2.0, 800.0 }, { 6e-3, 4.0, 800.0 }, { 0.554, 6.45, 135.0 } })
+        for (const auto& grip :
+             { own::Grip {}, { 6e-3, 2.0, 200.0 }, { 6e-3, 4.0, 200.0 }, { 6e-3, 2.0, 800.0 }, { 6e-3, 4.0, 800.0 }, { 0.554, 6.45, 135.0 } })
         {
             loop.follow ({ rest });
             const auto third = loop.letGo ({ 0.0, 0.0, 1e-7 }, grip, { 0.0, 0.0, -0.6 });
@@ -162,11 +163,13 @@ TEST_CASE ("`tactus limits` finds those of an axis, as it finds them for a tool 
     CHECK (limits.at ("stable").at ("stiffness").at ("to").get<double>() == Approx (2005.0).epsilon (0.01));
 }
 
-TEST_CASE ("the limits of the rate hold for the place of the motion, whatever the rate, and a damper above that of the device is passive at none", "[check][cli]")
+TEST_CASE ("the limits of the rate hold for the place of the motion, whatever the rate, and a damper above that of the device is passive at none",
+           "[check][cli]")
 {
     const Scratch scratch;
     const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
-        "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N", "position": ["0 mm", "0 mm", "3 mm"],
+        "devices": { "h": { "driver": "sim", "mass": "100 g", "damping": "1 N*s/m", "quantum": "50 um", "coulomb": "0.03 N",
+            "position": ["0 mm", "0 mm", "3 mm"],
             "hand": { "stiffness": "300 N/m", "damping": "3 N*s/m", "path": "press", "scale": 0.2, "offset": ["0 mm", "0 mm", "-4 mm"] } } },
         "nodes": { "p": { "type": "device.position", "role": "h" }, "m": { "type": "device.force", "role": "h" },
             "w": { "type": "deform.plane", "params": { "stiffness": "1 N/mm", "damping": "10 N*s/m" } } },

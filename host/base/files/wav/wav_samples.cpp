@@ -114,7 +114,8 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
         {
             found.data_bytes = long_size.value_or (size);
             found.data_start = start;
-            if (! long_size && isUnknown (wav, static_cast<std::uint64_t> (size), start, says_none)) found.data_bytes = wholeFrames (found.format, wav.getTotalLength() - start);
+            if (! long_size && isUnknown (wav, static_cast<std::uint64_t> (size), start, says_none))
+                found.data_bytes = wholeFrames (found.format, wav.getTotalLength() - start);
             break;
         }
         wav.setPosition (start + padded (size));

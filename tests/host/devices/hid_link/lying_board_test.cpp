@@ -146,7 +146,8 @@ TEST_CASE ("a board whose clock stops while its reports continue loses the force
     run.push();
 }
 
-TEST_CASE ("a board that restarts loses the force immediately, and gets it back along the ramp after 16 good reports and the wait of the guard", "[hid][safety]")
+TEST_CASE ("a board that restarts loses the force immediately, and gets it back along the ramp after 16 good reports and the wait of the guard",
+           "[hid][safety]")
 {
     const bool by_clock = GENERATE (false, true);
     Pushed run { by_clock ? with_clock : test::BoardProfile {} };

@@ -151,7 +151,8 @@ TEST_CASE ("a running session takes parameters, hits, controls, probes and edits
     tactus_text_free (whole);
     const std::string type = "friction.elasto_plastic";
     text.replace (text.find (type), type.size(), "no.such_node");
-    const std::unique_ptr<tactus_graph, decltype (&tactus_graph_free)> broken { tactus_graph_parse (text.data(), text.size(), nullptr, m.get()), tactus_graph_free };
+    const std::unique_ptr<tactus_graph, decltype (&tactus_graph_free)> broken { tactus_graph_parse (text.data(), text.size(), nullptr, m.get()),
+                                                                                tactus_graph_free };
     REQUIRE (broken);   // a file may have nodes of types that are not here
     tactus_messages_clear (m.get());
     CHECK (tactus_session_edit (session.get(), broken.get(), m.get()) == TACTUS_FAILED);

@@ -276,8 +276,9 @@ TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions t
     for (int k = 0; k < readings; ++k)
     {
         const double time = k / 4000.0;
-        const Vec3 at { 0.02 * std::sin (9.0 * time), 0.02 + 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };   // touches from the start
-        const auto number = static_cast<unsigned> (k % 15) + 1;                                                                              // tells this reading from the one before
+        // It touches from the start.
+        const Vec3 at { 0.02 * std::sin (9.0 * time), 0.02 + 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };
+        const auto number = static_cast<unsigned> (k % 15) + 1;   // tells this reading from the one before
         falcon.hold ({ at.x(), at.z(), 0.15 - at.y() }, number);
         REQUIRE (eventually (20us, [&] { return desk.device->read().buttons == number; }));
         const auto place = legs.placeOf (Kinematics::anglesOf (falcon_legs::countsAt ({ at.x(), at.z(), 0.15 - at.y() })));
