@@ -68,7 +68,7 @@ private:
 
     std::shared_ptr<Plan> its_plan;
     std::vector<std::unique_ptr<Placed>> tools;   // in the order of the plan's roles
-    std::vector<DrivenAxis> axes;                 // that follow them in the motion
+    std::vector<DrivenAxis> axes;                 // after the tools in the motion
     std::unique_ptr<Engine> engine;
     std::stop_token stop;
     std::vector<bool> silent;   // by node; empty if none is

@@ -15,7 +15,7 @@ double valueOf (const DeviceNumbers::Number& n) noexcept { return n ? n->value :
 
 double rounded (double v, double quantum) noexcept { return quantum > 0.0 ? quantum * std::floor (v / quantum + 0.5) : v; }
 
-/// A speed that dry friction has lowered by at most so much.
+/// A speed after dry friction, which lowers it by at most this much.
 double slowed (double v, double by) noexcept
 {
     return v > by ? v - by : v < -by ? v + by
@@ -130,7 +130,7 @@ void FreeTool::write (const Effort& sent) noexcept
         if (free_axes[i].moves) moveAxis (free_axes[i], arrived.axes[static_cast<int> (i)]);
 }
 
-/// Velocity Verlet with an implicit damper: what it adds to a loop is of second order in a part of a tick.
+/// Velocity Verlet with an implicit damper. Its error in a loop is of second order in a part of a tick.
 void FreeTool::moveRigid (Track& t, double force, double push) const noexcept
 {
     const double h = period_s / parts, mass = numbers.mass->value + start.hand.mass, b = numbers.damping->value + start.hand.damping + braking;
@@ -145,7 +145,7 @@ void FreeTool::moveRigid (Track& t, double force, double push) const noexcept
     t.w = t.v;
 }
 
-/// The end is counted from where the constant push would hold it, so that the push may act at the motor.
+/// Moves motor and end. The end counts from where the constant push alone would hold it, so the push may act at the motor.
 void FreeTool::moveBending (Track& t, double force) const noexcept
 {
     for (int i = 0; i < parts; ++i)

@@ -12,24 +12,24 @@
 namespace tactus::check
 {
 
-/// A tool with known numbers that is held at a place until it is let go: then the forces of the graph and of a hand move it. Each axis moves on its own.
+/// A simulated tool that is held at a place until it is let go. Then the forces of the graph and of a hand move it, each axis on its own.
 ///
-/// The force is held for a tick and comes late by the delay. Position and force have their steps, the motor has dry friction and a brake, and with a
-/// first mode the hand is on the other side of the structure, as in a simulated device. The spring, the damper and the mass of the hand act between the
-/// ticks, too; a spring or a damper that is held would add energy of its own.
+/// The force is held for a tick, and comes late by the delay of the device. Position and force have quanta, and the motor has dry friction and a brake.
+/// With a first mode, the hand is on the other side of the structure, as in a simulated device. The spring, the damper and the mass of the hand also act
+/// between the ticks, because a spring or damper with a held force would add energy.
 class FreeTool final : public Device
 {
 public:
-    /// Mass and damping must be known. `axes`: in addition to the tool; others stay where they are held.
+    /// Mass and damping must be known. `simulated` has the axes that move in addition to the tool, or is null; other axes stay where they are held.
     FreeTool (const DeviceNumbers&, const DeviceLayout&, const Simulation* simulated, double rate_hz);
 
-    /// The tool is where the reading says.
+    /// Holds the tool where the reading says.
     void hold (const Reading& at) noexcept;
 
     /// The release of a tool from where it is held.
     struct Start
     {
-        Vec3 off = Vec3::Zero();     ///< m, from where it is held, which is where the hand's spring is relaxed
+        Vec3 off = Vec3::Zero();     ///< m, from where it is held; the spring of the hand is relaxed there
         Vec3 speed = Vec3::Zero();   ///< m/s
         Vec3 push = Vec3::Zero();    ///< constant force of the hand, in N
         double axis_off = 0.0;       ///< of all axes, in m or rad
@@ -43,9 +43,9 @@ public:
     double axis (std::size_t i) const noexcept { return free_axes[i].x; }
     bool moves (std::size_t axis_of) const noexcept { return axis_of < free_axes.size() && free_axes[axis_of].moves; }
     std::size_t axes() const noexcept { return free_axes.size(); }
-    const Effort& effort() const noexcept { return got; }       ///< what the graph sent last
-    const Effort& acting() const noexcept { return arrived; }   ///< what moved the tool in the last tick
-    const Start& pushes() const noexcept { return start; }      ///< how it was let go
+    const Effort& effort() const noexcept { return got; }       ///< the last one from the graph
+    const Effort& acting() const noexcept { return arrived; }   ///< the one that moved the tool in the last tick
+    const Start& pushes() const noexcept { return start; }      ///< the last release
 
     void prepare (double) override {}
     Reading read() noexcept override;
@@ -53,7 +53,7 @@ public:
     DeviceLayout layout() const override { return has; }
 
 private:
-    /// One axis: the motor's and the end's position from where the tool was held, and their speeds.
+    /// The state of one direction: x and v are position and speed of the motor, y and w those of the end. Positions count from where the tool was held.
     struct Track
     {
         double x = 0.0, v = 0.0, y = 0.0, w = 0.0;

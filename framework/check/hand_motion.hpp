@@ -30,7 +30,7 @@ struct Stopped final
 {
 };
 
-/// An axis of a device in addition to its tool, which the graph reads and pushes.
+/// An axis of a device, in addition to its tool, that the graph both reads and pushes.
 struct DrivenAxis
 {
     std::string name;

@@ -42,7 +42,7 @@ public:
             peakForce();
             slew();
         }
-        if (! role.axis.empty()) return std::move (conditions);   // what follows is about the tool
+        if (! role.axis.empty()) return std::move (conditions);   // the other conditions are about the tool
         for (const auto& s : demand.stretches)
             if (s.role == role.role) stretch (s);
         for (const auto& wall : demand.deadbeats)
@@ -160,7 +160,8 @@ private:
         return braked;
     }
 
-    /// What the claims of all nodes together ask of the device, wherever the tool goes, in N s/m: the measured load if they claim no more than was measured.
+    /// The damping that a passive contact needs by the claims of all nodes, wherever the tool goes, in N s/m. The measured load, if the nodes claim no
+    /// more than was measured.
     double claimedLoad() const
     {
         constexpr double precision = 1e-3;
@@ -174,7 +175,8 @@ private:
         return role.claimed_stiffness * period_s * (0.5 + delay()) + role.claimed_damping;
     }
 
-    /// True if the force of this role turns the tool somewhere, as that of no energy does. Friction has another slope forwards than backwards.
+    /// True if the force field of this role has a curl at a place, so that no energy belongs to it. Places with friction do not count, because their slopes
+    /// differ forwards and backwards.
     bool turns() const
     {
         constexpr double precision = 2e-3;
@@ -349,7 +351,7 @@ private:
         decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }
 
-    /// A damper that takes the speed from the last positions answers each step of the sensor with a blow, as long as its window.
+    /// Judges a damper that computes the speed from the last positions: each step of the sensor is a blow, which lasts as long as its window.
     void blow()
     {
         double most = 0.0;   // N/m

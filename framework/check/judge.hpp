@@ -29,7 +29,7 @@ enum class Verdict
     holds,
     close,          ///< holds, but not by the factor that the chapter recommends
     passive,        ///< `stiffness` and `coupling` hold, and all nodes claim it: the contact returns no energy, whatever the hand does
-    passive_here,   ///< they hold along this motion; nothing is said of other motions
+    passive_here,   ///< they hold along this motion, and perhaps not along others
     stable,         ///< they do not hold, but the sampled loop comes to rest without a hand and with the usual ones
     unstable,       ///< they do not hold, and the sampled loop swings without a hand or with one of the usual ones
     broken,         ///< does not hold; `stiffness` and `coupling`: nor is the sampled loop known
@@ -81,15 +81,15 @@ DeviceNumbers numbersFor (std::span<const RoleDevice>, const RoleDemand&);
 struct Trial
 {
     std::string role, axis {};   ///< as in RoleDemand
-    bool is_tried = false;       ///< its tool was let go, all planned trials were made or one of them swings
-    bool swings = false;         ///< it did not come to rest in one of them
+    bool is_tried = false;       ///< its tool was let go: in all planned trials, or until one of them swung
+    bool swings = false;         ///< in one of them, the tool did not come to rest
     bool runs_away = false;      ///< the graph drove it away
     bool dies = false;           ///< the swing was less than half of that in the second before
-    bool is_doubtful = false;    ///< none swings, but one of them nearly does, or still moves on in the third second and rests later
-    bool is_lost = false;        ///< in one of them, it swung until the hand drove it away from the motion, so that trial shows no rest
-    double range = 0.0;          ///< how far it moved in the third second, in m
+    bool is_doubtful = false;    ///< no tool swings, but one nearly does, or moves on through the third second and rests later
+    bool is_lost = false;        ///< in one of them, the tool swung until the hand drove it away from the motion
+    double range = 0.0;          ///< of its movement in the third second, in m
     double t_s = 0.0;            ///< the time of the motion at which it was let go
-    double off = 0.0;            ///< how far off its rest, in m
+    double off = 0.0;            ///< distance from its rest at the start, in m
     HeldHand hand {};
 };
 
@@ -105,7 +105,7 @@ struct JudgeOptions
 {
     Factors factors {};
     double speed = 0.0;               ///< of the hand, in m/s, for the rows of Table 1; 0: as measured
-    const Trials* trials = nullptr;   ///< on these devices; null: only the slopes are judged, and no verdict says that a tool that bounces comes to rest
+    const Trials* trials = nullptr;   ///< on these devices; null: only the slopes are judged, so a tool that bounces is not noticed
 };
 
 /// All conditions, role by role. If the list has no device for a role, all numbers of that device count as unknown. This takes

@@ -174,9 +174,9 @@ inline bool drags (const Demand& demand, std::size_t node)
 
 inline constexpr std::string_view passive_law = "sup of T/2 Re[(1 - e^-jwT) H]/(1 - cos wT) <= B";
 
-/// What the judges of slopes cannot see of these roles, which are linked if there are several: whether all nodes claim what was measured, whether the
-/// graph gave energy along the motion, and what the trials showed. `turns`: the slopes are not those of an energy.
-/// `holds_as_claimed`: the condition holds for all that the nodes claim, wherever the tool goes.
+/// Changes the verdict on the slopes of a role, or of several linked roles, by three more facts: the claims of the nodes, the energy that the graph gave
+/// along the motion, and the trials. `turns`: the slopes have a curl, so no energy belongs to them. `holds_as_claimed`: the condition holds for all that
+/// the nodes claim, wherever the tool goes.
 void weigh (const Demand&, const Trials*, Condition&, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed);
 
 /// Sets the condition `deadbeat`.

@@ -128,8 +128,8 @@ std::vector<TextureWatch> texturesIn (const Plan& plan)
     return all;
 }
 
-/// A node that no device leads to. It plays if its outputs still change in the second half of the motion, or are 0 again after they changed: what only
-/// settles, such as a filter after a constant, does not play.
+/// A node without a path from a device. It plays by itself if its outputs still change in the second half of the motion, or are 0 again after a change.
+/// A node that only settles, such as a filter after a constant, does not play.
 struct PlayWatch
 {
     std::size_t node;
@@ -297,7 +297,7 @@ private:
         demand.roles.push_back (std::move (d));
     }
 
-    /// The energy that the graph has taken, and the most that it has given over that, both in J.
+    /// The energy that the graph has taken so far, and the most that it has given beyond that, both in J.
     struct Energy
     {
         double taken = 0.0, given = 0.0;
@@ -316,7 +316,8 @@ private:
         return -0.5 * (of[r][k - 1] + of[r][k]).dot (Vec3 (readings[k].position - readings[k - 1].position));
     }
 
-    /// Fills in the energy that the graph has given to each hand, and to all together; 0 where something is stored in the graph when the motion begins.
+    /// Fills in the energy that the graph gave to each hand, and to all together. It is 0 if the graph already pushes when the motion begins, because then
+    /// energy is stored in it.
     void addGiven()
     {
         const auto fill = [&] (const Forces& of) {
@@ -345,8 +346,8 @@ private:
         if (is_any && ! demand.players.empty()) fill (forcesAlong (subject, motion, demand.players, [] (const Plan&) {}));
     }
 
-    /// Lists the nodes between hand and motor that do not claim to be passive: a claim is about a node whose params stay as they are, whose position is
-    /// that of the tool, and whose force goes to the tool as it is, or weaker or stronger.
+    /// Lists the nodes between hand and motor that do not claim to be passive. A claim counts only if no wire drives a param of the node, its position is
+    /// that of the tool, and its force goes straight to the tool, times a positive gain.
     void lookAtClaims (RoleDemand& d, const std::vector<bool>& its) const
     {
         const auto& flat = plan->flat();
@@ -491,7 +492,8 @@ private:
         return std::ranges::count (nodesOf (*plan, role), true) > 0;
     }
 
-    /// What drives this role besides a force, its brake and axes that it reads, for example a torque. A force is an input in N with three components.
+    /// The efforts of this role that are not judged, for example a torque: all but a force (an input in N with three components), the brake, and axes that
+    /// the graph also reads.
     std::vector<std::string> otherSinks (const std::string& role) const
     {
         std::vector<std::string> all;

@@ -76,7 +76,7 @@ struct RoleDemand
     double peak_force = 0.0;                      ///< N
     double fastest_force = 0.0;                   ///< largest change of force from tick to tick, in N/s
     double speed = 0.0;                           ///< largest speed of the tool, in m/s
-    std::vector<std::string> others {};           ///< what is asked of the device besides force, brake and measured axes: torques, signals …
+    std::vector<std::string> others {};           ///< efforts besides force, brake and measured axes: torques, signals …
     std::vector<std::string> claims_nothing {};   ///< paths of the nodes between hand and motor that do not claim to be passive, as they are wired here
     double claimed_stiffness = 0.0;               ///< sum of what the others claim, in N/m
     double claimed_damping = 0.0;                 ///< the same, in N s/m

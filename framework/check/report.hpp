@@ -11,7 +11,7 @@ namespace tactus::check
 /// The report of `tactus check --json`, as docs/check.md describes it. Numbers that are not finite are null.
 Json toJson (const Demand&, std::span<const RoleDevice>, std::span<const Condition>, const JudgeOptions&);
 
-/// What was judged, at how many places and along which motion: the first line of a report.
+/// The first line of a report: the motion, and the numbers of places and trials.
 std::string scopeOf (const Demand&, const JudgeOptions&, std::string_view motion);
 
 /// Something that has no verdict.
@@ -21,7 +21,7 @@ struct NotJudged
     std::string what, why;
 };
 
-/// What has no verdict, and why. It stands before the conditions, so that no row seems to bless it.
+/// The things that have no verdict, with reasons. Reports print them before the conditions, so that no row seems to bless them.
 std::vector<NotJudged> notJudged (const Demand&, std::span<const Condition>, const JudgeOptions&);
 
 /// "M 0.1 kg, B 0.05 N*s/m, …": the known numbers of a device, with their symbols.

@@ -91,7 +91,7 @@ LoopMatrix exponential (const LoopMatrix& m)
 
 std::size_t ticksLate (const DeviceNumbers& n) { return n.delay ? static_cast<std::size_t> (n.delay->value) : 0; }
 
-/// Turns the axes of a device so that each has its own response, if there are such axes.
+/// Turns the axes of a device so that they do not influence each other, if there are such axes.
 void align (std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* const> axes)
 {
     if (axes.size() < 2 || pulses.empty() || std::ranges::any_of (axes, [&] (const auto* a) { return a != axes.front(); })) return;
@@ -117,7 +117,7 @@ void align (std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* cons
     pulses = std::move (turned);
 }
 
-/// The axes that have to do with each other, group by group.
+/// The groups of axes that influence each other.
 std::vector<std::vector<std::size_t>> groupsOf (const std::vector<LoopMatrix>& pulses, std::size_t axes)
 {
     constexpr double matters = 1e-9;   // relative
@@ -306,7 +306,7 @@ std::optional<double> passivityLoad (std::span<const Jacobian> response, std::sp
                 value = now;
                 best = step * static_cast<double> (i);
             }
-        // The top between the neighbours.
+        // The maximum between the neighbours of the best angle.
         double low = std::max (0.01, best - step), high = std::min (std::numbers::pi, best + step);
         constexpr double golden = 0.6180339887498949;
         for (int i = 0; i < 20; ++i)

@@ -39,21 +39,21 @@ Jacobian heldMotion (const DeviceNumbers&, double period_s, const HeldHand&);
 std::optional<double> loopRadius (std::span<const double> response, const DeviceNumbers&, double period_s, const HeldHand&);
 
 /// The same for several axes, of one device or of several, each with such a hand. `axes` are the devices of the rows and columns of the response. Axes
-/// that have nothing to do with each other are loops of their own, also if they are oblique. Empty also if one of these has more than 64 states.
-/// [any thread]
+/// that do not influence each other are separate loops, also after a turn of the axes of one device. Also empty if one of these loops has more than 64
+/// states. [any thread]
 std::optional<double> loopRadius (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s, const HeldHand&);
 
-/// What the devices must dissipate so that a loop is passive, whatever the hand does, exactly: the largest eigenvalue, over all frequencies, of
+/// The exact damping that the devices need so that a loop is passive, whatever the hand does: the largest eigenvalue, over all frequencies, of
 ///
 ///     W^1/2 Re [T/2 (1 - e^-jwT) H (w)] W^1/2 / (1 - cos wT)
 ///
-/// where Re is the Hermitian part, H is the frequency response of the force, with the delays of the devices, and W has a `weight` for each axis: 1, and
-/// the result is in N s/m, or one over the damping of its device, and the loop is passive up to 1 (Colgate & Schenkel 1994, for one axis). Empty if a
-/// response is. The part of a settled force that turns the tool has no bound, and is left out: see turnOf(). [any thread]
+/// Re is the Hermitian part. H is the frequency response of the force, with the delays of the devices. W has a weight for each axis. With weights of 1,
+/// the result is in N s/m. With one over the damping of each device, the loop is passive up to a result of 1. Source: Colgate & Schenkel 1994, for one
+/// axis. The curl of a settled force has no bound, and is left out: see turnOf(). Empty if `response` is empty. [any thread]
 std::optional<double> passivityLoad (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, std::span<const double> weights,
                                      double period_s);
 
-/// The part of a response whose force turns the tool, as a share of the whole: 0 if the settled slopes are symmetric, as those of an energy are.
+/// The antisymmetric part of the settled slopes, a curl, as a share of the whole. 0 if the slopes are those of an energy, and so symmetric.
 double turnOf (const Jacobian& settled) noexcept;
 
 /// The largest radius of the loop, without a hand and with the usual ones. Empty if loopRadius() is. [any thread]

@@ -182,7 +182,7 @@ private:
         const auto keep = [&] (std::vector<double> response) {
             if (! response.empty()) slope.responses.push_back (std::move (response));
         };
-        if (all.is_smooth && ! all.responses.empty() && (is_steep || is_damped))   // the columns of a linear response tell all
+        if (all.is_smooth && ! all.responses.empty() && (is_steep || is_damped))   // a linear response is known from its columns
         {
             slope.stiffness = mostStretched (settled).factor;
             const auto along = [&] (const Vec3& d) {

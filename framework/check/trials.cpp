@@ -18,15 +18,15 @@ namespace
 {
 constexpr double lasts_s = 3.0;
 constexpr double least_swing = 1e-6;   // m, or rad
-constexpr double doubtful = 0.6;       // of a swing: from another start, it may be a whole one
+constexpr double doubtful = 0.6;       // of the least swing; from another start, the tool may swing
 constexpr double window_s = 0.125;
 constexpr std::size_t windows = 24;   // in three seconds
 constexpr double far_m = 1.0;
-constexpr double beside = 5e-3;                     // m outside the motion: what happens there is no longer about it
+constexpr double beside = 5e-3;                     // m outside the motion: too far to count for it
 constexpr std::size_t most_over = 4;                // times the planned ticks
 constexpr double near_off = 2e-4, far_off = 2e-3;   // m
 
-/// From where to where a coordinate has been.
+/// The range of a coordinate, and its largest rise and fall.
 struct Reached
 {
     double low = 1e300, high = -1e300, rise = 0.0, fall = 0.0;
@@ -122,7 +122,7 @@ private:
     bool is_over = false;          // no ticks are left
     std::vector<bool> silent {};   // by node; empty if none is
 
-    /// A role of the demand: its tool, and which of its axes it is; -1: the tool itself, -2: an axis that is not known.
+    /// The tool of a role of the demand, and the number of its axis; -1: the tool itself, -2: an axis that is not known.
     struct Owner
     {
         std::size_t tool = 0;
@@ -248,7 +248,7 @@ private:
             }
         if (! candidates.empty()) pick (nearest);
         if (! candidates.empty()) pick (candidates.front().place);
-        // The extremes of force, and the fastest.
+        // The places with the largest force, a small one, and the largest speed.
         for (std::size_t r = 0; r < demand.roles.size(); ++r)
         {
             const auto& slopes = demand.roles[r].slopes;
@@ -334,7 +334,7 @@ private:
     void tryAt (std::size_t at)
     {
         ++found.places;
-        for (std::size_t k = 0; static_cast<double> (k) < 0.1 * motion.rate_hz; ++k)   // until what was struck on the way no longer rings
+        for (std::size_t k = 0; static_cast<double> (k) < 0.1 * motion.rate_hz; ++k)   // until blows on the way no longer ring
             holdAt (at);
         std::vector<Vec3> pushes, outwards, velocities;
         std::vector<std::vector<double>> axis_pushes;
@@ -342,7 +342,7 @@ private:
         {
             const Vec3 v = speedAt (r, at), f = tools[r]->effort().force;
             Vec3 push = -f;
-            // The drag of a hand that stops is somewhere between what makes the contact slide there and back.
+            // A hand that stops pushes with a force between those that slide the tool forwards and backwards.
             if (v.norm() > 1e-3) push += 0.5 * f.dot (v.normalized()) * v.normalized();
             pushes.push_back (push);
             outwards.push_back (f.norm() > 1e-6 ? Vec3 (f.normalized()) : Vec3 (Vec3::UnitZ()));
@@ -456,14 +456,14 @@ private:
                 seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, dies, ! swings && (left || goes_on), is_near });
         });
         eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
-            // One that hardly swung on its way is no sign of a loop that swings.
+            // A tool that hardly swung on its way shows no loop that swings.
             const auto swung = std::any_of (all[c].by_window.begin() + 2, all[c].by_window.end(),
                                             [&] (const Reached& w) { return w.swing() > 0.5 * std::max (near_off, plan.off()); });
             for (std::size_t d = 0; d < owners.size() && lost[r] && swung; ++d)
                 if (owners[d].tool == r) found.by_role[d].is_lost = true;
         });
         if (seen.empty()) return;
-        // What only moves on may come to rest later, as a tool that falls from a crest into a valley.
+        // A tool that only moves on may come to rest later, for example if it falls from a crest into a valley.
         if (! is_away && std::ranges::any_of (seen, &Seen::goes_on) && std::ranges::none_of (seen, &Seen::swings))
         {
             for (auto& one : all)
@@ -502,7 +502,7 @@ private:
         }
     }
 
-    /// The tools that the hand has driven away from the motion, as over the edge of a surface: they do not rest, and do not run away either.
+    /// The tools that the hand has driven away from the motion, for example over the edge of a surface. They count neither as at rest nor as running away.
     template <typename IsDriven>
     std::vector<bool> lostTools (const std::vector<Coordinate>& all, bool is_away, IsDriven&& isDrivenByGraph) const
     {
@@ -532,7 +532,7 @@ private:
         return c;
     }
 
-    /// True if nothing has moved to and fro, and nothing moves more than before, in the last two windows.
+    /// True if every coordinate has stayed within a small part of its threshold in the last two windows.
     static bool isQuiet (const std::vector<Coordinate>& all, std::size_t window)
     {
         constexpr double little = 0.2;

@@ -41,8 +41,8 @@ std::string handText (const HeldHand& hand)
 /// The result of the trials of these roles.
 struct Shown
 {
-    const Trial* worst = nullptr;      // that swings; null if none does
-    const Trial* doubtful = nullptr;   // that nearly swings
+    const Trial* worst = nullptr;      // the largest swing; null if no tool swings
+    const Trial* doubtful = nullptr;   // nearly a swing
     bool are_tried = true, is_lost = false;
 };
 
@@ -61,21 +61,21 @@ Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
     return shown;
 }
 
-/// True if something holds a tool whose linear loop swings: dry friction of the device or of the graph, or a brake. Else a trial in which the tool
-/// comes to rest has only begun in the wrong place.
+/// True if dry friction of the device or of the graph, or a brake, may hold a tool whose linear loop swings. Without them, a trial in which the tool comes
+/// to rest only began at the wrong place.
 bool mayRest (const Demand& demand, const Trials& trials, std::span<const RoleDemand* const> roles)
 {
     const auto brakes = [] (const RoleDemand* role) { return std::ranges::any_of (role->slopes, [] (const Slope& s) { return s.brake > 0.0; }); };
     return trials.are_dry || ! demand.stretches.empty() || std::ranges::any_of (roles, brakes);
 }
 
-/// Why a contact whose slopes are passive is not passive for every motion; empty if it is. `is_here`: it is along this one.
+/// The reason why a contact with passive slopes is not passive for every motion; empty if it is. `is_here`: it is passive along this one.
 std::string doubt (const Demand& demand, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed, bool& is_here)
 {
     is_here = false;
     double given = demand.given_together, uncertain = 1e-5;   // J
     if (roles.size() == 1) given = roles.front()->given;
-    for (const auto& t : demand.textures)   // what a ridge may have stored when the motion began, on its crest
+    for (const auto& t : demand.textures)   // a motion that begins on the crest of a ridge has its energy stored
         if (std::ranges::any_of (roles, [&] (const auto* role) { return role->role == t.role; }))
             uncertain += 1.01 * t.amplitude / (std::numbers::pi * t.spatial_frequency);
     for (const auto* role : roles)

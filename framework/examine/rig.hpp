@@ -43,7 +43,7 @@ public:
     std::string problem() const;
 
     void prepare();   ///< calls the node's bind, prepare and update
-    void wire();      ///< from now on a wire drives params: the node also gets those of file and knobs, which stay as they are now
+    void wire();      ///< from now on, a wire drives the params; the node also gets the values of file and knobs, which stay as they are now
     void adopt (const Rig& old);
 
     Rig& input (std::string_view id, double value, int index = 0);

@@ -92,8 +92,8 @@ private:
         return Message::error (std::move (id), name + ":" + std::to_string (line_number) + ":" + std::to_string (column), std::move (what), std::move (remedy));
     }
 
-    /// The separator of the columns: a semicolon or a tab, as spreadsheets write them where the decimal sign is a comma, if the header has one and no
-    /// comma; else a comma.
+    /// The separator of the columns: a semicolon or a tab if the header has one and no comma; else a comma. Spreadsheets write semicolons or tabs if the
+    /// decimal sign is a comma.
     static char separatorOf (std::string_view header)
     {
         char found = ',';
@@ -111,7 +111,7 @@ private:
     std::string_view separatorInWords() const { return separator == ',' ? "comma" : separator == ';' ? "semicolon"
                                                                                                      : "tab"; }
 
-    /// A field whose decimal sign is a comma, with a point.
+    /// A field with a point in the place of a decimal comma.
     std::string_view withPoint (std::string_view text)
     {
         const auto comma = text.find (',');

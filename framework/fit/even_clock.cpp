@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::size_t knots = 6;   // of a polynomial
 
-/// The value at a time between rows, on the polynomial through the nearest ones. `row` is the last one at or before that time, or 0.
+/// The value at a time between rows, from the polynomial through the nearest rows. `row` is the last row at or before that time, or 0.
 double valueBetween (const std::vector<double>& time, const std::vector<double>& value, double t, std::size_t row)
 {
     const auto count = std::min (knots, time.size()), first = std::min (row >= knots / 2 - 1 ? row - (knots / 2 - 1) : 0, time.size() - count);
@@ -30,7 +30,7 @@ double valueBetween (const std::vector<double>& time, const std::vector<double>&
     return sum;
 }
 
-/// The values at other times, which increase, and are taken to be within those of the rows.
+/// The values at other times, which increase. A time before the first row or after the last one gets the value of that row.
 std::vector<double> valuesAt (const std::vector<double>& wanted, const std::vector<double>& time, const std::vector<double>& value)
 {
     std::vector<double> made;
@@ -45,13 +45,13 @@ std::vector<double> valuesAt (const std::vector<double>& wanted, const std::vect
     return made;
 }
 
-/// A straight line of times over row numbers, by least squares, and the sum of the squares that it leaves.
+/// The least-squares line of times over row numbers, and the sum of the squares of its residual.
 struct RowLine
 {
     double start = 0.0, step = 0.0, left = 0.0;
 };
 
-/// RowSums over rows, for a line through their times. Times count from the middle of the recording in mean steps, so that the sums stay small.
+/// The sums over rows for a line through their times. Times count from the middle of the recording, in mean steps, so the sums stay small.
 struct RowSums
 {
     double n = 0.0, k = 0.0, kk = 0.0, t = 0.0, kt = 0.0, tt = 0.0;
@@ -72,7 +72,7 @@ struct RowSums
         return { (t - step * k) / n, step, tt - t * t / n - step * together };
     }
 
-    /// The same with a number more for the rows of `later`, which are among these.
+    /// The sums after the numbers of the rows in `later`, a part of these rows, have gone up by 1.
     RowSums withGapBefore (const RowSums& later) const
     {
         RowSums s = *this;
@@ -83,10 +83,10 @@ struct RowSums
     }
 };
 
-/// The row before which one seems to be lost: the times lie closer to a line if a number is left out there. 0 if there is none.
+/// The row after a gap where a row seems to be lost: with one number left out there, the times lie closer to a line. 0 if no row seems to be lost.
 std::size_t lostBefore (const std::vector<double>& scaled, const RowSums& all)
 {
-    constexpr double wide = 1.5;   // steps; a gap of a lost row is 2, give or take the jitter
+    constexpr double wide = 1.5;   // steps; the gap of a lost row is 2 steps, give or take the jitter
     const double left = all.line().left, middle = 0.5 * static_cast<double> (scaled.size() - 1);
     RowSums later;
     for (std::size_t i = scaled.size() - 1; i > 0; --i)
@@ -128,7 +128,7 @@ Result<EvenClock> ontoEvenClock (std::vector<double>& time, const std::vector<st
     for (std::size_t i = 0; i < rows; ++i)
         clock.jitter = std::max (clock.jitter, std::abs (time[i] - evenTime (i)) / clock.step);
 
-    // Rounding to the last digit moves a time by at most half of it, and the line by a part of that.
+    // Rounding moves a time by at most half of its last digit, and the line by less.
     constexpr double half = 0.5, negligible = 0.01, rounding = 0.7;
     if (even && clock.jitter <= std::max (negligible, rounding * roundedTo (time) / *even)) return EvenClock { .step = *even };
     if (! (clock.jitter < half)) return even ? Result<EvenClock> (EvenClock { .step = *even }) : Result<EvenClock> (even.error());

@@ -8,20 +8,20 @@
 namespace tactus::detail
 {
 
-/// The clock of a recording, after its rows were brought onto it.
+/// The even clock of a recording, and the errors of bringing its rows onto it.
 struct EvenClock
 {
     double step = 0.0;         ///< s
     double jitter = 0.0;       ///< largest distance of a recorded time from the even one, in steps; 0: the rows are as they were
-    double difference = 0.0;   ///< rms of the recorded values minus the even ones read back at the recorded times, over the rms of the former; the worst column
+    double difference = 0.0;   ///< between recorded values and even ones that are read back at the recorded times: rms, over that of the column; the worst one
 
-    /// Adds to a report that rows were interpolated and with which error, and makes the verdict poor if that is large.
+    /// Adds a note about the interpolation and its error to a report. A large error makes the verdict of the fit poor.
     void tell (FitReport&) const;
 };
 
-/// Brings rows whose times jitter by less than half a step onto even times, in place: the values are read between the rows, on polynomials of
-/// degree 5 through the six nearest ones. Times that were only rounded when they were written count as even, and are not changed. All columns
-/// have as many rows as there are times, or none. Errors: fit/time, fit/uneven (larger gaps, or a row that is lost). Time: linear.
+/// Brings rows whose times jitter by less than half a step onto even times, in place. A value comes from a polynomial of degree 5 through the six nearest
+/// rows. Even times that are only rounded stay as they are. Each column has as many rows as there are times, or none. Errors: fit/time, fit/uneven (larger
+/// gaps, or a lost row). Time: linear.
 Result<EvenClock> ontoEvenClock (std::vector<double>& time, const std::vector<std::vector<double>*>& columns);
 
 }   // namespace tactus::detail

@@ -89,7 +89,7 @@ Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, s
 /// time may be off by up to half a step. Errors: fit/time, fit/uneven.
 Result<double> evenStep (const std::vector<double>& time);
 
-/// The size of 1 in the last digit with which times were written, in s; 0 if they were not rounded.
+/// The value of the last digit of rounded times, in s; 0 if the times are not rounded.
 double roundedTo (const std::vector<double>& time);
 }   // namespace detail
 

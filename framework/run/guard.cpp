@@ -409,7 +409,7 @@ bool Guard::isRecent (const Reading& reading) const noexcept
     return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);
 }
 
-/// True while readings have not been good for long enough since a stop because they were not.
+/// True after a stop for bad readings, until they have been good for long enough.
 [[gnu::noinline]] bool Guard::settles (Stop cause, double passed_s) noexcept
 {
     is_unsettled = limits.watchdog != GuardLimits::none;
@@ -540,7 +540,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     return last;
 }
 
-/// A stop, and the rise after it, are no clipping: they have messages of their own.
+/// A stop, and the rise after it, do not count as clipping. They have their own messages.
 void Guard::countClipping (const Effort& wanted, double passed_s) noexcept
 {
     constexpr double window_s = 1.0, part = 1e-3;   // of the effort: less is not felt

@@ -194,8 +194,8 @@ public:
     /// True during a stop that only rearm() can end, even if another cause is reported. [any thread that owns the guard]
     bool isLatched() const noexcept { return latched != Stop::none; }
 
-    /// True if in the last whole second without a stop most ticks asked for more than the limits of size and slew let through: what the graph asks
-    /// for is not what is felt. [any thread that owns the guard]
+    /// True if most ticks of the last whole second without a stop asked for more than the limits of size and slew allow, so the force is not the one
+    /// that the graph describes. [any thread that owns the guard]
     bool isClipping() const noexcept { return clips; }
 
     /// The reason why the last effort was withheld. [any thread that owns the guard]

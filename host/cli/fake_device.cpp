@@ -186,7 +186,7 @@ FakePlayer::Fault faultOfService (DeviceFault::Kind kind, const std::string& tex
 #endif
 
 #if defined(TACTUS_SERVICES) || defined(TACTUS_FAKE_FALCON)
-/// Plays a device or a service, whose messages no profile describes, until it must stop.
+/// Plays a device or a service without a profile, until it is stopped.
 template <typename Service>
 void playService (Service& service, const FakeOptions& o)
 {

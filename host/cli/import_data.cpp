@@ -22,8 +22,8 @@ struct ImportOptions
     std::string kind, folder, out, mass, rate, unit;
 };
 
-/// Starts `python3 -m tactus.data` in the place of this program, so that its output and its status are those of the command. Without the package, a
-/// sentence says so, and the status is that of wrong usage. The folder of recordings is a stranger's: a module in the current folder is not loaded.
+/// Starts `python3 -m tactus.data` in the place of this program, so its output and its exit status are those of the command. Without the package, it
+/// prints an error, and the status is that of wrong usage. The recordings may come from a stranger: no module in the current folder is loaded.
 constexpr auto script = R"(import sys
 if sys.path[:1] == [""]: del sys.path[0]
 try:

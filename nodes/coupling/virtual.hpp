@@ -28,7 +28,7 @@ namespace tactus::nodes
 ///  - The force is held between samples, so the coupling needs what any spring needs. A device damping B of at least kc T / 2 + |bc| is
 ///    sufficient: then the wall is passive, whatever the hand does. It is not necessary: without bc, the wall settles up to kc = 0.8
 ///    times 2 B / T and buzzes at 1.3 times 2 B / T, whatever sigma is (see the test), but bc calms a buzz. A wall that is not passive
-///    may come to rest: `tactus check` lets go of the tool, and `tactus limits` shows how far each of both may go.
+///    may come to rest: `tactus check` lets go of the tool, and `tactus limits` shows the limits of kc and bc.
 ///  - On the first sample the proxy is at the tool, in the wall or not, so there is no force. A tool that is inside from the start
 ///    feels the wall on the next sample, in one step, and gains energy. Otherwise the node is passive.
 ///  - The wall does not pull. After the tool leaves, the proxy catches up with time constant bc / kc.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the check says of the loops of presets, and what a simulation of our own shows at the same place. With TACTUS_ROUNDS=1000, all presets.
+// The verdicts of the check on the loops of presets, against a simulation at the same places that shares no code with it. TACTUS_ROUNDS=1000 tries all.
 #include "framework/check/own_loop.hpp"
 #include "support/rounds.hpp"
 #include "support/sketch.hpp"
@@ -50,7 +50,7 @@ own::Mechanics mechanicsOf (const Simulation& s)
              .brake = s.brake };
 }
 
-/// True if a tool that is let go from here does not come to rest, although it would if it were let go from where it rests.
+/// True if a tool that is let go at a distance from its rest does not come to rest, although one that is let go at its rest does.
 bool swings (const graph::Graph& graph, const CompileOptions& options, const check::RoleDevice& device, const std::vector<Vec3>& path, double off,
              const own::Grip& grip, std::string& how)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every param can be wired, so it may move as fast as any signal. A node must not turn that into more than it gives while its params stand still.
+// Every param can be wired, so it may move as fast as any signal. The outputs of a node must not grow much beyond those with params that stand still.
 #include <support/tested_types.hpp>
 #include <tactus/examine/node_dice.hpp>
 
@@ -44,7 +44,7 @@ struct Trial
     std::vector<std::string> choices;   // an alternative for each choice of the node
 };
 
-/// A bound of an output while a param moves, of its largest magnitude while the param stands still.
+/// The bound of an output while a param moves, from its largest magnitude while the param stands still.
 struct OwnBound
 {
     double (*most) (const Trial&, double still);

@@ -73,7 +73,7 @@ bool isConvex (const std::vector<Vec3>& points, const std::vector<int>& polygon)
     return true;
 }
 
-/// Cuts a polygon into triangles at its ears: corners whose triangle has no other corner within. Source: Meisters, "Polygons have ears" (1975).
+/// Cuts a polygon into triangles at its ears. An ear is a corner whose triangle contains no other corner. Source: Meisters, "Polygons have ears" (1975).
 std::vector<std::array<int, 3>> cutIntoTriangles (const std::vector<Vec3>& points, std::vector<int> polygon)
 {
     const Vec3 normal = areaOf (points, polygon);

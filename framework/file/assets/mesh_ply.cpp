@@ -183,8 +183,8 @@ void readFace (const Element& element, Body& body, MeshBuilder* mesh)
     }
     if (mesh != nullptr) mesh->face (corners, body.line());
 }
-/// Strips of triangles, as scanners write them: each point makes a triangle with the two before it, every other one the other way round. -1 begins a
-/// new strip.
+/// Reads strips of triangles, as scanners write them. Each point makes a triangle with the two points before it, and every second triangle runs the other
+/// way round. -1 begins a new strip.
 void readStrips (const Element& element, Body& body, MeshBuilder& mesh)
 {
     for (const auto& p : element.properties)

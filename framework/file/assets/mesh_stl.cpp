@@ -20,7 +20,7 @@ std::size_t binarySize (std::string_view bytes)
     return header + facet * *takeNumber<std::uint32_t> (count, std::endian::little);
 }
 
-/// Programs write the words of the format in capitals too.
+/// Some programs write the words of the format in capitals.
 bool isWord (std::string_view text, std::string_view word)
 {
     return std::ranges::equal (text, word, [] (char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });

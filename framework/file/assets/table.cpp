@@ -80,7 +80,7 @@ private:
         return Message::error (std::move (id), std::string (name) + ":" + std::to_string (line), std::move (what), std::move (remedy));
     }
 
-    /// A field whose decimal sign is a comma, with a point.
+    /// A field with a point in the place of a decimal comma.
     std::string_view withPoint (std::string_view field)
     {
         const auto comma = field.find (',');
@@ -130,7 +130,7 @@ private:
         return {};
     }
 
-    /// The power of ten of which all positions are multiples: that of the last digit with which they were written; 0 if it is finer than 1e-9.
+    /// The power of ten of the last written digit of the positions, so that all positions are multiples of it; 0 if it is below 1e-9.
     double lastDigit() const
     {
         constexpr double rounding = 1e-6;
@@ -162,8 +162,8 @@ private:
                                    + "; with even spacing it would be " + numberText (start + i * step),
                                "interpolate the heights at even positions, and save these");
         }
-        // Positions that jitter, as those of a recording do, are not even ones: the heights are read between them.
-        // Even positions that were rounded when they were written are even ones.
+        // Positions that jitter, as in a recording, are not even: the heights are interpolated between them.
+        // Even positions stay even if they are rounded when they are written.
         const double exact = std::max (1e-6 * step, 0.501 * lastDigit());
         for (int i = 0, next = 1; i < grid.rows; ++i)
         {

@@ -11,8 +11,8 @@ namespace tactus::readers
 /// The value at t, of a line that is held beyond its ends. Where it steps, `before` selects the value before the step.
 double heldAt (const std::vector<ClipPoint>& points, double t, bool before, double otherwise);
 
-/// A stretch of a track that sounds: from silence, or a phase that is set, to the next silence or phase. A format that restarts the phase with each
-/// effect or event stores a track as such stretches.
+/// A sounding stretch of a track. It begins after silence or where a phase is set, and ends at the next silence or phase. Formats that restart the phase
+/// with each effect or event store a track as such stretches.
 struct ClipTone
 {
     double from = 0.0, to = 0.0;                         ///< s

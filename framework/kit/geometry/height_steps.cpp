@@ -10,7 +10,7 @@ namespace tactus
 
 namespace
 {
-/// The common step of some values; 0 if they have none, or too many different ones to be rounded.
+/// The common step of some values; 0 if they have none, or have too many different values to be rounded ones.
 double commonStep (std::vector<double> values)
 {
     constexpr std::size_t most_levels = 4096;

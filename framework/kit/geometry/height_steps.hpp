@@ -8,12 +8,12 @@
 namespace tactus
 {
 
-/// The step of heights that were rounded, in their unit, if it would be felt: if most neighbours that differ do so by one step, and others are
-/// level. A picture with 8 bits has 256 heights, so a slope in it is a stair. 0 if no such step is found. Time: n log n. [main thread]
+/// The step of rounded heights, in their unit, if it would be felt; else 0. It is felt if most neighbours that differ do so by one step, and others are
+/// level. For example, a picture with 8 bits has 256 heights, so its slopes are stairs. Time: n log n. [main thread]
 double feltStep (const Grid&);
 
-/// The heights averaged three times over about this length in both directions, in m. Slopes stay: only what is shorter than the length goes. At
-/// its rim the map is continued by mirroring. Time: linear in the number of points. [main thread]
+/// The heights after three averages over about this length, in m, in both directions. Slopes stay, and detail shorter than the length goes. The map is
+/// mirrored at its rim. Time: linear in the number of points. [main thread]
 MirroredGrid smoothedOver (MirroredGrid, double length);
 
 }   // namespace tactus

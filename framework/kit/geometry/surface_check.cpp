@@ -65,7 +65,7 @@ std::string placeOf (const Mesh& mesh, int t)
     return "triangle " + std::to_string (t) + ", around (" + short3 (middle.x()) + ", " + short3 (middle.y()) + ", " + short3 (middle.z()) + ") of the file";
 }
 
-/// The triangles that run the other way round than most of those that they are connected with, and the pieces of the mesh.
+/// The connected pieces of a mesh, and the triangles whose corners run the other way round than those of most of their piece.
 struct Orientation
 {
     std::vector<char> turned;    // by triangle
@@ -117,7 +117,7 @@ Orientation orientationOf (const Mesh& mesh)
                     all.push_back (other);
                 }
         }
-        // The way round that most of the area has is right.
+        // The direction of most of the area counts as right.
         double area[2] { 0.0, 0.0 };
         for (const int t : all)
             area[made.turned[at (t)] != 0 ? 1 : 0] += areaNormal (cornersOf (mesh, t)).norm();
@@ -130,8 +130,8 @@ Orientation orientationOf (const Mesh& mesh)
     return made;
 }
 
-/// The closure of a piece of a mesh, and its side: its volume as seen from its middle, and the sum of its normals over its area, which is 0
-/// if it is closed and 1 if it is flat.
+/// The volume of a piece of a mesh as seen from its middle, below 0 if it is inside out, and its openness: the sum of its normals over its area, which is
+/// 0 for a closed piece and 1 for a flat one.
 struct PieceShape
 {
     double volume = 0.0, openness = 0.0;
@@ -161,7 +161,7 @@ PieceShape shapeOf (const Mesh& mesh, const Orientation& orientation, int piece)
     return made;
 }
 
-/// What is wrong with the way round of the triangles of a mesh without frames.
+/// The warning about triangles of a mesh without frames whose corners run the wrong way round; empty if all is well.
 std::string wrongWayRound (const Mesh& mesh)
 {
     const auto orientation = orientationOf (mesh);

@@ -24,8 +24,8 @@ inline double prewarped (double cutoff_hz, double rate_hz) noexcept
     return math::tan (std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz);
 }
 
-/// A second-order filter that stays stable while its coefficients move, however fast: a state variable filter, whose two integrators use
-/// the trapezoidal rule. With g = prewarped (cutoff) and k = 1/q, it is the bilinear transform of
+/// A second-order filter that stays stable however fast its coefficients move: a state variable filter whose two integrators use the trapezoidal
+/// rule. With g = prewarped (cutoff) and k = 1/q, it is the bilinear transform of
 ///
 ///     H(s) = direct + (band s + low) / (s^2 + k s + 1)
 ///
@@ -55,10 +55,10 @@ inline StateVariable movingButterworth2 (double cutoff_hz, double rate_hz) noexc
 ///
 ///     b' = b + g (h + h'),  l' = l + g (b + b'),  h = x - k b - l
 ///
-/// Without input, b^2 + l^2 never grows, whatever g and k > 0 are on each tick: its change is -g k (b + b')^2. Near half the rate, and where the
-/// damping g k is large, that rule swaps the sign of an error on each tick and hardly makes it smaller, so a jump to there would leave it
-/// ringing, and the next jump would add to it. So on a tick on which g or k moves to there, the step is the backward Euler rule, which forgets the
-/// error at once, and whose energy does not grow either. Source: Rannacher 1984 (backward steps after jumps).
+/// Without input, b^2 + l^2 never grows, whatever g and k > 0 are on each tick: its change is -g k (b + b')^2. Near half the rate, and with a
+/// large damping g k, that rule swaps the sign of an error on each tick and hardly makes it smaller. A jump of g or k to there would leave the
+/// filter ringing, and the next jump would add to it. So on the tick of such a jump, the step is the backward Euler rule. It removes the error at
+/// once, and its energy does not grow either. Source: Rannacher 1984 (backward steps after jumps).
 class StateVariableState
 {
 public:
@@ -99,7 +99,8 @@ private:
     double g = 0.0, k = 0.0;            // of the last sample; 0: there was none
 };
 
-/// H(z) = (b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2), for coefficients that stand still. Those that move need a StateVariable.
+/// The coefficients of H(z) = (b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2), which stand still. A filter whose coefficients move needs a
+/// StateVariable.
 struct Biquad
 {
     double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;

@@ -3,11 +3,11 @@
 
     python3 -m tactus.data KIND FOLDER -o DIR [--mass KG] [--rate HZ] [--unit UNIT]
 
-`tactus import-data` starts it. It needs nothing but Python's library.
+`tactus import-data` starts it. It needs only the standard library of Python.
 
 hatt: the Penn Haptic Texture Toolkit (Culbertson, Lopez Delgado and Kuchenbecker 2014), one .xml a texture: models of the acceleration at scattered speeds and
 forces, autoregressive (AR) or with a moving average (ARMA), as line spectral frequencies. Each becomes a preset with a texture.noise. The files of the
-toolkit may be used for research without profit, and may not be passed on, and neither may what is made of them.
+toolkit may be used for research without profit. Neither they nor anything made of them may be passed on.
 
 lmt: the texture database of the LMT of TU Munich (Strese, Schuwerk and Steinbach), one number per line at 10 kHz: the acceleration of a stylus that a hand
 moved freely, its axes combined, in folders named Accel… Each texture becomes a preset with one AR model of all its recordings.
@@ -48,7 +48,7 @@ Recordings = dict[tuple[float, float], list[pathlib.Path]]   # by speed in m/s a
 
 
 class Problem(Exception):
-    """What is wrong with a file, and where."""
+    """The reason why a file cannot be used, with the place."""
 
 
 def numbers(element: Element, path: str) -> list[float]:
@@ -82,8 +82,8 @@ def product(a: list[float], b: list[float]) -> list[float]:
 
 
 def polynomial_of(frequencies: list[float]) -> list[float]:
-    """1, a_1, a_2, … of the polynomial with these line spectral frequencies, in rad from 0 to pi. Source: Itakura 1975: its zeros are within the
-    unit circle exactly if the frequencies increase."""
+    """The coefficients 1, a_1, a_2, … of the polynomial with these line spectral frequencies, in rad from 0 to pi. Its zeros are within the unit circle
+    exactly if the frequencies increase. Source: Itakura 1975."""
     inside = all(0.0 < f < math.pi for f in frequencies)
     if not inside or any(b <= a for a, b in zip(frequencies, frequencies[1:])):
         raise Problem("line spectral frequencies must increase from 0 to pi: the model is unstable")
@@ -129,7 +129,7 @@ def levinson(correlation: list[float], order: int) -> tuple[list[float], float]:
 
 
 def ar_for(numerator: list[float], denominator: list[float]) -> tuple[list[float], float, float]:
-    """An AR model for numerator / denominator: polynomial, variance for noise of variance 1, and its error in dB, the rms over all frequencies."""
+    """An AR model for numerator / denominator: the polynomial, the variance for noise of variance 1, and the error in dB, rms over all frequencies."""
     count = 4096
     impulse = response(numerator, denominator, count)
     correlation = [sum(impulse[n] * impulse[n + k] for n in range(count - k)) for k in range(MOST_COEFFICIENTS + 1)]
@@ -174,8 +174,8 @@ def read_hatt(path: pathlib.Path) -> tuple[list[Model], float]:
 
 
 def on_even_clock(times: list[float], columns: list[list[float]]) -> tuple[list[list[float]], float, float]:
-    """The columns on straight lines between the rows at even times, the rate in Hz, and the rms difference of the recording from them, read back at the
-    recorded times, over the rms of the recording."""
+    """The columns at even times, on straight lines between the rows; the rate in Hz; and the error: the rms difference between the recording and the new
+    columns, read back at the recorded times, over the rms of the recording."""
     count = len(times)
     if any(b <= a for a, b in zip(times, times[1:])):
         raise Problem("its times do not increase")
@@ -201,7 +201,7 @@ def on_even_clock(times: list[float], columns: list[list[float]]) -> tuple[list[
 
 
 def correlation_of(columns: list[list[float]]) -> list[float]:
-    """The autocorrelation at the lags 0 to LAGS of the columns together, without their means: that of one signal with the spectrum of all axes, which is how
+    """The autocorrelation at the lags 0 to LAGS of the columns together, without their means. It is that of one signal with the spectrum of all axes, as
     DFT321 (Landin et al. 2010) combines them."""
     total = [0.0] * (LAGS + 1)
     for column in columns:
@@ -215,7 +215,7 @@ def correlation_of(columns: list[list[float]]) -> list[float]:
 
 
 def model_of(correlations: list[list[float]]) -> tuple[list[float], float, float]:
-    """The AR model of recordings: polynomial, variance, and by how much its autocorrelation differs from theirs at most, over the variance."""
+    """The AR model of recordings: the polynomial, the variance, and the largest difference of its autocorrelation from theirs, over the variance."""
     mean = [math.fsum(c) / len(correlations) for c in zip(*correlations)]
     if not mean[0] > 0.0:
         raise Problem("its recordings do not vary")

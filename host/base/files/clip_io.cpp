@@ -238,7 +238,7 @@ Result<SavedClip> saveText (const Clip& clip, const fs::path& path, readers::Sam
                        is_mixed };
 }
 
-/// The times of a comparison: away from the round times at which drawn envelopes step, and no more samples than take a moment.
+/// The times of a comparison: between the round times at which drawn envelopes step, and few enough to take only a moment.
 readers::SampleTimes comparisonOf (const Clip& clip, double& seconds)
 {
     constexpr double rate_hz = 8000.0, offset = 0.4142, longest_s = 600.0, most = 1e7;

@@ -42,7 +42,7 @@ std::string threeNumbers (const Vec3& v, double scale)
     return text;
 }
 
-/// Why the readings cannot be used; empty: they can.
+/// The reason why the readings cannot be used; empty if they can.
 std::string faultIn (const Reading& latest) { return latest.fault == ReadingFault::none ? std::string() : std::string (describe (latest.fault)); }
 
 std::string probeText (const std::string& name, const PluginDevice& device, const Reading& latest, double seconds)

@@ -33,7 +33,7 @@ double periodOf (const DeviceNumbers& n, double rate_hz)
 
 using Response = std::vector<check::Jacobian>;
 
-/// What a loop of this response asks of the device, in N s/m.
+/// The damping that the device needs for a passive loop with this response, in N s/m.
 double loadOf (const Response& response, const DeviceNumbers& numbers, double period_s)
 {
     const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
@@ -41,7 +41,7 @@ double loadOf (const Response& response, const DeviceNumbers& numbers, double pe
     return check::passivityLoad (response, axes, whole, period_s).value_or (0.0);
 }
 
-/// a + factor * b, tick by tick; a response lasts as it ends.
+/// a + factor * b, tick by tick. The shorter response goes on with its last value.
 Response sum (const Response& a, double factor, const Response& b)
 {
     Response all;
@@ -72,7 +72,7 @@ double stretch (const check::Jacobian& m)
     return std::sqrt (std::max (0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> (square).eigenvalues().maxCoeff()));
 }
 
-/// What is in excess of the settled force, integrated over time, in N s/m.
+/// The excess of a response over its settled force, integrated over time, in N s/m.
 check::Jacobian excessOf (const Response& r, double period_s)
 {
     check::Jacobian all = check::Jacobian::Zero (3, 3);
@@ -155,7 +155,7 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     findParams (demand, *heaviest, plan);
 }
 
-/// The params that are varied: of the steepest node that has them, and that changes the response.
+/// Chooses the params to vary: those of the steepest node that has them, if they change the response.
 void Contact::findParams (const check::Demand& demand, const check::Slope& slope, const Plan& plan)
 {
     std::vector<std::size_t> nodes (slope.by_node.size());

@@ -25,7 +25,7 @@ struct Standing
 {
     double stiffness = 0.0;            ///< N/m
     double damping = 0.0;              ///< N s/m
-    double load = 0.0;                 ///< what the device must dissipate, exactly (check::passivityLoad), in N s/m; passive if at most B
+    double load = 0.0;                 ///< exact damping that a passive contact needs (check::passivityLoad), in N s/m; passive if at most B
     std::optional<double> radius {};   ///< of the sampled loop, with the worst of the usual hands; empty if it is not known
     double largest_damper = 0.0;       ///< the exact 2M/T + 4B/3, in N s/m
     double period_s = 0.0;             ///< T
@@ -41,12 +41,12 @@ struct Standing
     double footnote (double device_damping) const { return stiffness * period_s / (damping + device_damping) - 1.0; }
 };
 
-/// The heaviest contact of a role or of an axis: the place where the load is largest, in all directions together, and of those the one that presses most.
-/// It is measured again for other params and rates, with the tool on the same way to exactly the same place.
+/// The heaviest contact of a role or of an axis: the place with the largest load, in all directions together. Of several such places, it is the one with the
+/// largest force. For other params and rates, it is measured again: the tool takes the same path to exactly the same place.
 ///
-/// Its stiffness and its damping are varied by the params of these names, of the steepest node that has them: what such a param adds to the response is
-/// measured, so that a filter or a hold after the node counts as it is. Without such a param, the whole response grows with the stiffness, and a damper
-/// along the steepest direction is added.
+/// The params `stiffness` and `damping` of the steepest node that has them vary the contact. The change that such a param makes to the response is
+/// measured, so a filter or a hold after the node counts. Without such a param, the whole response grows with the stiffness, and a damper along the steepest
+/// direction is added.
 class Contact
 {
 public:
@@ -60,7 +60,7 @@ public:
     double rate() const noexcept { return motion.rate_hz; }
     double time() const noexcept { return t_s; }                                     ///< of the contact, in s
     const std::string& node() const noexcept { return steepest; }                    ///< the node whose own force is steepest there; its path
-    const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< what is varied, as NODE.PARAM; empty: the whole response
+    const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< varied, as NODE.PARAM; empty: the whole response
     const std::string& dampingParam() const noexcept { return damping_param; }       ///< the same; empty: a damper is added
     const CheckedRole& device() const noexcept { return role; }                      ///< of the role; with the numbers of the axis if the contact is on an axis
     const std::string& axis() const noexcept { return its_axis; }                    ///< empty: of the tool

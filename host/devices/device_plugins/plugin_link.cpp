@@ -182,7 +182,7 @@ void PluginDevice::Link::pause (std::chrono::milliseconds time)
 /// The device is gone, or must be opened again for another reason.
 void PluginDevice::Link::lose (const std::string& why)
 {
-    if (is_lost.exchange (true, std::memory_order_acq_rel)) return;   // for another reason, which counts
+    if (is_lost.exchange (true, std::memory_order_acq_rel)) return;   // for another reason, which is the one to tell
     note (why);
     departures.fetch_add (1, std::memory_order_relaxed);
     current_episode.fetch_add (1, std::memory_order_acq_rel);

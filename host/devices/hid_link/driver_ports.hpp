@@ -10,7 +10,7 @@
 namespace tactus::host::hid
 {
 
-/// A device at a serial port that a driver knows, and no profile.
+/// A device at a serial port that has a driver and no profile.
 struct DriverPort
 {
     const char* vid;
@@ -22,11 +22,12 @@ struct DriverPort
 /// The device at this port; null: no driver names it. [any thread]
 const DriverPort* driverOf (const SerialPort&);
 
-/// How to reduce the time for which the adapter of this port keeps answers; empty if that is 1 ms, or if the port has no such timer. [any thread]
+/// The sentence that tells how to shorten the time for which the adapter of this port keeps answers. Empty if that is 1 ms, or if the port has no such
+/// timer. [any thread]
 std::string slowAdapter (const SerialPort&, const std::filesystem::path& adapters = "/sys/bus/usb-serial/devices");
 
-/// What to do about devices of drivers that are plugged in, but have no serial port because the kernel does not know them; empty if there are none.
-/// [any thread]
+/// The list of devices that a driver knows, but that have no serial port because the kernel does not know them, with the command that gives them one.
+/// Empty if there are none. [any thread]
 std::string withoutPort (std::span<const SerialPort>, const std::filesystem::path& usb = "/sys/bus/usb/devices");
 
 }   // namespace tactus::host::hid

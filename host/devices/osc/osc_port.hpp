@@ -71,7 +71,7 @@ public:
     void send (const OscReturn&, const juce::OSCMessage&);
 
     std::size_t dropped() const;
-    std::string losses() const;   ///< what was dropped, and why, in words; "" if nothing was
+    std::string losses() const;   ///< the numbers of dropped messages with reasons, in words; "" if there are none
 
     /// True if a program on this machine listens on this port.
     static bool isTaken (int number);

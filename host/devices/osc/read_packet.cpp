@@ -75,7 +75,7 @@ bool addArgument (OSCMessage& message, char type, Bytes& from)
         if (text) message.addString (toText (*text));
         return text.has_value();
     }
-    // Types that OSC 1.0 does not require, and programs send all the same. A double and a long integer are rounded to what a param takes.
+    // Types that OSC 1.0 does not require, but that programs send. A double or a long integer is rounded to the type of a param.
     if (type == 'T' || type == 'F' || type == 'I')
     {
         message.addInt32 (type == 'F' ? 0 : 1);
@@ -114,8 +114,8 @@ std::optional<OSCMessage> stopIn (std::string_view message)
     return std::nullopt;
 }
 
-/// True for a message that starts a run or ends a stop, and has a value of a button. Its release (F) must not start anything, and programs differ in what
-/// they send on a press, so none of them does.
+/// True for a message that starts a run or ends a stop, and has the value of a button. The release of a button (F) must not start anything. Programs differ
+/// in what they send on a press, so no such value starts anything.
 bool isButtonThatStarts (std::string_view address, std::string_view types)
 {
     return (address == "/tactus/start" || address == "/tactus/rearm") && types.find_first_of ("TFNIdh") != types.npos;

@@ -75,7 +75,7 @@ public:
         return known != all.end() ? std::optional (known->second) : std::nullopt;
     }
 
-    /// True if it is in the place of one that went away from another port.
+    /// True if the device is at the place of a device that went away from another port.
     bool hasElsewhere (const std::string& port, const EventDeviceInfo& info) const
     {
         const std::lock_guard lock (mutex);
@@ -94,7 +94,7 @@ GoneDevices& gone()
     return devices;
 }
 
-/// The devices that are open in this program, by the file that a path leads to: a link, such as those in /dev/input/by-id, is that device.
+/// The files of the devices that are open in this program. A link, such as those in /dev/input/by-id, counts as the file that it leads to.
 class OpenPaths
 {
 public:
@@ -158,7 +158,7 @@ std::string findPath (const std::string& port, std::string& why)
 {
     if (const auto before = gone().at (port))
     {
-        // An identical one that is in use, or in the place of another that went away, is not this one. Of several others, the one in its place is.
+        // An identical device is not this one if it is in use, or at the place of another one that went away. Of the rest, the one at the same place is.
         const auto isFree = [&] (const EventDeviceInfo& info) {
             return info.isSameAs (*before) && ! openPaths().has (info.path) && ! gone().hasElsewhere (port, info);
         };

@@ -85,7 +85,7 @@ std::uint16_t hexIn (const fs::path& file)
     return number;
 }
 
-/// What a driver in the kernel tells of its wheel, such as hid-logitech-new: a file in the folder of the HID device.
+/// The gain or the centring spring of a wheel, in a file that some drivers in the kernel, such as hid-logitech-new, put into the folder of the HID device.
 std::optional<int> levelIn (const fs::path& file)
 {
     const auto line = textIn (file);

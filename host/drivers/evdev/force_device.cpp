@@ -260,7 +260,7 @@ std::int32_t ForceDevice::read (std::chrono::milliseconds timeout, tactus_readin
                 has_come = true;
                 return answer (frame_age);
             }
-            if (! in_frame && Clock::now() > until) return state();   // events that say nothing of an axis or a button must not hold this up
+            if (! in_frame && Clock::now() > until) return state();   // events without an axis or a button must not delay this
         }
 }
 

@@ -43,7 +43,7 @@ public:
     /// Gives the wheel back the gain and the centring spring that it had, if they are known. The effects must rest. [opening thread]
     void restore();
 
-    /// What the person must set again after the program, because the kernel does not tell what it was; empty if nothing.
+    /// The sentence about settings that stay changed after the program, because the kernel does not tell their old values; empty if there are none.
     std::string whatStaysChanged() const;
 
     /// The description of the device. Refers to this object.
@@ -101,7 +101,7 @@ private:
     double frame_age = 0.0;
 
     // [writing thread]
-    ff_effect effect {}, uploaded {};   // as wanted; as the kernel has it
+    ff_effect effect {}, uploaded {};   // the wanted one, and the one in the kernel
     std::optional<Clock::time_point> busy_until, started, updated, tracked;
     double mean_interval = 0.0;
     int intervals = 0;   // in that mean

@@ -52,15 +52,15 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
     return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
 }
 
-/// A Falcon at a serial port. It answers each packet with one, and sends none by itself. At most one is on its way, but for that of `rest`.
-/// `times`: its promises about a Falcon that does not answer take so many times longer, for tests on busy computers.
+/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides that of `rest`.
+/// `times`: the factor of all times until a Falcon that does not answer counts as gone, for tests on busy computers.
 template <int times>
 class Falcon
 {
     static constexpr auto until_gone = times * 500ms;            // without an answer
     static constexpr auto longest_wait = times * 160ms;          // of a force until it is sent
-    static constexpr auto longest_kept = times * 100ms;          // a force without a newer one: the program was frozen, or its writing thread is
-    static constexpr int most_questions = times > 1 ? 40 : 10;   // when it is opened
+    static constexpr auto longest_kept = times * 100ms;          // of a force without a newer one: the program was frozen, or its writing thread is
+    static constexpr int most_questions = times > 1 ? 40 : 10;   // at opening
 
 public:
     static std::string check (const tactus_device_description& given)
@@ -105,7 +105,7 @@ public:
                     why = line.isGone() ? "it was unplugged" : "it does not answer";
                     return TACTUS_DEVICE_GONE;
                 }
-                if (in_flight && now >= sent + patience)   // bytes were lost on one of the ways. If it is only slow, packets must not queue up
+                if (in_flight && now >= sent + patience)   // bytes were lost, or it is slow: then packets must not queue up
                 {
                     in_flight = was_prompt = false;
                     is_doubtful = true;
@@ -150,7 +150,7 @@ public:
     }
 
 private:
-    bool answers()   // a packet that asks for nothing
+    bool answers()   // to packets without a force
     {
         bool does = false;
         for (int tries = 0; tries < most_questions && ! does; ++tries)
@@ -159,7 +159,7 @@ private:
             for (const auto end = Clock::now() + 50ms; Clock::now() < end && ! does; does = line.next().has_value())
                 line.await (5ms);
         }
-        const auto is_late = [this] {   // an answer to one of the tries
+        const auto is_late = [this] {   // an answer to an earlier packet
             line.await (prompt);
             return line.next().has_value();
         };
@@ -177,7 +177,7 @@ private:
         if (firmware.empty())
             return "it does not answer: its firmware does not run, or this is no Falcon. Give the file that has its firmware with the key \"firmware\"";
         std::string why;
-        for (int tries = 0; tries < 3; ++tries)   // people report that the first one often fails
+        for (int tries = 0; tries < 3; ++tries)   // users report that the first try often fails
         {
             why = line.load (firmware);
             line.goNormal();
@@ -236,11 +236,11 @@ private:
         silent_since.reset();
     }
 
-    /// Sends the newest force, turned into torques at the newest place. Without a place, or without a newer one for long, a force is given up: it would come
-    /// back as a step. [reading thread, with the mutex held]
+    /// Sends the newest force, turned into torques at the newest place. A force without a place, or too old a force, is given up, because it would come back
+    /// as a step. [reading thread, with the mutex held]
     void send()
     {
-        if (! line.isFree()) return;   // the last packet is not out yet; tried again
+        if (! line.isFree()) return;   // the last packet is not out yet; the next call tries again
         if (! has_place || Clock::now() - given > longest_kept) force = {};
         auto values = legs.torquesOf (force);
         double largest = 0.0;
@@ -279,13 +279,13 @@ private:
     std::condition_variable changed;
     Triple force {};
     bool is_new = false;
-    Clock::time_point given, waits_since;   // the newest force, and the first one that was not sent
-    Clock::time_point sent, answered;       // the last packet of each direction
-    bool in_flight = false;                 // it has not been answered
-    bool is_doubtful = false;               // there may be another one: nothing is sent until answers are prompt, and no further one has come
+    Clock::time_point given, waits_since;   // times of the newest force, and of the first one that was not sent
+    Clock::time_point sent, answered;       // times of the last packet in each direction
+    bool in_flight = false;                 // the last packet has not been answered
+    bool is_doubtful = false;               // more packets may be on the way: nothing is sent until answers are prompt and no further one comes
     bool was_prompt = false;                // the last answer
     Clock::duration patience = until_late;
-    std::optional<Clock::time_point> silent_since;   // packets are not answered
+    std::optional<Clock::time_point> silent_since;   // since then, no packet has been answered
 };
 
 constexpr const char* keys[] { "port", "firmware" };

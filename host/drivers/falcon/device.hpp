@@ -9,7 +9,7 @@ namespace tactus::host::falcon
 /// The driver for the Novint Falcon on a serial port. See docs/known_devices.md.
 extern const tactus_device_driver driver;
 
-/// The same with longer promises about a Falcon that does not answer, so that a busy computer does not look like one.
+/// The same driver for tests: it waits longer for a Falcon that does not answer, so a busy computer does not look like one.
 extern const tactus_device_driver patient_driver;
 
 }   // namespace tactus::host::falcon

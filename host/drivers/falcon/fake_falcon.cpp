@@ -70,7 +70,7 @@ namespace
 using namespace std::chrono_literals;
 constexpr unsigned normal_baud = 1'500'000, hello_baud = 9600, loading_baud = 142'857;
 constexpr std::size_t packet_size = 16;
-constexpr unsigned homing = 0x11;   // the code of libnifalcon and its comment name another bit: either will do
+constexpr unsigned homing = 0x11;   // the code of libnifalcon names one bit, and its comment the other: either will do
 constexpr int changed_bit = 4;      // of a digit of a count
 }   // namespace
 
@@ -177,7 +177,7 @@ unsigned FakeFalcon::speed() const
 void FakeFalcon::put (const std::vector<std::uint8_t>& bytes)
 {
     const std::lock_guard lock (mutex);
-    if (line >= 0 && ::write (line, bytes.data(), bytes.size()) < 0) return;   // nobody reads
+    if (line >= 0 && ::write (line, bytes.data(), bytes.size()) < 0) return;   // no reader
 }
 
 //==============================================================================

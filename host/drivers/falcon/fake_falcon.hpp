@@ -14,8 +14,8 @@
 namespace tactus::host
 {
 
-/// The legs of a Falcon, from the place of the grip: the other direction than that of the driver, and written apart from it. Places are in the axes of
-/// the Falcon, in m.
+/// The kinematics of a Falcon from the grip to the angles, the inverse of those in the driver, without shared code. Places are in the axes of the Falcon,
+/// in m.
 namespace falcon_legs
 {
 using Place = std::array<double, 3>;
@@ -25,8 +25,8 @@ std::array<int, 3> countsAt (const Place&);                 ///< of the encoders
 Place forceOf (const Place& torques_nm, const Place& at);   ///< on the grip, in N
 }   // namespace falcon_legs
 
-/// A fake of a Novint Falcon at the other end of a pseudo-terminal. It answers each packet with one, forgets its homing if a packet lacks the bit for it, and
-/// knows its own speeds: bytes of another one mean nothing to it. Runs on a thread of its own. [any thread]
+/// A fake Novint Falcon at the other end of a pseudo-terminal. It answers each packet with a packet, and forgets its homing if a packet lacks the bit for it.
+/// It ignores bytes at a wrong baud rate. It runs on its own thread. [any thread]
 class FakeFalcon
 {
 public:
@@ -37,7 +37,7 @@ public:
     {
         none,
         silent,       ///< takes packets, and answers nothing
-        shorter,      ///< each third answer has two bytes less, but its end
+        shorter,      ///< each third answer lacks two bytes, but not its end
         shifted,      ///< each third answer lacks its first byte
         noisy,        ///< bytes between answers
         changed,      ///< each third answer has another count, as if a byte had changed on the way
@@ -46,10 +46,10 @@ public:
         forgetful     ///< it does not know its position any more
     };
 
-    /// The hand: where the grip is when the next packet comes, from where it is and from the force on it. [thread of the fake]
+    /// The hand: gives the next place of the grip, from its place now and the force on it, for each packet. [thread of the fake]
     using Hand = std::function<Place (const Place& grip, const Place& force)>;
 
-    /// Without a hand, a spring leads to `target`. `image_size`: without firmware, how many bytes it must get until it runs.
+    /// Without a hand, a spring pulls to `target`. `image_size`: the number of bytes to load until the firmware runs.
     explicit FakeFalcon (Hand = {}, bool has_firmware = true, std::size_t image_size = 0);
     ~FakeFalcon();
     FakeFalcon (const FakeFalcon&) = delete;
@@ -59,9 +59,9 @@ public:
     void fail (Fault f) noexcept { fault = f; }
     void unplug();   ///< as if the cable was pulled
 
-    /// The grip is exactly here from the next answer on, with these buttons. Forgets what has been got.
+    /// Holds the grip exactly here from the next answer on, with these buttons. Forgets the packets so far.
     void hold (const Place&, unsigned buttons);
-    bool hasGot (const std::array<int, 3>& motors) const;   ///< a packet with these since hold()
+    bool hasGot (const std::array<int, 3>& motors) const;   ///< true if a packet since hold() had these
     Place place() const;
     std::vector<std::uint8_t> image() const;   ///< of the firmware that was loaded
     bool isAtRest() const { return motors[0] == 0 && motors[1] == 0 && motors[2] == 0; }
@@ -71,11 +71,11 @@ public:
     std::atomic<double> stiffness = 300.0, tremor = 0.0;            // of the hand, in N/m and m
     std::atomic<unsigned> buttons = 0, homed = 7;
     std::atomic<int> first_tries_that_fail = 0;   // of loading
-    std::atomic<int> looks_ms = 0;                // how long it waits before each answer, to see whether the driver waits for it
+    std::atomic<int> looks_ms = 0;                // a wait before each answer, to see whether the driver waits for it
 
-    // What has come of it.
+    // The packets so far, and the contents of the latest one.
     std::atomic<std::uint64_t> packets = 0, malformed = 0, without_homing = 0, pushes = 0;
-    std::atomic<std::uint64_t> together = 0, alone = 0;   // sent before the last one was answered; those since then that were not
+    std::atomic<std::uint64_t> together = 0, alone = 0;   // packets sent before the last one was answered; packets since then that were not
     std::atomic<unsigned> bits = 0;
     std::array<std::atomic<int>, 3> motors {};
     std::atomic<int> largest_motor = 0;

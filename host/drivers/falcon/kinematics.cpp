@@ -21,7 +21,7 @@ constexpr double least_angle = -90.0 * degree, most_angle = 150.0 * degree;   //
 double dot (const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Triple cross (const Triple& a, const Triple& b) { return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] }; }
 
-/// The gap between a leg and the grip: by how much they miss each other, in m^2, and how that changes with the place and with the angle.
+/// The gap between a leg and the grip, in m^2, and its derivatives with the place and with the angle.
 struct Miss
 {
     double size = 0.0, by_angle = 0.0;
@@ -58,7 +58,7 @@ std::optional<Triple> Kinematics::placeOf (const Triple& angles)
     for (int step = 0; step < most_steps; ++step)
     {
         const std::array misses { missOf (0, at, angles[0]), missOf (1, at, angles[1]), missOf (2, at, angles[2]) };
-        // The columns of the inverse: how the place moves if one leg alone misses less.
+        // The columns of the inverse: the move of the place that makes the gap of one leg smaller.
         const std::array columns { cross (misses[1].by_place, misses[2].by_place), cross (misses[2].by_place, misses[0].by_place),
                                    cross (misses[0].by_place, misses[1].by_place) };
         const double volume = dot (misses[0].by_place, columns[0]);

@@ -9,13 +9,13 @@
 namespace tactus::host::falcon
 {
 
-/// Both directions: '<', twelve nibbles of three numbers with the lowest first, a byte of bits, a byte that is 0, and '>'. Each byte in between is
-/// written as its value + 'A'.
+/// A packet in either direction: '<', twelve nibbles of three numbers with the lowest first, a byte of bits, a byte of 0, and '>'. Each byte between the
+/// marks is written as its value + 'A'.
 using Packet = std::array<std::uint8_t, 16>;
 
 enum Bits : std::uint8_t
 {
-    homing = 1,   // to the Falcon, in every packet: it must know its position
+    homing = 1,   // to the Falcon, in every packet: keeps its homing
     green = 2,
     blue = 4,
     red = 8,

@@ -46,7 +46,7 @@ std::string SerialPort::open (const std::string& path)
     return {};
 }
 
-/// How long an adapter of FTDI keeps answers: 1 ms, or 16 ms. A pseudo-terminal has no such setting.
+/// Sets the time for which an FTDI adapter keeps answers, to 1 ms or 16 ms. A pseudo-terminal has no such setting.
 void SerialPort::setLowLatency (bool is_low)
 {
     serial_struct serial {};
@@ -69,7 +69,7 @@ void SerialPort::setSpeed (unsigned baud)
 {
     termios2 how {};
     how.c_cflag = BOTHER | CS8 | CLOCAL | CREAD;
-    how.c_cc[VMIN] = 1;   // 0 bytes are the end of the line, and not silence
+    how.c_cc[VMIN] = 1;   // a read of 0 bytes then means the end of the line, and not silence
     how.c_ispeed = how.c_ospeed = baud;
     static_cast<void> (::ioctl (file, TCSETS2, &how));
 }
@@ -135,8 +135,9 @@ std::string SerialPort::load (const std::string& from)
     const auto size = std::filesystem::file_size (from, failed);   // fails for what is no file, such as a device that never ends
     std::vector<std::uint8_t> image (failed || size > most_firmware ? 0 : size);
     std::ifstream in (from, std::ios::binary);
-    if (image.empty() || ! in.read (reinterpret_cast<char*> (image.data()), static_cast<std::streamsize> (image.size()))) return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
-    setLowLatency (false);   // people report that loading fails otherwise
+    if (image.empty() || ! in.read (reinterpret_cast<char*> (image.data()), static_cast<std::streamsize> (image.size())))
+        return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
+    setLowLatency (false);   // users report that loading fails otherwise
     setSpeed (hello_baud);
     purge();
     setLines (0);

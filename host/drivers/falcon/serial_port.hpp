@@ -17,30 +17,30 @@
 namespace tactus::host::falcon
 {
 
-/// The chip of FTDI between the computer and a Falcon, as a serial port. Each function that can fail returns why it has failed; empty: it has not.
+/// The FTDI adapter between the computer and a Falcon, as a serial port. Each function that can fail returns the reason if it fails; empty if it succeeds.
 class SerialPort
 {
 public:
     ~SerialPort();
 
     std::string open (const std::string& path);
-    std::string remark() const;   ///< what makes the port slow, and what to do about it; may be empty
-    void goNormal();              ///< to talk to the firmware
+    std::string remark() const;   ///< the reason why the port is slow, and the remedy; may be empty
+    void goNormal();              ///< sets the speed and the latency for the running firmware
 
     /// Loads firmware from a file. May take some seconds.
     std::string load (const std::string& file);
 
-    bool isFree() const;                ///< all that was sent is out
+    bool isFree() const;                ///< true if everything that was sent is out
     std::string send (const Packet&);   ///< as soon as it is free
 
-    std::optional<Report> next();                       ///< that has arrived
-    void await (std::chrono::steady_clock::duration);   ///< until bytes arrive
+    std::optional<Report> next();                       ///< the next report that has arrived
+    void await (std::chrono::steady_clock::duration);   ///< waits until bytes arrive, at most this long
     bool isGone() const noexcept { return is_gone; }
 
 private:
     void setSpeed (unsigned baud);
     void setLowLatency (bool);
-    void setLines (int rts_and_dtr);   // those that are on
+    void setLines (int rts_and_dtr);   // the lines that are on
     void purge();
     bool receive();
     bool put (std::span<const std::uint8_t>);

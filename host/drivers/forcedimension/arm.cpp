@@ -278,7 +278,7 @@ private:
         {
             if (wanted.index >= 0) what = "no arm " + std::to_string (wanted.index) + ", counted from 0,";
             const int end = wanted.index >= 0 ? wanted.index + 1 : std::max (count, 1);
-            for (int i = std::max (wanted.index, 0); ! is_open && i < end; ++i)   // the first that nobody uses
+            for (int i = std::max (wanted.index, 0); ! is_open && i < end; ++i)   // the first free one
                 open_index (i);
         }
         if (! is_open)

@@ -332,7 +332,7 @@ std::string faultOf (const char* function, int answer, const DriverReport& said)
     return {};
 }
 
-/// The fault of a function whose calls usually take longer than they may: a busy computer makes some of them longer. Empty if there is none.
+/// The fault that a function usually takes longer than it may; else empty. Single long calls are no fault, because a busy computer causes them.
 std::string slowFault (const char* function, std::vector<Clock::duration>& times)
 {
     std::ranges::nth_element (times, times.begin() + static_cast<std::ptrdiff_t> (times.size() / 2));

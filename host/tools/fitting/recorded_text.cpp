@@ -26,7 +26,7 @@ Fields split (const std::string& line, char at)
     return parts;
 }
 
-/// A number whose decimal sign is a comma, with a point; any other field as it is.
+/// A number with a point in the place of its decimal comma; any other field as it is.
 std::string withPoint (std::string field)
 {
     const auto comma = field.find (',');
@@ -36,7 +36,8 @@ std::string withPoint (std::string field)
     return wholeNumber (plain) ? plain : field;
 }
 
-/// A semicolon or a tab if it separates numbers, in which commas may then be the decimal signs; else the first of these that occurs.
+/// The separator of a line: a semicolon or a tab if all its fields are then numbers or empty, because commas may be decimal signs. Else the first of comma,
+/// semicolon and tab that occurs, or a space.
 char separatorOf (const std::string& line)
 {
     const auto isNumberOrEmpty = [] (const std::string& part) { return trimmed (part).empty() || wholeNumber (withPoint (trimmed (part))).has_value(); };

@@ -17,7 +17,7 @@
 namespace tactus::test::own
 {
 
-/// A mass with viscous and dry friction that a motor pushes; with a mode, a second mass on a spring, where the hand is.
+/// The mechanics of a device: a mass with viscous and dry friction that a motor pushes, and with a mode, a second mass on a spring, which the hand holds.
 struct Mechanics
 {
     double mass = 0.1, damping = 1.0, dry = 0.0, quantum = 0.0;   // kg, N s/m, N, m
@@ -26,7 +26,7 @@ struct Mechanics
     double brake = 0.0;                                           // N s/m; the largest
 };
 
-/// What holds the tool: a constant force, and a mass with a spring to where the tool was put and a damper.
+/// A hand on the tool: a mass, a damper, and a spring to the place where the tool was put.
 struct Grip
 {
     double mass = 0.0, damping = 0.0, stiffness = 0.0;
@@ -81,10 +81,10 @@ struct Hand final : Device
     DeviceLayout layout() const override { return has; }
 };
 
-/// How far a tool moved in the third of three seconds, in m: from one extreme to the other, and the smaller of its largest rise and its largest fall.
+/// The movement of a tool in the third of three seconds, in m: its range, and its swing, the smaller of its largest rise and its largest fall.
 struct Third
 {
-    double range = 0.0, swing = 0.0, second = 0.0;   // second: the range in the second one
+    double range = 0.0, swing = 0.0, second = 0.0;   // second: the range in the second second
     double work = 0.0, push_work = 0.0;              // of the graph and of the constant force on the tool in the third second, in J
     double all_work = 0.0, all_push = 0.0;           // the same since the start, and the most that it was
     double most_work = 0.0, most_push = 0.0;

@@ -15,7 +15,7 @@ namespace tactus::test
 /// A random graph that one tool touches, the device, and the path of the hand: down into the contact, sideways, back, and up.
 struct RandomContact
 {
-    std::string text, kinds;   // JSON; what is in it
+    std::string text, kinds;   // JSON; its parts
     own::Mechanics mechanics;
     double rate_hz = 1000.0;
     std::vector<Vec3> path;            // tick by tick

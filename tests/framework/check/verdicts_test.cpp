@@ -23,7 +23,7 @@ using namespace tactus::test;
 
 namespace
 {
-/// What the check says of the loop of a contact.
+/// The verdicts of the check on a contact.
 std::vector<check::Condition> judged (const graph::Graph& graph, const RandomContact& contact)
 {
     const check::Subject subject { graph, catalogue() };
@@ -127,7 +127,7 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
 
 namespace
 {
-/// A graph of one role on a device of 0.1 kg and 2 N s/m at 1 kHz, pressed with 1 N into what is below, or moved along a path of its own.
+/// A graph of one role on a device of 0.1 kg and 2 N s/m at 1 kHz. The tool is pressed with 1 N into the contact, or moved along a given path.
 RandomContact made (const std::string& nodes, const std::string& wires, double depth = 5e-5, std::vector<Vec3> path = {})
 {
     RandomContact c { .text = R"({ "format": "tactus-graph", "version": 2, "name": "made", "rate_hz": 1000, "nodes": {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables as programs write them, at random. Who writes them knows the numbers, so a reader either gives these, bit for bit, or says an error.
+// Random tables as programs write them. The test knows the numbers, so the reader must give them bit for bit, or an error.
 #include <tactus/file/assets/table.hpp>
 #include <tactus/file/csv.hpp>
 

@@ -69,8 +69,8 @@ bool beginsAChunk (juce::InputStream& wav, juce::int64 at)
     return std::ranges::find (known, name) != std::end (known);
 }
 
-/// True if a size of samples is what programs write that stream, or that end before they write the size: the largest number, just below 2 GB (sox
-/// and arecord; counts only if the file is shorter), or 0 before other bytes, unless the chunk `fact` says 0 as well.
+/// True if the size of the samples stands for an unknown one, as programs write it that stream, or that end before they know it: the largest number; just
+/// below 2 GB (sox and arecord), if the file is shorter; or 0 before other bytes, unless the chunk `fact` says 0 as well.
 bool isUnknown (juce::InputStream& wav, std::uint64_t size, juce::int64 start, bool says_none)
 {
     constexpr std::uint64_t near_2_gb = 0x7fff0000, past_2_gb = 0x80000000;
@@ -208,8 +208,8 @@ void setNumber (std::string& format, std::size_t at, std::uint32_t value, std::s
         format[at + i] = static_cast<char> (static_cast<unsigned char> (value >> 8u * i));
 }
 
-/// 64-bit floats as 32-bit ones, because JUCE reads no doubles: rounded by less than 1e-7 of their value. Without samples if they are too many, which
-/// the reader sees from the claimed size.
+/// The same samples as 32-bit floats, because JUCE does not read 64-bit ones. Rounding changes them by less than 1e-7 of their value. Without samples if
+/// there are too many; the reader notices that from the claimed size.
 std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wav, juce::int64 bytes)
 {
     const auto claimed = chunks.data_bytes.value_or (0) / 2;

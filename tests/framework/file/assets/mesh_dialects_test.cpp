@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes as programs write them, at random, against what was written.
+// Random meshes as programs write them, read and compared with the originals.
 #include <tactus/file/assets/mesh.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Programs that play on a fake Falcon, and what it gets when they end or are killed.
+// Programs that play on a fake Falcon, and the packets that it gets when they end or are killed.
 
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"

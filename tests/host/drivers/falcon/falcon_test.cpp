@@ -90,7 +90,7 @@ struct Desk
     }
 
     FakeFalcon falcon;
-    bool is_patient = true;   // a busy computer does not look like a Falcon that does not answer
+    bool is_patient = true;   // a busy computer must not look like a Falcon that does not answer
     GuardLimits limits;
     std::string rest_file;
     Messages messages;
@@ -124,7 +124,7 @@ TEST_CASE ("the legs of the Falcon meet where its equations say, to 1 nm", "[fal
     CHECK (motorsFor ({ 0.0, 1.0, 0.0 }) == std::array { 640l, -153l, -487l });
     CHECK (motorsFor ({ 0.0, 0.0, 1.0 }) == std::array { -249l, -249l, -249l });
 
-    // The whole workspace, back and forth. The angles come from the other direction, and the torques from differences of it.
+    // The whole workspace, forwards and backwards. The fake's kinematics give the angles, and their differences the torques.
     double worst = 0.0, worst_force = 0.0;
     int places = 0;
     for (int i = 0; i < 9; ++i)
@@ -176,7 +176,7 @@ TEST_CASE ("packets of a Falcon are found among any bytes, and nothing else is",
             const auto report = finder.take (bytes[i]);
             if (! report) continue;
             ++found;
-            // What was found is what has just come, byte for byte.
+            // The packet that was found is the latest bytes.
             REQUIRE (past.size() >= packet.size());
             const auto again = host::falcon::packetOf (report->counts, report->bits);
             CHECK (std::equal (again.begin(), again.begin() + 14, past.end() - 16));
@@ -423,7 +423,7 @@ TEST_CASE ("a Falcon that answers late or not at all has no force for long, and 
         falcon.unplug();
         CHECK (desk.ticksUntil ([&] { return desk.reading.fault == ReadingFault::unplugged; }, { 0.0, 0.0, 1.0 }));
     }
-    SECTION ("nobody asks for a force any more: the last one does not stay")
+    SECTION ("when no force is asked for any more, the last one does not stay")
     {
         REQUIRE (desk.opens (Json::object(), 0.02));
         REQUIRE (desk.pushes());

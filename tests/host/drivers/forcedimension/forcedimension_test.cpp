@@ -121,7 +121,7 @@ TEST_CASE ("an arm of Force Dimension is found by number, serial number and mode
     REQUIRE (lab.opens ({ { "port", "delta.3" } }));
     CHECK (is_open() == std::pair (0, 1));
 
-    // Without a port, the first one that nobody uses.
+    // Without a port, the first one that is free.
     Lab other;
     other.arms->count = 2;
     other.arm (0).is_open = 1;
