@@ -133,7 +133,7 @@ std::vector<NotJudged> notJudged (const Demand& demand, std::span<const Conditio
     std::vector<NotJudged> all;
     for (const auto& role : demand.roles)
         for (const auto& other : role.others)
-            all.push_back ({ role.role, other, "no device is simulated that it moves" });
+            all.push_back ({ role.role, other, "the check does not simulate it" });
     for (const auto& c : conditions)
     {
         const bool is_loop = c.id == "stiffness" || c.id == "coupling";
@@ -153,7 +153,7 @@ std::vector<NotJudged> notJudged (const Demand& demand, std::span<const Conditio
                 all.push_back ({ t.role, "a tool that bounces, dry friction and steps of a sensor in its loop",
                                  "its tool could not be let go, or not as often as planned" });
         }
-    all.push_back ({ "", "other motions, and forces beyond those of this one", "only a contact that is called passive is so whatever the hand does" });
+    all.push_back ({ "", "other motions, and forces beyond those of this one", "only the verdict passive holds for every motion" });
     return all;
 }
 

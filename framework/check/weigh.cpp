@@ -83,7 +83,7 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
         if (std::ranges::any_of (demand.deadbeats, [&] (const Deadbeat& d) { return d.role == role->role; })) return "a hold.deadbeat has no slope";
         if (std::ranges::any_of (demand.jumps, [&] (const Jump& j) { return j.role == role->role; })) return "a force steps";
     }
-    if (turns) return "its force turns the tool, so a loop gains energy";
+    if (turns) return "its force turns the tool, so a closed path gains energy";
     if (given > uncertain) return "the graph gives " + text (1e3 * given, "mJ") + " along this motion";
     is_here = true;
     if (! demand.players.empty()) return "'" + demand.nodes[demand.players.front()].path + "' plays by itself, and is left out";
@@ -93,7 +93,7 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
         for (const auto& u : demand.unreached)
             if (u.role == role->role) return "'" + demand.nodes[u.node].path + "' is not reached";
     }
-    return holds_as_claimed ? "" : "deeper or elsewhere, the contact may be stiffer";
+    return holds_as_claimed ? "" : "the contact may be stiffer deeper or elsewhere";
 }
 }   // namespace
 
@@ -132,7 +132,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     {
         c.verdict = Verdict::unknown;
         c.text = letGo (*doubtful) + "still moves " + moves (*doubtful) + "; " + c.text;
-        c.remedy = "in a trial, the tool still moves in the third second, hardly enough to call it unstable: try it by hand, or check the same graph with "
+        c.remedy = "in a trial, the tool still moves in the third second, but too little to call it unstable: try it by hand, or check the same graph with "
                    "softer or stiffer forces";
         return;
     }
@@ -149,11 +149,11 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     const auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
     if (c.verdict == Verdict::unstable && ! mayRest (demand, *trials, roles))
-        c.text += "; " + tried + " where it was let go, and nothing there holds it";
+        c.text += "; " + tried + " where it was let go, but no dry friction and no brake holds it there";
     else if (c.verdict == Verdict::unstable)
     {
         c.verdict = Verdict::stable;
-        c.text = tried + ", by what the linear loop leaves out, such as dry friction or a brake; " + c.text;
+        c.text = tried + ", because of something that the linear loop leaves out, such as dry friction or a brake; " + c.text;
     }
     else if (c.verdict == Verdict::broken)   // no loop is known
     {

@@ -239,7 +239,7 @@ void runFalcon (const FakeOptions& o)
               << std::flush;
     playService (device, o);
     std::cout << device.packets << " packets heard, " << device.pushes << " with a force of at most " << numberText (device.largest_force) << " N, "
-              << device.malformed << " bytes that were none of a packet\n";
+              << device.malformed << " bytes outside packets\n";
 }
 #endif
 

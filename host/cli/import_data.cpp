@@ -29,7 +29,7 @@ if sys.path[:1] == [""]: del sys.path[0]
 try:
     from tactus import data
 except ImportError:
-    sys.exit(sys.stderr.write("error: the Python package tactus is not there; install it, or set PYTHONPATH to the folder python of the build\n") and 2)
+    sys.exit(sys.stderr.write("error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n") and 2)
 sys.exit(data.main(sys.argv[1:]))
 )";
 

@@ -102,7 +102,7 @@ class Data(TestCase):
         presets, said, status = self.imported({"Models_Wood 1.xml": texture(models)}, "--mass", "0.1")
         self.assertEqual(status, 0, said)
         self.assertIn("AR, as in the file", said)
-        self.assertIn("does not allow to pass it on", said)
+        self.assertIn("does not allow passing on the toolkit", said)
         preset = json.loads(presets["wood_1.json"])
         models = preset["nodes"]["texture"]["settings"]["models"]
         self.assertEqual([m["speed"] for m in models], [0.05, 0.09, 0.13])

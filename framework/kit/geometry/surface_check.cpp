@@ -311,7 +311,7 @@ std::string unevenForce (const std::shared_ptr<const Surface>& surface, double s
     if (worst < 0 || std::max (most - 1.0, 1.0 - least) < wrong) return {};
     return "the mesh is too coarse for its edges: its frames turn by " + short3 (turns.front().first) + " degrees within a flat face, so a press of "
            + short3 (1e3 * depth_there) + " mm into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most)
-           + " times the force of its law, most wrongly at " + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
+           + " times the force of its law, with the largest error at " + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
 }
 
 }   // namespace tactus

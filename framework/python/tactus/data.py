@@ -30,13 +30,13 @@ from typing import Any, Sequence
 MOST_COEFFICIENTS = 40   # of the AR model that stands for an ARMA model
 FREQUENCIES = 512        # at which the two are compared
 COEFFICIENTS = 20        # of the AR model of a recording
-LAGS = 40                # of the autocorrelation that it is judged by
+LAGS = 40                # of the autocorrelation for its error
 FEWEST = 1000            # samples of a recording
 USED = 0.8               # the middle part of a recording that is used: a stroke begins and ends at rest
 GRAVITY = 9.80665        # m/s2
 LICENCES = {
-    "hatt": "made from a file of the Penn Haptic Texture Toolkit, whose licence allows research without profit, and does not allow to pass it on or what is "
-            "made of it: do not share this preset",
+    "hatt": "made from a file of the Penn Haptic Texture Toolkit, whose licence allows research without profit, but does not allow passing on the toolkit "
+            "or anything made of it: do not share this preset",
     "lmt": "made from recordings of the LMT texture database: its files do not state a licence, so ask its makers before you share this preset",
     "cluster": "made from recordings of the Cluster Haptic Texture Dataset: name it, and read the licence on its page, before you share this preset",
 }

@@ -167,7 +167,7 @@ std::string findPath (const std::string& port, std::string& why)
         if (auto path = onlyOne (isFree, quote (before->name), why); ! path.empty()) return path;
         if (why.find ("devices are called") != why.npos)
         {
-            why = "several devices like " + quote (before->name) + " have come: plug the one that was at this port in where it was";
+            why = "several devices like " + quote (before->name) + " are plugged in: plug the one that was at this port back in where it was";
             return {};
         }
         why = "the device " + quote (before->name) + ", which was at this port, is gone";

@@ -156,8 +156,8 @@ std::string ForceDevice::whatStaysChanged() const
     if (! gain && ! spring) return {};
     const auto between = gain && spring ? " and " : "";
     return std::string ("the kernel does not tell ") + (gain ? "the gain" : "") + between + (spring ? "the centring spring" : "") + " of "
-           + printableName (info.name) + ", so after the program " + (gain ? "the gain stays full" : "") + between + (spring ? "the spring stays off" : "")
-           + ", until another program sets " + (gain && spring ? "them" : "it") + " or the device is plugged in again";
+           + printableName (info.name) + ", so after the program ends, " + (gain ? "the gain stays full" : "") + between
+           + (spring ? "the spring stays off" : "") + ", until another program sets " + (gain && spring ? "them" : "it") + " or the device is plugged in again";
 }
 
 void ForceDevice::describe (tactus_device_about& to)

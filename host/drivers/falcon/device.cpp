@@ -175,7 +175,7 @@ private:
         line.goNormal();
         if (answers()) return {};
         if (firmware.empty())
-            return "it does not answer: its firmware does not run, or this is no Falcon. Give the file that has its firmware with the key \"firmware\"";
+            return "it does not answer: its firmware does not run, or this is not a Falcon. Give the file that has its firmware with the key \"firmware\"";
         std::string why;
         for (int tries = 0; tries < 3; ++tries)   // users report that the first try often fails
         {

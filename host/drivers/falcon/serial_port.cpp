@@ -40,7 +40,7 @@ std::string SerialPort::open (const std::string& path)
     file = ::open (path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return textOf (errno) + (errno == EACCES ? ": join the group of " + path + " (on Debian: sudo adduser $USER dialout)" : std::string());
     termios2 how {};
-    if (::ioctl (file, TCGETS2, &how) != 0) return path + " is no serial port";
+    if (::ioctl (file, TCGETS2, &how) != 0) return path + " is not a serial port";
     lock = FileLock::takeExisting (path);   // not TIOCEXCL: the guardian opens it, too
     if (! lock) return "another role or another instance of Tactus is using it";
     return {};
@@ -136,7 +136,7 @@ std::string SerialPort::load (const std::string& from)
     std::vector<std::uint8_t> image (failed || size > most_firmware ? 0 : size);
     std::ifstream in (from, std::ios::binary);
     if (image.empty() || ! in.read (reinterpret_cast<char*> (image.data()), static_cast<std::streamsize> (image.size())))
-        return from + ": this is no firmware of a Falcon: it cannot be read, is empty, or is too long";
+        return from + ": this is not the firmware of a Falcon: it cannot be read, is empty, or is too long";
     setLowLatency (false);   // users report that loading fails otherwise
     setSpeed (hello_baud);
     purge();
@@ -145,7 +145,7 @@ std::string SerialPort::load (const std::string& from)
     bool is_there = false;
     for (int tries = 0; tries < 40 && ! is_there && ! is_gone; ++tries, count = used = 0)
         is_there = put (hello) && expects (hello_answer, 50ms);
-    if (! is_there) return "it does not answer, neither its firmware nor what loads it: check its power and its cable";
+    if (! is_there) return "neither its firmware nor its loader answers: check its power and its cable";
     setLines (0);
     setSpeed (loading_baud);
     if (! put (ready) || ! expects (ready, 1s)) return "it is not ready for its firmware";
@@ -153,7 +153,7 @@ std::string SerialPort::load (const std::string& from)
     {
         const auto block = left.first (std::min (left.size(), block_size));
         if (! put (block) || ! expects (block, 1s))
-            return "it does not repeat the firmware as it was sent, after " + std::to_string (image.size() - left.size()) + " bytes";
+            return "its echo of the firmware is wrong after " + std::to_string (image.size() - left.size()) + " bytes";
         left = left.subspan (block.size());
     }
     return {};

@@ -286,7 +286,7 @@ TEST_CASE ("a wheel gets its gain and its centring spring back, and the person i
     REQUIRE (w.messages.size() == 1);
     CHECK (w.messages[0].id == "device/remark");
     CHECK (w.messages[0].text.find ("the kernel does not tell the gain and the centring spring of Test wheel") != std::string::npos);
-    CHECK (w.messages[0].text.find ("so after the program the gain stays full and the spring stays off") != std::string::npos);
+    CHECK (w.messages[0].text.find ("so after the program ends, the gain stays full and the spring stays off") != std::string::npos);
     w.opened.reset();
     CHECK (last ("gain") == 0xffff);
     CHECK (last ("autocenter") == 0);

@@ -75,7 +75,7 @@ TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")
     const auto most = ended.out.find ("at most ");
     REQUIRE (most != std::string::npos);
     CHECK (std::stod (ended.out.substr (most + 8)) == Approx (0.5).epsilon (0.01));
-    CHECK (ended.out.find (" 0 bytes that were none of a packet") != std::string::npos);
+    CHECK (ended.out.find (" 0 bytes outside packets") != std::string::npos);
 
     const auto wrong = test::runTactus ({ "fake-device", "falcon", "--fault", "away@1:1" });
     CHECK (wrong.status != 0);

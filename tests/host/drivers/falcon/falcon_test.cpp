@@ -453,7 +453,7 @@ TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what i
     CHECK (desk.pushes());
     CHECK (desk.said().empty());   // it has its firmware until its power is cut
     CHECK (contains (desk.said ({ { "port", "ttyUSB0" } }), "name the port: falcon:/dev/ttyUSB0"));
-    CHECK (contains (desk.said ({ { "port", "/dev/null" } }), "is no serial port"));
+    CHECK (contains (desk.said ({ { "port", "/dev/null" } }), "is not a serial port"));
     CHECK (contains (desk.said ({ { "port", "/dev/not_there" } }), "No such file"));
     REQUIRE (desk.opens());
     Desk other;
