@@ -152,7 +152,7 @@ private:
 
     static std::array<const DeviceNumbers*, 3> axesOf (const DeviceNumbers& n) noexcept { return { &n, &n, &n }; }
 
-    /// The device, braked as it is at a place.
+    /// The numbers of the device, with its brake as at a place.
     DeviceNumbers at (const Slope& s) const
     {
         auto braked = numbers;

@@ -55,7 +55,7 @@ bool swings (const graph::Graph& graph, const CompileOptions& options, const che
              const own::Grip& grip, std::string& how)
 {
     const auto mechanics = mechanicsOf (*device.simulated);
-    const auto placed = [&] {   // each start has a loop of its own: a cut stays, and a tool that is put elsewhere is a blow
+    const auto placed = [&] {   // a new loop for each start: a cut stays, and moving a tool is a blow
         auto loop = std::make_unique<own::Loop> (graph, catalogue(), options, mechanics, device.role);
         loop->follow (path);
         return loop;
@@ -77,7 +77,7 @@ bool swings (const graph::Graph& graph, const CompileOptions& options, const che
     for (const Vec3& way : { out, Vec3 (-aside), Vec3 (-0.8 * out + 0.48 * aside + 0.36 * other), aside, other, Vec3 (-other) })
         if (most <= threshold) most = std::max (most, moved (off * way));
     if (most <= threshold) return false;
-    return most > 3.0 * moved (Vec3::Zero());   // else the graph plays, or the place itself is none to rest at
+    return most > 3.0 * moved (Vec3::Zero());   // else the graph plays, or the tool cannot rest at the place
 }
 }   // namespace
 

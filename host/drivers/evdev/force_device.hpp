@@ -43,7 +43,7 @@ public:
     /// Gives the wheel back the gain and the centring spring that it had, if they are known. The effects must rest. [opening thread]
     void restore();
 
-    /// The sentence about settings that stay changed after the program, because the kernel does not tell their old values; empty if there are none.
+    /// The sentence about settings that stay changed when the program ends, because the kernel does not tell their old values; empty if there are none.
     std::string whatStaysChanged() const;
 
     /// The description of the device. Refers to this object.

@@ -280,7 +280,7 @@ void FakeFalcon::take (const std::uint8_t* p)
         for (std::size_t i = 0; i < 3; ++i)
             next[i] += 0.2 * (target[i] + force[i] / stiffness + tremor * std::sin (0.3 * static_cast<double> (packets)) - grip[i]);
     const auto angles = falcon_legs::anglesAt (next);
-    if (std::isfinite (angles[0] + angles[1] + angles[2])) grip = next;   // where the legs do not reach, they stop it
+    if (std::isfinite (angles[0] + angles[1] + angles[2])) grip = next;   // beyond the reach of the legs, the grip stops
 }
 
 std::vector<std::uint8_t> FakeFalcon::answer() const

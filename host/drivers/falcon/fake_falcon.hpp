@@ -43,7 +43,7 @@ public:
         changed,      ///< each third answer has another count, as if a byte had changed on the way
         impossible,   ///< counts that no pose has
         late,         ///< each answer takes 30 ms
-        forgetful     ///< it does not know its position any more
+        forgetful     ///< it no longer knows its position
     };
 
     /// The hand: gives the next place of the grip, from its place now and the force on it, for each packet. [thread of the fake]

@@ -41,7 +41,7 @@ struct Report
     unsigned bits = 0;
 };
 
-/// Finds packets among bytes, of which some may be lost or added.
+/// Finds packets in a stream of bytes, some of which may be lost or added.
 class PacketFinder
 {
 public:
@@ -61,7 +61,7 @@ public:
         }
         for (int& count : report.counts)
             count = static_cast<std::int16_t> (count);
-        last = {};   // none of its bytes belongs to another one
+        last = {};   // its bytes belong to no other packet
         return report;
     }
 

@@ -25,7 +25,7 @@ class Inverse3Messages
 {
 public:
     static constexpr std::array<const char*, 4> buttons { "a", "b", "c", "home" };      ///< of a grip, by bit
-    static constexpr auto question = R"({"session":{"force_render_full_state":{}}})";   ///< asks a service that does not speak first what it has
+    static constexpr auto question = R"({"session":{"force_render_full_state":{}}})";   ///< asks a service that does not send the first message for its state
 
     /// Takes what the person asks for: "device_id", "grip" and "spelling". Returns what is wrong with it; empty: nothing.
     std::string configure (const Json& description);

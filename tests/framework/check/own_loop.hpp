@@ -116,7 +116,7 @@ public:
 
     Vec3 force() const { return hand.got.force; }
 
-    /// Lets the tool go, this far from the last place of the path and with a hand that pushes with a constant force.
+    /// Lets the tool go at a distance from the last place of the path, with a hand that pushes with a constant force.
     Third letGo (const Vec3& off, const Grip& grip, const Vec3& push)
     {
         const int fine = mechanics.mode_hz > 0.0 ? 20 : 8;

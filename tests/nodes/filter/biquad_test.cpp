@@ -137,7 +137,7 @@ TEST_CASE ("biquad: while its params stand still, it gives what the cookbook's r
 
 TEST_CASE ("biquad: a cutoff on a square wave does not make it grow", "[nodes][filter]")
 {
-    // Noise of rms 1 through filters of which none has a source of energy. In direct form, these reached 1e308 and 1e96.
+    // Noise of rms 1 through filters without a source of energy. In direct form, they reached 1e308 and 1e96.
     struct Case
     {
         Kind kind;

@@ -142,7 +142,7 @@ TEST_CASE ("play runs in real time and brings the force to zero at the end", "[c
     const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->rows() > 0);
-    CHECK (table->rows() < 4400);   // a busy computer loses ticks, or gets several at once, and the run lasts a second all the same
+    CHECK (table->rows() < 4400);   // a busy computer loses ticks, or gets several at once, but the run still lasts a second
 }
 
 TEST_CASE ("play records the same bits as render", "[cli]")

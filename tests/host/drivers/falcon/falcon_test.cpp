@@ -245,7 +245,7 @@ TEST_CASE ("a Falcon is read and pushed in the axes of Tactus, one packet at a t
 
 TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions that its encoders have rounded", "[falcon]")
 {
-    /// A device that reads what it is told, and keeps what it gets.
+    /// A device with the readings that the test gives it, which keeps the efforts that it gets.
     struct ToldDevice final : Device
     {
         void prepare (double) override {}
