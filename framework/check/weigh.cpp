@@ -132,8 +132,8 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     {
         c.verdict = Verdict::unknown;
         c.text = letGo (*doubtful) + "still moves " + moves (*doubtful) + "; " + c.text;
-        c.remedy = "in a trial, the tool still moves in the third second, but too little to call it unstable: try it by hand, or check the same graph with "
-                   "softer or stiffer forces";
+        c.remedy = "in a trial, the tool still moves in the third second, but not clearly enough to call it unstable: try it by hand, or check the same graph "
+                   "with softer or stiffer forces";
         return;
     }
     if (! are_tried || (is_lost && (c.verdict == Verdict::unstable || c.verdict == Verdict::broken)))
