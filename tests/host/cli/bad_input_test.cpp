@@ -139,12 +139,14 @@ TEST_CASE ("all problems in all files are reported in one go", "[cli]")
                                          R"("a.out => b.in", "x.out -> b.in")"));
     const auto b = scratch.write ("b.json", "{");
     const auto fine = scratch.write ("fine.json", graph (amp));
-    const auto ran = runTactus ({ "validate", a, b, fine, scratch.path ("missing.json") });
+    const auto warned = scratch.write ("warned.json", graph (R"("hand": { "type": "device.position", "role": "stylus" })", ""));   // no device
+    const auto ran = runTactus ({ "validate", a, b, fine, warned, scratch.path ("missing.json") });
     INFO (ran.err);
     CHECK (ran.status == 1);
     for (const auto* id : { "wire/syntax", "file/syntax", "file/unreadable" })
         CHECK (ran.err.find ("[" + std::string (id) + "]") != std::string::npos);
-    CHECK (ran.out.find ("fine.json: ok") != std::string::npos);
+    CHECK (ran.out.find ("fine.json: ok\n") != std::string::npos);
+    CHECK (ran.out.find ("warned.json: ok, with warnings\n") != std::string::npos);
 }
 
 TEST_CASE ("a command that is used wrongly exits with status 2 and prints its usage", "[cli]")
