@@ -218,6 +218,7 @@ class Data(TestCase):
         self.assertIn("do not vary", self.imported({"Accel/A_query1.txt": "0\n" * 2000}, kind="lmt")[1])
 
 
+@unittest.skipUnless(PROGRAM, "the program is not built")
 class Command(TestCase):
     """`tactus import-data`, which starts the package."""
 
