@@ -250,7 +250,7 @@ class Command(TestCase):
         ran = self.ran(PYTHONPATH=str(packages))
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(ran.stdout, "")
-        self.assertTrue(ran.stderr.startswith("error: the Python package tactus is not there"), ran.stderr)
+        self.assertTrue(ran.stderr.startswith("error: the Python package tactus is not installed"), ran.stderr)
         self.assertFalse((self.folder / "out").exists())
 
 

@@ -157,6 +157,7 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
     const auto limits = limitsOf (*profile.make(), {});
     std::vector<Reading> readings;
     Times times;
+    std::uint64_t replaced = 0;   // answers that never reached the board, because ticks of the timer made newer ones
     {
         const auto device = openBoard (board, profile);
         Listening listening { *device };
@@ -170,7 +171,8 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
         runner.wait();
         readings = std::move (listening.readings);
         CHECK (device->counts().lost == 0);
-        CHECK (device->port().counts().dropped <= clock.ticksByTimer());
+        replaced = device->port().counts().dropped;
+        CHECK (replaced <= clock.ticksByTimer());
     }
 
     // Run the same readings offline, with the times that the guard has counted.
@@ -198,8 +200,10 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
 
     // At its end the live run halts; the offline one does not.
     const int end = numberOf (readings.at (length - 1));
-    std::size_t compared = 0, different = 0, with_force = 0;
+    std::size_t compared = 0, different = 0, with_force = 0, at_rest = 0;
     for (const auto& told : board.told())
+    {
+        at_rest += ! told.isDriven();   // while the guard waits after a stall of the computer
         if (told.isDriven() && told.echo() > 0 && told.echo() < end)
         {
             const std::array force { told.force (0), told.force (1), told.force (2) };
@@ -207,8 +211,10 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
             different += ! offline[told.echo()].contains (force);
             with_force += force[0] != 0;
         }
+    }
     CHECK (end > length / 2);
     CHECK (different == 0);
-    CHECK (compared + 20 > static_cast<std::size_t> (end));
+    CHECK (compared + at_rest + replaced + 20 > static_cast<std::size_t> (end));
+    CHECK (compared > static_cast<std::size_t> (end) / 4);
     CHECK (with_force > compared / 2);
 }
