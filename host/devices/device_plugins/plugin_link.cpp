@@ -25,7 +25,6 @@ constexpr auto longest_write = 20ms;    // as tactus_device.h says
 constexpr int most_slow_writes = 8;     // in a row; a busy computer makes some calls longer
 constexpr auto longest_leave = 200ms;   // for how long a device that does not come to rest is asked again, before it is closed
 constexpr auto between_tries = 5ms;
-constexpr auto longest_takeover = 15s;   // the guardian tries for 10 s
 constexpr int least_tries = 3;
 constexpr auto after_failure = 10ms, between_throttled = 1ms;
 constexpr double most_calls = 20e3, most_in_a_row = 64.0;   // per s
@@ -35,17 +34,6 @@ double secondsOf (Clock::duration d) noexcept { return std::chrono::duration<dou
 bool areFinite (std::span<const double> all) noexcept
 {
     return std::ranges::all_of (all, [] (double v) { return isFinite (v); });
-}
-
-/// A device that does not come to rest: nothing beats for it any more, so the guardian takes it.
-void leaveToGuardian (Failsafe failsafe)
-{
-    static std::mutex changing;
-    static auto& all = *new std::vector<std::pair<Clock::time_point, Failsafe>>;   // the end of the program must not disarm them
-    const std::lock_guard lock (changing);
-    const auto now = Clock::now();
-    std::erase_if (all, [now] (const auto& left) { return now - left.first > longest_takeover; });
-    all.emplace_back (now, std::move (failsafe));
 }
 
 /// A limit to how often a driver may be called. It is far above the rate at which any device reports: readings must not queue up because of it.
@@ -292,7 +280,7 @@ void PluginDevice::Link::lookAgain()
         if (device)
         {
             leaveDevice();
-            leaveFailsafe();
+            failsafe.reset();
             device.reset();
         }
     }
@@ -484,14 +472,7 @@ void PluginDevice::Link::leave()
     const std::lock_guard lock (calling);
     if (! device) return;
     leaveDevice();
-    leaveFailsafe();   // now, because the reading thread may hang in the driver
-}
-
-/// [with `calling` held]
-void PluginDevice::Link::leaveFailsafe()
-{
-    if (driven && failsafe) leaveToGuardian (std::move (*failsafe));
-    failsafe.reset();
+    failsafe.reset();   // now, because the reading thread may hang in the driver
 }
 
 void PluginDevice::Link::close()

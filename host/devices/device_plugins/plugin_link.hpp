@@ -118,7 +118,6 @@ private:
     void quieten();
     void loseSuspended();
     void leaveDevice();
-    void leaveFailsafe();
 
     const Options options;
     const Clock::duration longest_silence;

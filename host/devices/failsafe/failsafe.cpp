@@ -162,8 +162,13 @@ std::string tryGuardian()
     }
     to_guardian = ends[0];
     guardian_process = child;
-    for (const auto& entry : armed)
-        if (const int file = entry.file.load(); file >= 0) guardian::send (to_guardian, entry.reports, file);
+    for (std::size_t i = 0; i < armed.size(); ++i)
+        if (const int file = armed[i].file.load(); file >= 0)
+        {
+            auto reports = armed[i].reports;
+            reports.due = shared.load()->beats[i] == SharedState::taken ? 1 : 0;   // nobody knows whether the last guardian could write them
+            guardian::send (to_guardian, reports, file);
+        }
     return {};
 }
 
@@ -364,9 +369,9 @@ Failsafe::~Failsafe()
     if (slot == none || is_child) return;
     const std::lock_guard lock (changing);
     auto& entry = armed[static_cast<std::size_t> (slot)];
-    shared.load()->beats[static_cast<std::size_t> (slot)] = SharedState::at_rest;
+    const bool is_driven = shared.load()->beats[static_cast<std::size_t> (slot)].exchange (SharedState::at_rest) > SharedState::at_rest;
     if (const int file = entry.file.exchange (-1); file >= 0) ::close (file);
-    guardian::send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0 }, -1);
+    guardian::send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0, .due = is_driven ? 1u : 0u }, -1);
     if (! isAnythingArmed()) handleFaults (false);
 }
 

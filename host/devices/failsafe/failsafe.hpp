@@ -18,7 +18,9 @@ namespace tactus::host
 ///  - after anything else (kill -9, out of memory) by a guardian: a small process that also has the device file open, and
 ///    notices the death because a socket closes;
 ///  - by the guardian, too, if the thread that drives the device gives no sign of life (beat()) for as long as `patience`, for
-///    example because the process was suspended (kill -STOP, a debugger).
+///    example because the process was suspended (kill -STOP, a debugger);
+///  - by the guardian, too, if the object goes while an effort may be on the device: its last beat was that of a driven device, which did not come to
+///    rest. The guardian then tries for up to 10 s. This raises no alarm.
 ///
 /// Three events raise an alarm, after which the forces of the whole run must stay at zero until someone rearms: a device was
 /// taken, the guardian itself was killed or frozen, or the computer has slept. Runs compare alarms() on every tick.
@@ -56,7 +58,7 @@ public:
 
     Failsafe (Failsafe&&) noexcept;
     Failsafe& operator= (Failsafe&&) noexcept;
-    ~Failsafe();   ///< disarms the failsafe
+    ~Failsafe();   ///< disarms the failsafe, or leaves a device that is still driven to the guardian
 
     /// A sign of life from the thread that writes to the device. Call it several times per `patience` while an effort may be on the
     /// device (`driven`), and once more when there is none. Makes no system call. Returns false if the guardian has taken the device,

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 using namespace tactus::host;
 using guardian::FinalReports;
@@ -35,6 +36,14 @@ struct ArmedDevice
     int tries = 0;
 };
 std::array<ArmedDevice, Failsafe::most_devices> armed;
+std::array<ArmedDevice, Failsafe::most_devices> left;   // the program gave them up before they were at rest
+std::size_t next_left = 0;
+
+void close (ArmedDevice& device) noexcept
+{
+    if (device.file >= 0) ::close (device.file);
+    device = {};
+}
 
 /// Receives a message and, if it arms a failsafe, the device file. False once the other end is closed.
 bool receive (int from, FinalReports& reports, int& file) noexcept
@@ -103,22 +112,43 @@ bool lookAtBeats (SharedState& shared) noexcept
 bool writeDue() noexcept
 {
     bool again = false;
-    for (auto& [file, reports, due, tries] : armed)
+    const auto write = [&] (ArmedDevice& device) {
+        if (device.file < 0 || device.due == 0) return;
+        device.due = guardian::write (device.file, device.reports, device.due);
+        if (++device.tries == most_tries) device.due = 0;
+        again = again || device.due != 0;
+    };
+    for (auto& device : armed)
+        write (device);
+    for (auto& device : left)
     {
-        if (file < 0 || due == 0) continue;
-        due = guardian::write (file, reports, due);
-        if (++tries == most_tries) due = 0;
-        again = again || due != 0;
+        write (device);
+        if (device.due == 0) close (device);
     }
     return again;
 }
 
-void takeOver (const FinalReports& reports, int file) noexcept
+/// Keeps a device whose slot becomes free, until its reports are written.
+void keep (const ArmedDevice& device) noexcept
 {
-    if (reports.slot >= armed.size()) return;
+    auto& place = left[next_left++ % left.size()];   // if all are full, the oldest has been tried for the longest time
+    close (place);
+    place = device;
+}
+
+/// True if the message gives up a device that is driven.
+bool takeOver (const FinalReports& reports, int file) noexcept
+{
+    if (reports.slot >= armed.size()) return false;
     auto& slot = armed[reports.slot];
-    if (slot.file >= 0) ::close (slot.file);
-    slot = { reports.count > 0 ? file : -1, reports, 0, 0 };
+    const bool is_given_up = reports.count == 0 && slot.file >= 0 && reports.due != 0;
+    if (is_given_up) slot.due = guardian::all_reports;
+    if (slot.due != 0)
+        keep (std::exchange (slot, {}));
+    else
+        close (slot);
+    if (reports.count > 0) slot = { file, reports, reports.due != 0 ? guardian::all_reports : 0, 0 };
+    return is_given_up;
 }
 
 /// The memory that is shared with the program; null if it is not there.
@@ -168,7 +198,11 @@ int main (int count, char** arguments)
             if (has_taken) note ("the program did not respond");
         }
         else if (ready > 0 && receive (guardian::message_socket, reports, file))
-            takeOver (reports, file);
+        {
+            if (! takeOver (reports, file)) continue;
+            writeDue();
+            note ("the program gave up a device that was not at rest");
+        }
         else if (ready > 0 || errno != EINTR)
             break;
     }

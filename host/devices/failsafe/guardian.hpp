@@ -19,6 +19,7 @@ namespace tactus::host::guardian
 struct FinalReports
 {
     std::uint32_t slot = 0, count = 0;   // count 0: disarmed
+    std::uint32_t due = 0;               // 1: the reports of this slot must be written now
     std::array<std::uint16_t, Failsafe::most_reports> sizes {};
     std::array<std::uint8_t, Failsafe::most_reports> is_feature {};
     std::array<std::uint8_t, Failsafe::most_bytes> bytes {};
@@ -74,7 +75,8 @@ inline constexpr std::uint32_t all_reports = (1u << Failsafe::most_reports) - 1u
 /// Writes these reports to a device file, in order, and returns those that the system did not take. [even in a signal handler]
 std::uint32_t write (int file, const FinalReports&, std::uint32_t which = all_reports) noexcept;
 
-/// Sends the guardian a message that arms a slot, with its device file, or disarms it. False, with errno, if this failed.
+/// Sends the guardian a message that arms a slot, with its device file, or disarms it. A slot that is disarmed before its due reports are written is
+/// free, but the guardian goes on writing them. False, with errno, if this failed.
 bool send (int to, const FinalReports&, int file) noexcept;
 
 #endif

@@ -274,6 +274,74 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
     CHECK (test::stays (std::chrono::milliseconds (100), [&] { return contentOf (file).empty(); }));
 }
 
+TEST_CASE ("a device that is given up while it is driven is left to the guardian, until it takes its reports", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto path = (folder / "device").string();
+    REQUIRE (::mkfifo (path.c_str(), 0600) == 0);
+    const int device = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    REQUIRE (device >= 0);
+    std::array<char, 4096> some {};
+    while (::write (device, some.data(), some.size()) > 0)   // until there is no room
+        ;
+    const auto taken = [&] {
+        std::string all;
+        for (ssize_t got = 0; (got = ::read (device, some.data(), some.size())) > 0;)
+            all.append (some.data(), static_cast<std::size_t> (got));
+        return all;
+    };
+    const auto file = (folder / "next").string();
+    std::ofstream { file }.close();
+    const bool was_taken = GENERATE (false, true);
+    CAPTURE (was_taken);
+    const auto end = test::inChild ([&] {   // this process goes on
+        auto failsafe = Failsafe::arm (path, rest());
+        if (! failsafe || ! failsafe->beat (true)) return 1;
+        if (was_taken && ! eventually ([] { return Failsafe::alarms() == 1; })) return 2;   // the guardian has taken it, and cannot write either
+        {
+            const auto given_up = std::move (*failsafe);
+        }
+        auto next = Failsafe::arm (file, rest());   // in the same slot
+        if (! next || ! next->beat (false)) return 3;
+        test::letPass (std::chrono::milliseconds (100));   // the first tries fail
+        std::string last;
+        if (! eventually ([&] { return (last += taken()).ends_with ("rest!"); })) return 4;
+        return contentOf (file).empty() && Failsafe::alarms() == (was_taken ? 1 : 0) ? 0 : 5;
+    });
+    CHECK (end.status == 0);
+    ::close (device);
+}
+
+TEST_CASE ("a guardian that replaces another one brings the devices to rest that the other one had taken", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto path = (folder / "device").string();
+    REQUIRE (::mkfifo (path.c_str(), 0600) == 0);
+    const int device = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    REQUIRE (device >= 0);
+    std::array<char, 4096> some {};
+    while (::write (device, some.data(), some.size()) > 0)
+        ;
+    const auto end = test::inChild ([&] {
+        auto failsafe = Failsafe::arm (path, rest());
+        if (! failsafe || ! failsafe->beat (true)) return 1;
+        pid_t first = -1;
+        if (! eventually ([&] { return (first = test::guardianOf (::getpid())) > 0 && Failsafe::alarms() == 1; })) return 2;
+        ::kill (first, SIGKILL);
+        if (! eventually ([] { return Failsafe::alarms() == 2; })) return 3;   // it is dead
+        std::string last;
+        return eventually ([&] {
+            for (ssize_t got = 0; (got = ::read (device, some.data(), some.size())) > 0;)
+                last.append (some.data(), static_cast<std::size_t> (got));
+            return last.ends_with ("rest!");
+        })
+                   ? 0
+                   : 4;
+    });
+    CHECK (end.status == 0);
+    ::close (device);
+}
+
 TEST_CASE ("the guardian brings the device of a frozen process to rest, and the process finds out when it continues", "[platform]")
 {
     const TemporaryFolder folder;

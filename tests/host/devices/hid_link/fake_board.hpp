@@ -3,6 +3,7 @@
 
 #include "support/waiting.hpp"
 
+#include <host/devices/failsafe/failsafe.hpp>
 #include <host/devices/hid/profile_reader.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
 
@@ -17,6 +18,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -107,7 +109,8 @@ struct Told
 class FakeBoard final : public host::hid::HidSystem
 {
 public:
-    std::string no_failsafe;   ///< the id with which arming a failsafe fails; empty: it does not
+    std::string no_failsafe;     ///< the id with which arming a failsafe fails; empty: it does not
+    std::string failsafe_file;   ///< if set, a real failsafe is armed, which writes to this file
 
     FakeBoard()
     {
@@ -151,6 +154,11 @@ public:
             ++plugging;
             waiting.clear();
         });
+    }
+    /// Reads of the present connection fail, as for a device that the bus has lost for a moment. The next connection works.
+    void failReads()
+    {
+        change ([&] { unreadable = opened; });
     }
     void failWrites (bool f)
     {
@@ -237,6 +245,13 @@ private:
             Result<> armed;
             for (const auto& r : reports)
                 armed = tell (r.bytes, Told::How::failsafe);
+            if (board.failsafe_file.empty()) return armed;
+            std::vector<host::Failsafe::Report> last;
+            for (const auto& r : reports)
+                last.push_back ({ r.bytes, r.is_feature });
+            auto real = host::Failsafe::arm (board.failsafe_file, last);
+            REQUIRE (real);
+            failsafe.emplace (std::move (*real));
             return armed;
         }
 
@@ -244,7 +259,7 @@ private:
         {
             const std::lock_guard lock (board.mutex);
             board.beaten += driven ? 1 : 0;
-            return opening > board.taken;
+            return (! failsafe || failsafe->beat (driven)) && opening > board.taken;
         }
 
     private:
@@ -254,8 +269,9 @@ private:
         {
             using Kind = host::ReportFile::Outcome::Kind;
             std::unique_lock lock (board.mutex);
-            board.changed.wait_until (lock, until, [&] { return gone() || ! board.waiting.empty(); });
-            if (gone()) return { .what = Kind::failure };
+            const auto fails = [&] { return gone() || opening <= board.unreadable; };
+            board.changed.wait_until (lock, until, [&] { return fails() || ! board.waiting.empty(); });
+            if (fails()) return { .what = Kind::failure };
             if (board.waiting.empty()) return {};
             const auto report = std::move (board.waiting.front());
             board.waiting.pop_front();
@@ -277,6 +293,7 @@ private:
 
         FakeBoard& board;
         const int plugging, opening;
+        std::optional<host::Failsafe> failsafe;
     };
 
     template <typename F>
@@ -295,7 +312,7 @@ private:
     std::vector<Told> log;
     std::vector<std::thread::id> who_read;
     bool plugged = true, failing = false, forbidden = false;
-    int plugging = 0, opened = 0, taken = 0, beaten = 0;
+    int plugging = 0, opened = 0, taken = 0, unreadable = 0, beaten = 0;
 };
 
 inline std::unique_ptr<host::hid::HidDevice> openBoard (FakeBoard& board, const BoardProfile& profile = {})

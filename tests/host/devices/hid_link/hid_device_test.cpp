@@ -5,10 +5,14 @@
 
 #include "support/no_allocation.hpp"
 #include "support/no_system_calls.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
+
+#include <fstream>
+#include <iterator>
 
 using namespace tactus;
 using namespace tactus::host::hid;
@@ -366,6 +370,49 @@ TEST_CASE ("neutral reports that the system does not take are sent again: after 
     if (closes) return;
     CHECK (device->port().counts().silences == 1);
     CHECK (device->port().counts().write_errors >= 2);
+}
+
+TEST_CASE ("a device that takes no neutral report when it is lost or closed is left to the guardian", "[hid][safety]")
+{
+    const bool closes = GENERATE (false, true), works = GENERATE (false, true);
+    const TemporaryFolder folder;
+    FakeBoard board;
+    board.failsafe_file = (folder / "device").string();
+    std::ofstream { board.failsafe_file }.close();
+    const auto content = [&] {
+        std::ifstream in (board.failsafe_file, std::ios::binary);
+        return Bytes (std::istreambuf_iterator<char> (in), {});
+    };
+    auto device = openBoard (board, { .watchdog = 3600.0 });
+    REQUIRE (eventually ([&] {   // again if the guardian took the board, because the writing thread did not run for so long
+        tell (board, *device, boardReport (1));
+        for (const double force : { 0.0, 1.0 })
+        {
+            device->read();
+            device->write ({ { force, 0.0, 0.0 }, Vec3::Zero() });
+        }
+        return board.told().back().force (0) == 1'000'000;
+    }));
+    REQUIRE (content().empty());
+
+    // A board that is unplugged cannot be written to, but one that is lost for another reason may still push.
+    board.failWrites (! works);
+    if (closes)
+        device.reset();
+    else
+        board.failReads();
+
+    Bytes neutral (25);
+    neutral[1] = 0x54;
+    if (works)
+    {
+        CHECK (eventually ([&] { return std::ranges::any_of (board.told(), &test::Told::isNeutral); }));
+        if (! closes) CHECK (eventually ([&] { return board.openings() == 2; }));
+        CHECK (stays (50ms, [&] { return content().empty(); }));
+        return;
+    }
+    neutral.insert (neutral.end(), { 0, 0xaa, 0x03 });   // and the exit step
+    CHECK (eventually ([&] { return content() == neutral; }));
 }
 
 TEST_CASE ("while a device is slow to take reports, only the latest effort is kept and sent", "[hid]")
