@@ -65,6 +65,13 @@ std::filesystem::path homeFolder()
     return folder.empty() || whoElseCanChange (folder).empty() ? folder : fs::path();
 }
 
+std::filesystem::path runFolder()
+{
+    if (const auto told = fromEnvironment ("XDG_RUNTIME_DIR"); told.is_absolute()) return told / "tactus";
+    const auto home = homeFolder();
+    return home.empty() ? home : home / "run";
+}
+
 std::filesystem::path documentsFolder()
 {
 #if defined(_WIN32) || defined(__APPLE__)

@@ -14,6 +14,10 @@ namespace tactus::host
 /// can change what is in the folder. [main thread]
 std::filesystem::path homeFolder();
 
+/// The folder for what lasts only as long as programs run: tactus in XDG_RUNTIME_DIR, or run in homeFolder(). Like that, it may not exist, or be empty.
+/// [main thread]
+std::filesystem::path runFolder();
+
 /// The user's documents on Linux: XDG_DOCUMENTS_DIR in the environment or in user-dirs.dirs, or ~/Documents. It may not exist. Empty on other
 /// systems, or if the user's home is unknown. [main thread]
 std::filesystem::path documentsFolder();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "peer_lock.hpp"
+#include "home_folder.hpp"
+#include "private_folder.hpp"
 
 #if defined(__linux__)
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <pthread.h>
 #include <pwd.h>
@@ -13,12 +16,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 #endif
 
@@ -29,7 +34,17 @@ namespace tactus::host
 
 namespace
 {
-std::array<std::atomic<int>, 64> locks {};   // a file + 1; 0: free
+constexpr std::size_t most_devices = 64;
+std::array<std::atomic<int>, 2 * most_devices> locks {};   // a file + 1; 0: free
+
+/// Enters an open file in the table. If it is full, closes the file and returns null.
+std::atomic<int>* keep (int file) noexcept
+{
+    for (auto& slot : locks)
+        if (int none = 0; slot.compare_exchange_strong (none, file + 1)) return &slot;
+    ::close (file);
+    return nullptr;
+}
 
 void release (std::atomic<int>& slot) noexcept
 {
@@ -194,10 +209,48 @@ std::string wordsFor (pid_t process)
     return " (process " + std::to_string (process) + (name.empty() ? ")" : ", " + name + ")");
 }
 
+/// One byte of the file of all locks stands for each device. The networks and the computers that share the file are part of the name. FNV-1a.
+off_t byteFor (const std::string& device)
+{
+    std::array<char, 256> computer {}, network {};
+    ::gethostname (computer.data(), computer.size() - 1);
+    static_cast<void> (::readlink ("/proc/self/ns/net", network.data(), network.size() - 1) < 0);   // then all programs have the same one
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const char c : std::string (computer.data()) + ' ' + network.data() + ' ' + device)
+        hash = (hash ^ static_cast<unsigned char> (c)) * 1099511628211ull;
+    return static_cast<off_t> (hash >> 1);
+}
+
+/// Whether this process has locked the device's byte in the file of this user's locks.
+struct OwnLock
+{
+    int file = -1;   // -1: not locked
+    bool is_taken = false;
+
+    explicit OwnLock (const std::string& device)
+    {
+        const auto folder = runFolder();
+        if (folder.empty() || ! needOwnFolder (folder)) return;
+        file = ::open ((folder / "devices").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR);
+        struct flock lock
+        {
+        };   // of this open file: two roles of one process exclude each other, too
+        lock.l_type = F_WRLCK;
+        lock.l_whence = SEEK_SET;
+        lock.l_start = byteFor (device);
+        lock.l_len = 1;
+        if (file < 0 || ::fcntl (file, F_OFD_SETLK, &lock) == 0) return;
+        is_taken = errno == EAGAIN || errno == EACCES;
+        ::close (std::exchange (file, -1));
+    }
+};
+
+constexpr auto own_user = "another role or another instance of Tactus is using it";
+
 /// The reason why a lock counts; empty if it does not.
 std::string whyCounts (const Holder& holder, const Peer& peer)
 {
-    if (holder.isMine()) return "another role or another instance of Tactus is using it" + wordsFor (holder.process);
+    if (holder.isMine()) return own_user + wordsFor (holder.process);
     const auto users = usersOf (peer);
     const auto user = holder.is_known ? std::ranges::find (users, holder.user) : users.begin();
     if (user == users.end()) return {};
@@ -212,34 +265,44 @@ PeerLock::Attempt PeerLock::take (int connected_socket, std::string_view part)
     const Peer peer (connected_socket);
     if (forks != 0 || peer.name.empty()) return { .why = "it cannot be locked" };
 
+    const OwnLock own (peer.name + " " + std::string (part));
+    PeerLock lock;
+    const auto full = [] { return Attempt { .why = "it cannot be locked: this program uses " + std::to_string (most_devices) + " devices" }; };
+    if (own.file >= 0 && (lock.slots[0] = keep (own.file)) == nullptr) return full();
+
+    std::string strangers;
     for (int number = 0; number < most_names; ++number)
     {
         const LockName name ("tactus " + (number > 0 ? std::to_string (number) + " " : "") + peer.name + " " + std::string (part));
         const int file = ::socket (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
         if (file < 0) return { .why = "it cannot be locked" };
-        if (::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // the kernel tells a process that connects which process listens
+        if (! own.is_taken && ::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // the kernel tells a process that connects which process listens
         {
-            for (auto& slot : locks)
-                if (int none = 0; slot.compare_exchange_strong (none, file + 1)) return { PeerLock (&slot) };
-            ::close (file);
-            return { .why = "it cannot be locked: this program uses " + std::to_string (locks.size()) + " devices" };
+            lock.slots[1] = keep (file);
+            if (lock.slots[1] == nullptr) return full();
+            return { std::move (lock) };
         }
         ::close (file);
-        if (auto why = whyCounts (Holder (name), peer); ! why.empty()) return { .why = std::move (why) };
+        const Holder holder (name);
+        if (auto why = whyCounts (holder, peer); ! why.empty()) return { .why = std::move (why) };
+        if (number == 0 && holder.is_known) strangers = " by the user " + nameOfUser (holder.user) + wordsFor (holder.process);
     }
-    return { PeerLock (nullptr) };   // no process with a connection to the device holds a lock
+    if (own.is_taken) return { .why = own_user };
+    if (lock.slots[0] != nullptr) return { std::move (lock) };   // no process with a connection to the device holds a lock
+    return { .why = "all names of its lock are held" + strangers + ", and there is no folder of this user for a lock in a file (set XDG_RUNTIME_DIR)" };
 }
 
 PeerLock::~PeerLock()
 {
-    if (slot != nullptr) release (*slot);
+    for (auto* const slot : slots)
+        if (slot != nullptr) release (*slot);
 }
 
 #else
 
 PeerLock::Attempt PeerLock::take (int, std::string_view)
 {
-    return { PeerLock (nullptr) };
+    return { PeerLock() };
 }
 PeerLock::~PeerLock() = default;
 

@@ -6,8 +6,6 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/ownership.hpp>
 
-#include <cstdlib>
-
 namespace tactus::host
 {
 
@@ -15,10 +13,7 @@ namespace fs = std::filesystem;
 
 fs::path TokenFile::pathOf (int port)
 {
-    const char* told = std::getenv ("XDG_RUNTIME_DIR");
-    const fs::path runtime = told != nullptr ? told : "";
-    const auto folder = runtime.is_absolute() ? runtime / "tactus" : homeFolder().empty() ? fs::path()
-                                                                                          : homeFolder() / "run";
+    const auto folder = runFolder();
     return folder.empty() ? folder : folder / ("osc-" + std::to_string (port));
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whose lock on a device over UDP counts, tried with a process of a second user. Only root can start one.
+#include "support/no_system_calls.hpp"
+
 #include <host/base/platform/peer_lock.hpp>
 #include <host/devices/hid_link/wire_file.hpp>
 
@@ -14,10 +16,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <string>
 
+using namespace tactus;
 using namespace tactus::host;
 using hid::WireFile;
 
@@ -145,7 +149,27 @@ TEST_CASE ("the lock of another user counts only if that user has a connection t
                 all = grab (port, number, How::listening) && all;
             return all;
         });
-        CHECK (take());
+        const auto lock = take();
+        CHECK (lock);
+        CHECK (take().why == own);   // two programs of the owner still exclude each other
+        CHECK (PeerLock::take (mine->descriptor(), "another part"));
+        CHECK (test::inChild ([&] { return take() ? 1 : 0; }).status == 0);
+    }
+    SECTION ("nor if it takes all names, and the owner has no folder for a lock: the message says who it is")
+    {
+        const Stranger stranger ([&] {
+            bool all = true;
+            for (int number = 0; number < PeerLock::most_names; ++number)
+                all = grab (port, number, How::listening) && all;
+            return all;
+        });
+        const auto* const before = std::getenv ("XDG_RUNTIME_DIR");
+        const std::string kept = before != nullptr ? before : "";
+        ::setenv ("XDG_RUNTIME_DIR", "/dev/null", 1);
+        const auto refused = take();
+        before != nullptr ? ::setenv ("XDG_RUNTIME_DIR", kept.c_str(), 1) : ::unsetenv ("XDG_RUNTIME_DIR");
+        CHECK_FALSE (refused);
+        CHECK (refused.why.starts_with ("all names of its lock are held by the user nobody (process " + std::to_string (stranger.process) + ", "));
     }
     SECTION ("with a connection, it counts, and the message names user and process")
     {
