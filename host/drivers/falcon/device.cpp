@@ -52,7 +52,7 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
     return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
 }
 
-/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides that of `rest`.
+/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it to rest.
 /// `times`: the factor of all times until a Falcon that does not answer counts as gone, for tests on busy computers.
 template <int times>
 class Falcon
@@ -133,6 +133,7 @@ public:
         const std::lock_guard lock (mutex);
         force = { effort.force[0], effort.force[2], -effort.force[1] };   // x right, y up and z towards the person are the axes of the Falcon
         given = Clock::now();
+        if (pushes && force == Triple {} && in_flight && given - sent > prompt) return putRest (why);   // a stop waits for no answer
         if (! std::exchange (is_new, true)) waits_since = given;
         changed.notify_one();
         if (given - waits_since <= longest_wait) return TACTUS_DEVICE_OK;
@@ -143,10 +144,7 @@ public:
     std::int32_t rest (std::string& why)
     {
         const std::lock_guard lock (mutex);
-        force = {};
-        is_new = false;
-        why = put (at_rest);
-        return why.empty() ? TACTUS_DEVICE_OK : TACTUS_DEVICE_FAILED;
+        return putRest (why);
     }
 
 private:
@@ -236,6 +234,17 @@ private:
         silent_since.reset();
     }
 
+    /// [with the mutex held]
+    std::int32_t putRest (std::string& why)
+    {
+        force = {};
+        is_new = false;
+        why = put (at_rest);
+        if (! why.empty()) return TACTUS_DEVICE_FAILED;
+        pushes = false;
+        return TACTUS_DEVICE_OK;
+    }
+
     /// Sends the newest force, turned into torques at the newest place. A force without a place, or too old a force, is given up, because it would come back
     /// as a step. [reading thread, with the mutex held]
     void send()
@@ -253,7 +262,11 @@ private:
         std::array<int, 3> motors {};
         for (std::size_t i = 0; i < 3; ++i)   // together, so that the direction stays
             motors[i] = static_cast<int> (std::lround (values[i] * (is_saturated ? most_motor / largest : 1.0)));
-        if (put (packetOf (motors, homing | (has_place ? green : red))).empty()) is_new = false;
+        const bool is_push = motors != std::array<int, 3> {};
+        pushes = pushes || is_push;   // a packet that could not be sent may have gone out in part
+        if (! put (packetOf (motors, homing | (has_place ? green : red))).empty()) return;
+        is_new = false;
+        pushes = is_push;
     }
 
     /// [with the mutex held]
@@ -279,6 +292,7 @@ private:
     std::condition_variable changed;
     Triple force {};
     bool is_new = false;
+    bool pushes = false;                    // the last packet had a force
     Clock::time_point given, waits_since;   // times of the newest force, and of the first one that was not sent
     Clock::time_point sent, answered;       // times of the last packet in each direction
     bool in_flight = false;                 // the last packet has not been answered

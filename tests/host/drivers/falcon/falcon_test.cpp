@@ -433,6 +433,42 @@ TEST_CASE ("a Falcon that answers late or not at all has no force for long, and 
     }
 }
 
+TEST_CASE ("a stop of a Falcon waits for no answer", "[falcon][safety]")
+{
+    FakeFalcon falcon;
+    Messages messages;
+    const auto driver = host::DeviceDriver::within (host::falcon::patient_driver);
+    REQUIRE (driver);
+    const auto device = (*driver)->open ({ { "driver", "falcon" }, { "port", falcon.port() } }, messages);
+    REQUIRE (device);
+    host::DriverReport why;
+    tactus_reading reading;
+    tactus_device_stamp stamp;
+    const auto write = [&] (double z) {
+        Effort effort;
+        effort.force.z() = z;
+        return device->write (effort, z == 0.0, GuardLimits::none, why);
+    };
+    REQUIRE (eventually ([&] {
+        write (1.0);
+        return device->read (50ms, reading, stamp, why) == TACTUS_DEVICE_OK && falcon.pushes > 5;
+    }));
+
+    // Nobody reads any more: whatever the device gets from now on does not come from an answer.
+    falcon.fault = Fault::silent;
+    REQUIRE (eventually ([&] {   // the last packet has a force, and its answer never comes
+        write (1.0);
+        device->read (1ms, reading, stamp, why);
+        return ! falcon.isAtRest();
+    }));
+    const auto before = falcon.packets.load();
+    CHECK (eventually ([&] {
+        write (0.0);
+        return falcon.isAtRest();
+    }));
+    CHECK (falcon.packets <= before + 2);   // and not one for each tick; one with a force may have been on its way
+}
+
 TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what is wrong is said", "[falcon]")
 {
     const TemporaryFolder folder;
