@@ -217,6 +217,22 @@ class Data(TestCase):
         self.assertIn("there is no .txt in a folder Accel", self.imported({"a.txt": "1"}, kind="lmt")[1])
         self.assertIn("do not vary", self.imported({"Accel/A_query1.txt": "0\n" * 2000}, kind="lmt")[1])
 
+    def test_no_link_in_the_folder_is_followed_and_no_name_reaches_the_terminal_as_a_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            inside, outside = pathlib.Path(folder) / "recordings", pathlib.Path(folder) / "planted"
+            inside.mkdir()
+            (inside / "Models_Wood.xml").write_text(texture([(50.0, 0.5, 0.2, [0.5, 1.0, 1.5, 2.0], [], 1.0)]), encoding="utf-8")
+            (inside / "Models_\x1b]0;a\x07.xml").write_text("nothing", encoding="utf-8")
+            (inside / "wood.json").symlink_to(outside)   # it leads nowhere yet
+            said = io.StringIO()
+            with contextlib.redirect_stdout(said):
+                status = data.main(["hatt", str(inside), "-o", str(inside)])   # the presets next to the recordings
+            self.assertEqual(status, 1)
+            self.assertIn("wood.json exists", said.getvalue())
+            self.assertFalse(outside.exists())
+            self.assertIn(r"Models_\x1b]0;a\x07.xml: refused", said.getvalue())
+            self.assertTrue(all(c.isprintable() or c == "\n" for c in said.getvalue()))
+
 
 @unittest.skipUnless(PROGRAM, "the program is not built")
 class Command(TestCase):

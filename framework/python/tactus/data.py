@@ -51,6 +51,11 @@ class Problem(Exception):
     """The reason why a file cannot be used, with the place."""
 
 
+def shown(text: str) -> str:
+    """The text for a terminal: a stranger has named the files, and no byte of a name may be a command for the terminal."""
+    return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text)
+
+
 def numbers(element: Element, path: str) -> list[float]:
     """The values of a list, such as <speedList><value>1</value>…</speedList>; a number must be finite."""
     found = element.find(path)
@@ -350,10 +355,12 @@ def preset_of(name: str, models: list[Model], friction: float, mass: float, sour
 
 def write_preset(out: pathlib.Path, name: str, models: list[Model], friction: float, given: argparse.Namespace, source: str) -> pathlib.Path:
     target = out / f"{name.lower().replace(' ', '_')}.json"
-    if target.exists():
-        raise Problem(f"{target} exists; choose an empty folder")
     preset = preset_of(name, models, friction, given.mass, source, given.kind)
-    target.write_text(json.dumps(preset, indent=2) + "\n", encoding="utf-8")
+    try:
+        with target.open("x", encoding="utf-8") as file:   # it follows no link, not even one that leads nowhere: the folder may be a stranger's
+            file.write(json.dumps(preset, indent=2) + "\n")
+    except FileExistsError:
+        raise Problem(f"{target} exists; choose an empty folder") from None
     return target
 
 
@@ -417,10 +424,10 @@ def main(arguments: list[str] | None = None) -> int:
         given.out.mkdir(parents=True, exist_ok=True)
         sentences, refused = import_hatt(given) if given.kind == "hatt" else import_recordings(given)
     except (Problem, OSError) as problem:
-        print(f"error: {problem}", file=sys.stderr)
+        print(shown(f"error: {problem}"), file=sys.stderr)
         return 1
     for sentence in sentences:
-        print(sentence)
+        print(shown(sentence))
     print(f"note: {LICENCES[given.kind]}")
     return 1 if refused else 0
 
