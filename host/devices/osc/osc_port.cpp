@@ -5,6 +5,9 @@
 #include <tactus/run/realtime.hpp>
 #include <tactus/text/caught.hpp>
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -52,7 +55,7 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
     return port;
 }
 
-void OscPort::onArrival (std::function<void (const juce::OSCMessage&)> see)
+void OscPort::onArrival (std::function<bool (const juce::OSCMessage&)> see)
 {
     const std::lock_guard lock (looking);
     first_look = std::move (see);
@@ -128,24 +131,35 @@ void OscPort::listen (const std::stop_token& stop)
     }
 }
 
+/// [with `guard` held]
+void OscPort::put (ReceivedMessage message)
+{
+    if (waiting.size() >= most_waiting)
+    {
+        ++overflowed;
+        const auto same = [&] (const ReceivedMessage& m) { return m.message.getAddressPattern() == message.message.getAddressPattern(); };
+        const auto place = std::find_if (waiting.rbegin(), waiting.rend(), [&] (const auto& m) { return ! m.must_fit || same (m); });
+        if (! message.must_fit || place == waiting.rend() || place->must_fit) return;
+        waiting.erase (std::next (place).base());
+    }
+    waiting.push_back (std::move (message));
+}
+
 void OscPort::take (std::string_view bytes, const std::string& sender_address, int sender_port)
 {
     const auto answers_to = answersTo (sender_address), from = sender_address + ":" + std::to_string (sender_port);
     const auto now = std::chrono::steady_clock::now();
     auto packet = readPacket (bytes);
+    std::vector<bool> must_fit;
     {
         const std::lock_guard lock (looking);
-        if (first_look)
-            for (const auto& message : packet.messages)
-                first_look (message);
+        for (const auto& message : packet.messages)
+            must_fit.push_back (first_look && first_look (message));
     }
     const std::lock_guard lock (guard);
     unread += ! packet.right;
-    for (auto& message : packet.messages)
-        if (waiting.size() < most_waiting)
-            waiting.push_back ({ std::move (message), answers_to, now, from });
-        else
-            ++overflowed;
+    for (std::size_t i = 0; i < packet.messages.size(); ++i)
+        put ({ std::move (packet.messages[i]), answers_to, now, from, must_fit[i] });
     arrived.notify_one();
 }
 

@@ -49,6 +49,7 @@ public:
         std::string host;                           ///< where to send answers; "": the sender gets none
         std::chrono::steady_clock::time_point at;   ///< time of arrival
         std::string from {};                        ///< the socket that has sent it, as 127.0.0.1:40123
+        bool must_fit = false;                      ///< it is never dropped
     };
 
     /// Port 0: any free port. Ids: osc/port_taken, osc/no_address.
@@ -58,9 +59,10 @@ public:
     int number() const noexcept { return bound; }
     const OscListen& listensTo() const noexcept { return where; }
 
-    /// Calls `see` with every message as soon as it arrives, before it waits in the queue, and even if it does not fit there.
-    /// An empty function ends this. `see` must not wait. [main thread; `see` on the thread of the port]
-    void onArrival (std::function<void (const juce::OSCMessage&)> see);
+    /// Calls `see` with every message as soon as it arrives, before it waits in the queue, and even if it does not fit there. If it returns true, the
+    /// message is never dropped: if the queue is full, it takes the place of the newest message that may be dropped, unless the same message waits
+    /// after that one. An empty function ends this. `see` must not wait. [main thread; `see` on the thread of the port]
+    void onArrival (std::function<bool (const juce::OSCMessage&)> see);
 
     /// The oldest waiting message, or the first one that arrives within `patience`.
     std::optional<ReceivedMessage> receive (std::chrono::milliseconds patience = {});
@@ -82,6 +84,7 @@ private:
     static bool bind (juce::DatagramSocket&, const OscListen&);
     void lose();
     void listen (const std::stop_token&);
+    void put (ReceivedMessage);
     void take (std::string_view packet, const std::string& sender, int sender_port);
     std::string answersTo (const std::string& sender) const;
 
@@ -92,7 +95,7 @@ private:
     OscListen where;
     int bound = 0;
     std::mutex looking;   // protects first_look; the main thread takes it only in onArrival, so no emergency stop waits for another thread
-    std::function<void (const juce::OSCMessage&)> first_look;
+    std::function<bool (const juce::OSCMessage&)> first_look;
     mutable std::mutex guard;   // protects the members below
     std::condition_variable arrived;
     std::deque<ReceivedMessage> waiting;

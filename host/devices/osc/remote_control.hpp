@@ -95,7 +95,7 @@ public:
 /// The roles in the status of a run.
 std::vector<RemoteTarget::Role> rolesOf (const RunStatus&);
 
-/// Six random digits and letters.
+/// Twelve random digits and letters. Wrong ones cost a stranger nothing, so that nobody can keep the owner of the right one waiting.
 std::string randomToken();
 
 /// Handles the messages at an OSC port and answers them: docs/osc.md. [main thread]
@@ -165,9 +165,8 @@ private:
     OscPort& port;
     RemoteTarget& controlled;
     const std::string token;
-    std::chrono::steady_clock::time_point arrived_at {};          // of the message that is handled
-    std::chrono::steady_clock::time_point wrong_token_until {};   // until then, no token is accepted
-    std::map<std::string, Clock::time_point> known;               // senders that have given the token, and when they last sent something that needs it
+    std::chrono::steady_clock::time_point arrived_at {};   // of the message that is handled
+    std::map<std::string, Clock::time_point> known;        // senders that have given the token, and when they last sent something that needs it
     std::vector<Probe> probes;
     std::optional<Capture> capture;
     std::vector<std::string> components;

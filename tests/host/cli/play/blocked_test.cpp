@@ -267,7 +267,7 @@ TEST_CASE ("a rearm over OSC that came before a stop does not undo it, however l
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
     const auto us = std::move (*host::OscPort::open (0));
     juce::OSCMessage rearm ("/tactus/rearm");
-    rearm.addString (behind ("(token: ").substr (0, 6));
+    rearm.addString (behind ("(token: ").substr (0, 12));
     rearm.addInt32 (us->number());
 
     play.type ("\x13");   // Ctrl-S

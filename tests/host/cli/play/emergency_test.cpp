@@ -38,7 +38,7 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
-    const auto token = behind ("(token: ").substr (0, 6);
+    const auto token = behind ("(token: ").substr (0, 12);
     const auto us = std::move (*host::OscPort::open (0));
     const auto rearm = [&] {
         us->send (port, juce::OSCMessage ("/tactus/rearm", juce::String (token), us->number()));
@@ -172,7 +172,7 @@ TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, eve
     const auto said = play.err();
     const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
-    const juce::String token (behind ("(token: ").substr (0, 6));
+    const juce::String token (behind ("(token: ").substr (0, 12));
     const auto us = std::move (*host::OscPort::open (0));
     const auto ask = [&] (const juce::OSCMessage& message) {
         us->send (port, message);
