@@ -221,7 +221,7 @@ off_t byteFor (const std::string& device)
     return static_cast<off_t> (hash >> 1);
 }
 
-/// Whether this process has locked the device's byte in the file of this user's locks.
+/// The lock of one device in the file of all locks of this user.
 struct OwnLock
 {
     int file = -1;   // -1: not locked
