@@ -2,6 +2,8 @@
 #include "judging.hpp"
 #include "strongest_change.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -239,6 +241,16 @@ private:
         if (c.verdict == Verdict::broken) closeLoop (c);
         const auto* const its = &role;
         weigh (demand, options.trials, c, { &its, 1 }, turns(), claimedLoad() <= limit);
+        doubtDamper (c);
+    }
+
+    /// A damper that grows with the speed may swing only after a hard blow, harder than those of the trials.
+    void doubtDamper (Condition& c) const
+    {
+        if (! c.isKnown() || c.isBroken() || isOverdamped() || ! numbers.mass || ! numbers.damping || role.claimed_damping < largestDamper()) return;
+        c.verdict = Verdict::unknown;
+        c.text += "; after a hard blow, it may swing: at more speed than here, the virtual damping is up to " + text (role.claimed_damping, "N*s/m");
+        c.remedy = "a virtual damping that is at any speed " + below (largestDamper(), "N*s/m");
     }
 
     /// True if the node with the steepest force at a place is a friction.
@@ -254,6 +266,23 @@ private:
         return std::ranges::any_of (role.slopes, [&] (const Slope& s) {
             return isDragged (s) && std::ranges::any_of (s.responses, [&] (const auto& r) { return &r == response; });
         });
+    }
+
+    /// True if the loop at a place rests but for the directions in which the settled force pushes the tool away.
+    bool falls (const Slope& s) const
+    {
+        auto response = responseAt (s);
+        const Eigen::Matrix3d settled = response.back();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (0.5 * (settled + settled.transpose()));
+        if (! (parts.eigenvalues()[0] < 0.0)) return false;
+        Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 3; ++i)
+            if (parts.eigenvalues()[i] >= 0.0) held += parts.eigenvectors().col (i) * parts.eigenvectors().col (i).transpose();
+        for (auto& m : response)
+            m = (held * m * held).eval();
+        const auto device = at (s);
+        return comesToRest (response, axesOf (device), period_s)
+               && std::ranges::all_of (s.responses, [&] (const auto& r) { return r.back() < 0.0 || comesToRest (r, device, period_s); });
     }
 
     /// A contact that is not passive may still come to rest: judges the loops of all places that are not passive, exactly.
@@ -277,14 +306,15 @@ private:
             }
             return most;
         };
-        closeLoops (c, places, radius, [&] (const Slope* s, double factor) {
+        const auto rests = [&] (const Slope* s, double factor) {
             auto larger = responseAt (*s);
             for (auto& m : larger)
                 m *= factor;
             const auto device = at (*s);
             return comesToRest (larger, axesOf (device), period_s)
                    && std::ranges::all_of (s->responses, [&] (const auto& r) { return comesToRest (scaled (r, factor), device, period_s); });
-        });
+        };
+        closeLoops (c, places, radius, rests, [&] (const Slope* s) { return falls (*s); });
         if (c.verdict == Verdict::broken) return;
         const std::vector<double>* worst = &places.front()->responses.front();
         for (const auto& r : places.front()->responses)

@@ -55,6 +55,7 @@ struct Condition
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
     double may_grow = 0.0;   ///< for the verdicts `stable` and `unstable`: how many times the response could be as large before the loop swings
+    bool falls = false;      ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
 
@@ -84,10 +85,11 @@ struct Trial
     bool is_tried = false;       ///< its tool was let go: in all planned trials, or until one of them swung
     bool swings = false;         ///< in one of them, the tool did not come to rest
     bool runs_away = false;      ///< the graph drove it away
-    bool dies = false;           ///< the swing was less than half of that in the second before
-    bool is_doubtful = false;    ///< no tool swings, but one nearly does, or moves on through the third second and rests later
+    bool dies = false;           ///< its swing became smaller, but was still a swing at the end
+    bool is_doubtful = false;    ///< no tool swings, but one nearly does
     bool is_lost = false;        ///< in one of them, the tool swung until the hand drove it away from the motion
-    double range = 0.0;          ///< of its movement in the third second, in m
+    double range = 0.0;          ///< of its movement in the last stretch of the trial, in m
+    double after_s = 0.0;        ///< time from the release to the start of this stretch
     double t_s = 0.0;            ///< the time of the motion at which it was let go
     double off = 0.0;            ///< distance from its rest at the start, in m
     HeldHand hand {};
@@ -98,6 +100,7 @@ struct Trials
 {
     std::vector<Trial> by_role {};   ///< in the order of Demand::roles
     std::size_t places = 0, runs = 0;
+    std::size_t driven_away = 0;   ///< runs in which the hand drove a tool away from the motion
     bool are_dry = false;   ///< a device has dry friction
 };
 

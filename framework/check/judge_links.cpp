@@ -172,7 +172,8 @@ private:
                 for (auto& m : larger)
                     m *= factor;
                 return comesToRest (larger, axes, period_s);
-            });
+            },
+            [] (const auto*) { return false; });
     }
 
     std::string names() const

@@ -108,9 +108,9 @@ bool isLike (const Response& a, const Response& b)
 inline void noLoop (Condition& c) { c.text += "; the sampled loop is not known at every place"; }
 
 /// Judges the sampled loops of contacts that are not passive, each with a largest radius (empty if it is not known), and whether it rests if its response
-/// is several times as large. The one that is nearest to swinging comes first.
-template <typename Place, typename Radius, typename Rests>
-void closeLoops (Condition& c, std::vector<Place>& places, Radius&& radius, Rests&& rests)
+/// is several times as large; and whether a loop that does not rest only runs away, as on a crest. The place that is nearest to swinging comes first.
+template <typename Place, typename Radius, typename Rests, typename Falls>
+void closeLoops (Condition& c, std::vector<Place>& places, Radius&& radius, Rests&& rests, Falls&& falls)
 {
     std::vector<std::pair<double, Place>> sorted;
     for (const auto& place : places)
@@ -129,7 +129,10 @@ void closeLoops (Condition& c, std::vector<Place>& places, Radius&& radius, Rest
     });
     const bool swings = sorted.front().first > at_rest;
     c.verdict = swings ? Verdict::unstable : Verdict::stable;
-    if (swings)
+    c.falls = swings && std::ranges::all_of (sorted, [&] (const auto& s) { return s.first <= at_rest || falls (s.second); });
+    if (c.falls)
+        c.text += "; the sampled loop runs away, as the graph pushes the tool off this place, but does not swing";
+    else if (swings)
         c.text += "; the sampled loop swings, and would rest with " + text (c.may_grow) + " times this response";
     else
         c.text += "; not passive, but the sampled loop comes to rest without a hand and with usual ones, up to " + text (c.may_grow) + " times this response";

@@ -4,11 +4,15 @@
 #include "free_tool.hpp"
 
 #include <tactus/run/engine.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <memory>
+#include <thread>
 #include <utility>
 
 namespace tactus::check
@@ -16,15 +20,16 @@ namespace tactus::check
 
 namespace
 {
-constexpr double lasts_s = 3.0;
-constexpr double least_swing = 1e-6;   // m, or rad
-constexpr double doubtful = 0.6;       // of the least swing; from another start, the tool may swing
+constexpr double lasts_s = 3.0, longest_s = 24.0;   // doubled, up to the longest, while it is not clear whether the tool comes to rest
+constexpr double least_swing = 1e-6;                // m, or rad
+constexpr double doubtful = 0.6;                    // of the least swing; from another start, the tool may swing
+constexpr double little = 0.2;                      // of the least swing; less is none, unless it grows
+constexpr double steady = 0.9;                      // of the swing in the stretch before: a smaller swing dies, and one larger by the inverse grows
 constexpr double window_s = 0.125;
-constexpr std::size_t windows = 24;   // in three seconds
 constexpr double far_m = 1.0;
-constexpr double beside = 5e-3;                     // m outside the motion: too far to count for it
-constexpr std::size_t most_over = 4;                // times the planned ticks
-constexpr double near_off = 2e-4, far_off = 2e-3;   // m
+constexpr double beside = 5e-3;                                      // m outside the motion: too far to count for it
+constexpr std::size_t most_over = 4;                                 // times the planned ticks
+constexpr double near_off = 2e-4, far_off = 2e-3, hard_off = 3e-3;   // m
 
 /// The range of a coordinate, and its largest rise and fall.
 struct Reached
@@ -46,10 +51,42 @@ struct Reached
 struct Coordinate
 {
     double threshold = least_swing;
-    std::array<Reached, windows> by_window {};
-    Reached third {}, second {};
-    double of_graph = 0.0, of_hand = 0.0;   // work in the third second, in J
+    Reached window {}, window_before {};
+    double swung = 0.0;   // m; the most in a window, except the first two
+    Reached stretch {}, stretch_before {};
+    double of_graph = 0.0, of_hand = 0.0;   // work in the stretch, in J
+
+    bool isQuiet() const noexcept { return std::max (window.range(), window_before.range()) <= little * threshold; }
+    bool dies() const noexcept { return stretch.swing() < steady * stretch_before.swing(); }
+    bool grows() const noexcept { return stretch.swing() > little * threshold && steady * stretch.swing() > stretch_before.swing(); }
 };
+
+/// True if a trial says more against a contact than another one.
+bool isWorse (const Trial& a, const Trial& b)
+{
+    const auto rank = [] (const Trial& t) {
+        if (! t.swings) return t.is_doubtful ? 1 : 0;
+        return t.runs_away ? 2 : t.dies ? 3
+                                        : 4;
+    };
+    return rank (a) != rank (b) ? rank (a) > rank (b) : rank (a) > 0 && a.range > b.range;
+}
+
+/// Adds the trials at another place.
+void add (Trials& all, const Trials& more)
+{
+    all.places += more.places;
+    all.runs += more.runs;
+    all.driven_away += more.driven_away;
+    for (std::size_t d = 0; d < all.by_role.size(); ++d)
+    {
+        auto& its = all.by_role[d];
+        const bool is_lost = its.is_lost || more.by_role[d].is_lost, is_tried = its.is_tried && more.by_role[d].is_tried;
+        if (isWorse (more.by_role[d], its)) its = more.by_role[d];
+        its.is_lost = is_lost;
+        its.is_tried = is_tried || its.swings;
+    }
+}
 
 class TrialRun
 {
@@ -79,33 +116,36 @@ public:
             for (int i = 0; i < 3; ++i)
                 thresholds.push_back (std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
         }
-    }
-
-    Trials all()
-    {
         for (const auto& role : demand.roles)
         {
             found.by_role.push_back ({ .role = role.role, .axis = role.axis });
             owners.push_back (ownerOf (role));
         }
-        bool is_any = false;
+    }
+
+    /// The places of the motion at which the tools are let go, as ticks, in order. Empty if no tool is free.
+    std::vector<std::size_t> places() const
+    {
         for (std::size_t d = 0; d < owners.size(); ++d)
-            is_any = is_any || isFree (d);
-        if (motion.ticks == 0 || ! is_any) return std::move (found);
+            if (motion.ticks > 0 && isFree (d)) return chosen();
+        return {};
+    }
+
+    /// Follows the motion to a place, and makes the trials there. Called once.
+    Trials at (std::size_t place)
+    {
         silencePlayers();
-        std::size_t now = 0;
-        for (const auto at : chosen())
-        {
-            for (; now <= at; ++now)
-                holdAt (now);
-            now = at + 1;
-            tryAt (at);
-            if (is_over) break;
-        }
+        for (std::size_t now = 0; now <= place; ++now)
+            holdAt (now);
+        ticks = 0;   // the budget is for the trials
+        tryAt (place);
         for (std::size_t d = 0; d < owners.size(); ++d)
             found.by_role[d].is_tried = isFree (d) && (found.by_role[d].swings || ! is_over);
         return std::move (found);
     }
+
+    /// The result of no trials.
+    const Trials& none() const noexcept { return found; }
 
 private:
     const HandMotion& motion;
@@ -229,7 +269,7 @@ private:
             return (x.settled - y.settled).norm() > 0.2 * most || (x.excess - y.excess).norm() > 0.2 * std::max (b_most, 1e-3 * heaviest / motion.rate_hz);
         };
         const auto each = static_cast<std::size_t> (8.0 * 0.6 * motion.rate_hz);   // ticks that the trials at a place usually take
-        const auto most_places = std::clamp<std::size_t> (effort.ticks / each, 2, std::max<std::size_t> (2, effort.places));
+        auto most_places = std::clamp<std::size_t> (effort.ticks / each, 2, std::max<std::size_t> (2, effort.places));
         const auto pick = [&] (std::size_t place) {
             if (picked.size() < most_places && std::ranges::count (picked, place) == 0) picked.push_back (place);
         };
@@ -246,6 +286,8 @@ private:
                 largest = radius;
                 nearest = u;
             }
+        const bool swings = largest > at_rest;   // so the trials must show that something calms the tool
+        if (swings) most_places *= 3;
         if (! candidates.empty()) pick (nearest);
         if (! candidates.empty()) pick (candidates.front().place);
         // The places with the largest force, a small one, and the largest speed.
@@ -267,6 +309,12 @@ private:
         }
         for (const auto& c : candidates)
             if (std::ranges::all_of (picked, [&] (std::size_t p) { return differs (p, c.place); })) pick (c.place);
+        const auto more = swings ? most_places : 0;
+        for (std::size_t i = 0; i < more; ++i)   // evenly along the motion, where something is felt
+        {
+            const auto place = (2 * i + 1) * demand.linked.size() / (2 * more);
+            if (weigh (place) > 0.0) pick (place);
+        }
         for (const auto p : picked)
             ticks_of.push_back (tickOf (demand.linked[p].t_s));
         if (ticks_of.empty())   // nothing has a slope: evenly along the motion
@@ -306,6 +354,20 @@ private:
         return worst;
     }
 
+    /// True if some place is not passive and its loop cannot be computed, as with a friction. Only the trials show then whether the tool rests.
+    bool isLoopUnknown() const
+    {
+        for (std::size_t r = 0; r < demand.roles.size(); ++r)
+            for (std::size_t i = 0; i < demand.roles[r].slopes.size() && i < demand.linked.size() && isFree (r) && owners[r].axis == -1; ++i)
+            {
+                const auto& s = demand.roles[r].slopes[i];
+                const auto& device = devices_of[owners[r].tool];
+                const double load = s.stiffness / motion.rate_hz * (0.5 + (device.delay ? device.delay->value : 0.0)) + s.lag + s.damping;
+                if ((s.responses.empty() || demand.linked[i].responses.empty()) && load > device.damping->value + s.brake) return true;
+            }
+        return false;
+    }
+
     std::vector<Release> releasesAt (std::size_t at) const
     {
         const double t_s = static_cast<double> (at) / motion.rate_hz;
@@ -323,8 +385,19 @@ private:
             { .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off },
             { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst },
             { .along = far_off, .hand = worst },
+            { .across = -far_off, .hand = worst },
             { .along = 0.6 * far_off, .across = 0.64 * far_off, .third = 0.48 * far_off, .hand = arm },
         };
+        if (isLoopUnknown())   // so the worst hand is not known either
+            for (const auto& hand : usualHands())
+            {
+                if (hand.mass == 0.0) continue;
+                all.push_back ({ .across = -far_off, .hand = hand });
+                all.push_back ({ .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off, .hand = hand });
+            }
+        // To a damper, a start off its rest is a blow.
+        if (place != demand.linked.end() && place->excess.norm() > 0.0)
+            all.push_back ({ .along = 0.6 * hard_off, .across = 0.64 * hard_off, .third = 0.48 * hard_off });
         if (fastest > 0.05)
             for (const double way : { 1.0, -1.0 })
                 all.push_back ({ .speed = way });
@@ -367,7 +440,7 @@ private:
             }
             run (at, plan);
             settle (at);
-            is_over = ticks / most_over >= effort.ticks;
+            is_over = ticks / most_over >= effort.ticks / std::max<std::size_t> (1, effort.places);
         }
     }
 
@@ -392,7 +465,7 @@ private:
         ++found.runs;
         std::vector<Coordinate> all;
         std::vector<double> starts, last;
-        std::vector<double> of_graph (tools.size(), 0.0), of_hand (tools.size(), 0.0);   // work in the third second, in J
+        std::vector<double> of_graph (tools.size(), 0.0), of_hand (tools.size(), 0.0);   // work in the stretch, in J
         struct Given
         {
             double now = 0.0, most = 0.0;
@@ -405,100 +478,122 @@ private:
             starts.push_back (x);
             last.push_back (x);
         });
-        const auto whole = static_cast<std::size_t> (lasts_s * motion.rate_hz);
         const auto each = std::max<std::size_t> (1, static_cast<std::size_t> (window_s * motion.rate_hz));
-        bool is_away = false;
+        bool is_away = false, is_touched = false;
+        int untouched = 0;   // windows
+        Vec3 place = tools.front()->motor();
+        // The movements in two stretches are compared: before and after the tick `late`.
+        auto end = static_cast<std::size_t> (lasts_s * motion.rate_hz), early = end / 3, late = 2 * end / 3;
         const auto step = [&] (std::size_t k) {
             tick();
-            const auto window = std::min (k / each, windows - 1);
             eachCoordinate ([&] (std::size_t c, std::size_t r, int, double x, double force, double push) {
                 auto& one = all[c];
-                one.by_window[window].to (x);
+                one.window.to (x);
                 all_of_graph[r].add (force * (x - last[c]));
                 all_of_hand[r].add (push * (x - last[c]));
-                if (3 * k >= 2 * whole)
+                if (k >= late)
                 {
-                    one.third.to (x);
+                    one.stretch.to (x);
                     one.of_graph += force * (x - last[c]);
                     one.of_hand += push * (x - last[c]);
                     of_graph[r] += force * (x - last[c]);
                     of_hand[r] += push * (x - last[c]);
                 }
-                else if (3 * k >= whole)
-                    one.second.to (x);
+                else if (k >= early)
+                    one.stretch_before.to (x);
                 last[c] = x;
                 if (! (std::abs (x - starts[c]) < far_m)) is_away = true;
+                is_touched = is_touched || force != 0.0;
             });
-            return (k + 1) % each == 0 && window + 1 < windows && isQuiet (all, window);
+            if ((k + 1) % each != 0) return false;
+            const auto window = k / each;
+            const bool is_quiet = window > 0 && std::ranges::all_of (all, &Coordinate::isQuiet);
+            for (auto& one : all)
+            {
+                if (window > 1) one.swung = std::max (one.swung, one.window.swing());
+                one.window_before = std::exchange (one.window, {});
+            }
+            // A tool without a hand that has left the motion and the graph, and falls along the push, only goes farther.
+            const Vec3 now = tools.front()->motor(), fell = now - std::exchange (place, now), push = tools.front()->pushes().push;
+            untouched = std::exchange (is_touched, false) ? 0 : untouched + 1;
+            if (all.size() == 3 && untouched >= 2 && plan.hand.mass == 0.0 && fell.dot (push) > 0.0
+                && lostTools (all, true, [] (std::size_t) { return false; })[0])
+            {
+                is_away = true;
+                all_of_hand[0].add (push.norm() * (far_m - (now - Vec3 (starts[0], starts[1], starts[2])).cwiseAbs().maxCoeff()));   // until it is far
+            }
+            return is_quiet;
         };
-        for (std::size_t k = 0; k < whole && ! is_away; ++k)
-            if (step (k)) return;
         struct Seen
         {
             std::size_t tool;
             int axis;
             double range;
-            bool swings, dies, goes_on, is_near;
+            bool swings, dies, grows, goes_on;
         };
         std::vector<Seen> seen;
-        const auto lost = lostTools (all, is_away, [&] (std::size_t r) { return all_of_graph[r].most > all_of_hand[r].most; });
-        eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
-            const auto& one = all[c];
-            if (lost[r]) return;
-            const bool left = ! (std::abs (x - starts[c]) < far_m) && all_of_graph[r].most > all_of_hand[r].most;
-            const bool goes_on = ! is_away && one.third.range() > one.threshold && one.third.range() >= 0.5 * one.second.range()
-                                 && one.of_graph > std::max (0.0, one.of_hand) && of_graph[r] > std::max (0.0, of_hand[r]);
-            const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.third.swing() && of_graph[r] <= of_hand[r];   // over bumps
-            const bool dies = one.third.swing() < 0.5 * one.second.swing();
-            const bool may_swing = ! is_away && ! slides && ! (dies && plan.speed != 0.0);
-            const bool swings = may_swing && one.third.swing() > one.threshold, is_near = may_swing && one.third.swing() > doubtful * one.threshold;
-            if (left || swings || goes_on || is_near)
-                seen.push_back ({ r, axis, left ? far_m : one.third.range(), swings, dies, ! swings && (left || goes_on), is_near });
-        });
-        eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
-            // A tool that hardly swung on its way shows no loop that swings.
-            const auto swung = std::any_of (all[c].by_window.begin() + 2, all[c].by_window.end(),
-                                            [&] (const Reached& w) { return w.swing() > 0.5 * std::max (near_off, plan.off()); });
-            for (std::size_t d = 0; d < owners.size() && lost[r] && swung; ++d)
-                if (owners[d].tool == r) found.by_role[d].is_lost = true;
-        });
-        if (seen.empty()) return;
-        // A tool that only moves on may come to rest later, for example if it falls from a crest into a valley.
-        if (! is_away && std::ranges::any_of (seen, &Seen::goes_on) && std::ranges::none_of (seen, &Seen::swings))
+        for (std::size_t k = 0;;)
         {
+            for (; k < end && ! is_away; ++k)
+                if (step (k)) return;
+            seen.clear();
+            const auto lost = lostTools (all, is_away, [&] (std::size_t r) { return all_of_graph[r].most > all_of_hand[r].most; });
+            eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
+                const auto& one = all[c];
+                if (lost[r]) return;
+                const bool left = ! (std::abs (x - starts[c]) < far_m) && all_of_graph[r].most > all_of_hand[r].most;
+                const bool goes_on = ! is_away && one.stretch.range() > one.threshold && one.stretch.range() >= 0.5 * one.stretch_before.range()
+                                     && one.of_graph > std::max (0.0, one.of_hand) && of_graph[r] > std::max (0.0, of_hand[r]);
+                const bool slides = of_hand[r] > 2.0 * tools[r]->pushes().push.norm() * one.stretch.swing() && of_graph[r] <= of_hand[r];   // over bumps
+                const bool may_swing = ! is_away && ! slides;
+                const bool swings = may_swing && one.stretch.swing() > one.threshold;
+                const bool is_near = may_swing && (one.grows() || one.stretch.swing() > doubtful * one.threshold);
+                if (left || swings || goes_on || is_near)
+                    seen.push_back ({ r, axis, left ? far_m : one.stretch.range(), swings, one.dies(), one.grows(), ! swings && (left || goes_on) });
+            });
+            // A tool that only moves on may come to rest later, for example if it falls from a crest into a valley.
+            const bool is_clear = std::ranges::none_of (seen, [] (const Seen& s) { return s.goes_on || s.dies || (s.grows && ! s.swings); });
+            if (is_away || is_clear || static_cast<double> (2 * end) > (longest_s + 1e-3) * motion.rate_hz)
+            {
+                found.driven_away += std::ranges::count (lost, true) > 0 ? 1 : 0;
+                eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
+                    // A tool that hardly swung on its way shows no loop that swings.
+                    const bool swung = all[c].swung > 0.5 * std::max (near_off, plan.off());
+                    for (std::size_t d = 0; d < owners.size() && lost[r] && swung; ++d)
+                        if (owners[d].tool == r) found.by_role[d].is_lost = true;
+                });
+                break;
+            }
+            early = end;
+            end *= 2;
+            late = (early + end) / 2;
             for (auto& one : all)
-                one.by_window = {};
-            for (std::size_t k = 0; k < whole && ! is_away; ++k)
-                if (step (k))
-                {
-                    for (auto& s : seen)
-                        s.is_near = true, s.goes_on = false;
-                    break;
-                }
+            {
+                one.stretch = one.stretch_before = {};
+                one.of_graph = one.of_hand = 0.0;
+            }
+            std::ranges::fill (of_graph, 0.0);
+            std::ranges::fill (of_hand, 0.0);
         }
         for (const auto& s : seen)
         {
             auto* const its = trialOf (s.tool, s.axis);
             const bool is_bad = s.swings || s.goes_on;
             if (its == nullptr) continue;
-            const auto rank = [] (bool swings, bool dies, bool goes_on) { return swings && ! goes_on && ! dies ? 3 : swings && ! goes_on ? 2
-                                                                                                                 : swings                ? 1
-                                                                                                                                         : 0; };
-            const int now = rank (is_bad, s.dies, s.goes_on), before = rank (its->swings, its->dies, its->runs_away);
-            if ((its->swings || its->is_doubtful) && (before > now || (before == now && its->range >= s.range))) continue;
-            auto& trial = *its;
-            trial = { .role = trial.role,
-                      .axis = trial.axis,
-                      .is_tried = true,
-                      .swings = is_bad,
-                      .runs_away = s.goes_on,
-                      .dies = s.swings && s.dies,
-                      .is_doubtful = ! is_bad,
-                      .is_lost = trial.is_lost,
-                      .range = s.range,
-                      .t_s = static_cast<double> (at) / motion.rate_hz,
-                      .off = plan.off(),
-                      .hand = plan.hand };
+            const Trial now { .role = its->role,
+                              .axis = its->axis,
+                              .is_tried = true,
+                              .swings = is_bad,
+                              .runs_away = s.goes_on,
+                              .dies = s.swings && s.dies,
+                              .is_doubtful = ! is_bad,
+                              .is_lost = its->is_lost,
+                              .range = s.range,
+                              .after_s = static_cast<double> (late) / motion.rate_hz,
+                              .t_s = static_cast<double> (at) / motion.rate_hz,
+                              .off = plan.off(),
+                              .hand = plan.hand };
+            if (isWorse (now, *its)) *its = now;
         }
     }
 
@@ -516,9 +611,9 @@ private:
                 low = std::min (low, reading.true_position[i]);
                 high = std::max (high, reading.true_position[i]);
             }
-            const auto& third = all[c].third;
+            const auto& lately = all[c].stretch;
             const bool is_outside = is_away ? x < low - beside || x > high + beside
-                                            : third.range() > 0.0 && (third.high < low - beside || third.low > high + beside);
+                                            : lately.range() > 0.0 && (lately.high < low - beside || lately.low > high + beside);
             lost[r] = is_outside && ! isDrivenByGraph (r);
         });
         return lost;
@@ -531,23 +626,43 @@ private:
             c += 3 + tools[r]->axes();
         return c;
     }
-
-    /// True if every coordinate has stayed within a small part of its threshold in the last two windows.
-    static bool isQuiet (const std::vector<Coordinate>& all, std::size_t window)
-    {
-        constexpr double little = 0.2;
-        return window > 0 && std::ranges::all_of (all, [&] (const Coordinate& c) {
-                   const auto& now = c.by_window[window];
-                   const auto& before = c.by_window[window - 1];
-                   return std::max (now.range(), before.range()) <= little * c.threshold;
-               });
-    }
 };
 }   // namespace
 
 Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand& demand, std::span<const RoleDevice> devices, const TrialEffort& effort)
 {
-    return TrialRun (subject, motion, demand, devices, effort).all();
+    std::vector<std::unique_ptr<TrialRun>> runs;   // one for each place, so that a cut, or a motor that rang, does not last
+    runs.push_back (std::make_unique<TrialRun> (subject, motion, demand, devices, effort));
+    const auto places = runs.front()->places();
+    if (places.empty()) return runs.front()->none();
+    while (runs.size() < places.size())
+        runs.push_back (std::make_unique<TrialRun> (subject, motion, demand, devices, effort));
+
+    std::vector<Trials> found (places.size());
+    std::vector<std::exception_ptr> thrown (places.size());
+    std::atomic<std::size_t> next { 0 };
+    const auto work = [&] {
+        for (std::size_t i = next++; i < places.size(); i = next++)
+            try
+            {
+                found[i] = runs[i]->at (places[i]);
+            }
+            catch (...)
+            {
+                thrown[i] = std::current_exception();
+            }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (unsigned i = 1; i < std::min<std::size_t> (effort.threads, places.size()); ++i)
+            others.emplace_back ([&] { static_cast<void> (caught ("the trials", work)); });
+        work();
+    }
+    for (const auto& e : thrown)
+        if (e) std::rethrow_exception (e);
+    for (std::size_t i = 1; i < found.size(); ++i)
+        add (found.front(), found[i]);
+    return std::move (found.front());
 }
 
 }   // namespace tactus::check

@@ -113,13 +113,16 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     if (trials == nullptr) return;
     auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
-    const bool is_passive = c.verdict != Verdict::unstable && c.value <= (1.0 + slope_error) * c.limit;
-    if (worst != nullptr && worst->dies && is_passive) doubtful = std::exchange (worst, nullptr);   // the tool comes to rest later
+    if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable)   // only the trial says that it swings, and the swing dies there
+    {
+        if (c.verdict != Verdict::passive) doubtful = worst;   // a passive contact near its limit takes long to settle
+        worst = nullptr;
+    }
     const auto letGo = [] (const Trial& t) {
         const auto from = t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion");
         return "let go " + from + " at " + text (t.t_s, "s") + " " + handText (t.hand) + ", the tool ";
     };
-    const auto moves = [] (const Trial& t) { return "by " + text (1e6 * t.range, "um") + " in the third second"; };
+    const auto moves = [] (const Trial& t) { return "by " + text (1e6 * t.range, "um") + " after " + text (t.after_s, "s"); };
     if (worst != nullptr)
     {
         if (c.verdict != Verdict::unstable) c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of the linear loop says nothing here
@@ -132,11 +135,11 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     {
         c.verdict = Verdict::unknown;
         c.text = letGo (*doubtful) + "still moves " + moves (*doubtful) + "; " + c.text;
-        c.remedy = "in a trial, the tool still moves in the third second, but not clearly enough to call it unstable: try it by hand, or check the same graph "
+        c.remedy = "in a trial, the tool still moves at the end, but not clearly enough to call it unstable: try it by hand, or check the same graph "
                    "with softer or stiffer forces";
         return;
     }
-    if (! are_tried || (is_lost && (c.verdict == Verdict::unstable || c.verdict == Verdict::broken)))
+    if (! are_tried || is_lost)
     {
         c.text += are_tried ? "; in a trial, the tool swung until the hand drove it away from the motion" : "; the tool was not let go as often as planned";
         if (c.verdict == Verdict::broken)   // it is not known to be passive, and no more is known
@@ -148,7 +151,13 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         return;
     }
     const auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
-    if (c.verdict == Verdict::unstable && ! mayRest (demand, *trials, roles))
+    if (c.verdict == Verdict::unstable && c.falls)
+    {
+        c.verdict = Verdict::stable;
+        c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of a loop that runs away says nothing
+        c.text = tried + ", somewhere else than where it was let go; " + c.text;
+    }
+    else if (c.verdict == Verdict::unstable && ! mayRest (demand, *trials, roles))
         c.text += "; " + tried + " where it was let go, but no dry friction and no brake holds it there";
     else if (c.verdict == Verdict::unstable)
     {
@@ -163,6 +172,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     else
         c.text += "; " + tried;
+    if (trials->driven_away > 0) c.text += "; in " + std::to_string (trials->driven_away) + " of these trials, the hand drives the tool away from the motion";
 }
 
 }   // namespace judging

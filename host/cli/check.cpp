@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 namespace tactus::host
 {
@@ -104,7 +105,8 @@ void run (const CheckOptions& options)
     std::vector<check::RoleDevice> devices;
     for (const auto& r : graph.roles)
         devices.push_back (r.device);
-    const auto trials = check::tryLoops (graph.subject, motion, demand, devices, { .ticks = check::affordableTicks (*graph.plan) / 6 });
+    const auto trials = check::tryLoops (graph.subject, motion, demand, devices,
+                                         { .ticks = check::affordableTicks (*graph.plan) / 6, .threads = std::max (1u, std::thread::hardware_concurrency()) });
     auto judge = options.judge;
     judge.trials = &trials;
     const auto conditions = check::judge (demand, devices, judge);

@@ -37,24 +37,11 @@ std::vector<fs::path> presets()
     return { all.begin(), all.end() };
 }
 
-own::Mechanics mechanicsOf (const Simulation& s)
-{
-    return { .mass = s.mass,
-             .damping = s.damping,
-             .dry = s.coulomb,
-             .quantum = s.quantum,
-             .mode_hz = s.first_mode,
-             .mode_ratio = s.first_mode_damping,
-             .end_mass = s.end_mass,
-             .delay = s.delay,
-             .brake = s.brake };
-}
-
 /// True if a tool that is let go at a distance from its rest does not come to rest, although one that is let go at its rest does.
 bool swings (const graph::Graph& graph, const CompileOptions& options, const check::RoleDevice& device, const std::vector<Vec3>& path, double off,
              const own::Grip& grip, std::string& how)
 {
-    const auto mechanics = mechanicsOf (*device.simulated);
+    const auto mechanics = own::mechanicsOf (*device.simulated);
     const auto placed = [&] {   // a new loop for each start: a cut stays, and moving a tool is a blow
         auto loop = std::make_unique<own::Loop> (graph, catalogue(), options, mechanics, device.role);
         loop->follow (path);

@@ -43,7 +43,8 @@ struct Board
         s.wire ("square.out -> knock.z").wire ("knock.out -> motor.force");
         s.graph.rate_hz = rate_hz;
         const Json hand { { "stiffness", 100.0 }, { "damping", 2.0 }, { "path", path }, { "offset", { 0.0, 0.0, above } } };
-        s.graph.devices.emplace_back ("tip", Json { { "driver", "sim" }, { "mass", 0.05 }, { "damping", 2.0 }, { "position", { 0.0, 0.0, above } }, { "hand", hand } });
+        const Json tip { { "driver", "sim" }, { "mass", 0.05 }, { "damping", 2.0 }, { "position", { 0.0, 0.0, above } }, { "hand", hand } };
+        s.graph.devices.emplace_back ("tip", tip);
         return s.graph;
     }
 };

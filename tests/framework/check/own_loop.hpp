@@ -3,6 +3,7 @@
 
 #include <tactus/node/device.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/run/device/sim.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <algorithm>
@@ -25,6 +26,20 @@ struct Mechanics
     int delay = 0;                                                // ticks
     double brake = 0.0;                                           // N s/m; the largest
 };
+
+/// The numbers of a simulated device.
+inline Mechanics mechanicsOf (const Simulation& s)
+{
+    return { .mass = s.mass,
+             .damping = s.damping,
+             .dry = s.coulomb,
+             .quantum = s.quantum,
+             .mode_hz = s.first_mode,
+             .mode_ratio = s.first_mode_damping,
+             .end_mass = s.end_mass,
+             .delay = s.delay,
+             .brake = s.brake };
+}
 
 /// A hand on the tool: a mass, a damper, and a spring to the place where the tool was put.
 struct Grip
@@ -81,12 +96,14 @@ struct Hand final : Device
     DeviceLayout layout() const override { return has; }
 };
 
-/// The movement of a tool in the third of three seconds, in m: its range, and its swing, the smaller of its largest rise and its largest fall.
+/// The movement of a tool in the last third of a trial, in m: its range, and its swing, the smaller of its largest rise and its largest fall.
+/// A trial lasts 3 s, or 12, 48 or 192 s while the swing dies or grows, or the tool moves on.
 struct Third
 {
-    double range = 0.0, swing = 0.0, second = 0.0;   // second: the range in the second second
-    double work = 0.0, push_work = 0.0;              // of the graph and of the constant force on the tool in the third second, in J
-    double all_work = 0.0, all_push = 0.0;           // the same since the start, and the most that it was
+    double range = 0.0, swing = 0.0;
+    double gone = 0.0;                       // range along an axis on which the graph, not the hand, drives it on at least half as far as in the second third
+    double work = 0.0, push_work = 0.0;      // of the graph and of the constant force on the tool in the last third, in J
+    double all_work = 0.0, all_push = 0.0;   // the same since the start, and the most that it was
     double most_work = 0.0, most_push = 0.0;
     bool is_far = false;
 };
@@ -116,6 +133,18 @@ public:
 
     Vec3 force() const { return hand.got.force; }
 
+    /// Moves the tool to a place within one tick, and keeps it there: the force on each of the following ticks.
+    std::vector<Vec3> stepTo (const Vec3& p, int ticks)
+    {
+        std::vector<Vec3> forces;
+        for (int k = 0; k < ticks; ++k)
+        {
+            put (p);
+            forces.push_back (force());
+        }
+        return forces;
+    }
+
     /// Lets the tool go at a distance from the last place of the path, with a hand that pushes with a constant force.
     Third letGo (const Vec3& off, const Grip& grip, const Vec3& push)
     {
@@ -126,7 +155,7 @@ public:
         for (int i = 0; i < 3; ++i)
             tracks[std::size_t (i)].x = tracks[std::size_t (i)].y = rest[i] + off[i];
         std::deque<Effort> way (std::size_t (mechanics.delay), hand.got);
-        const auto ticks = static_cast<int> (3.0 / period);
+        auto ticks = static_cast<int> (3.0 / period);
         struct Edge
         {
             double low = 1e9, high = -1e9, rise = 0.0, fall = 0.0;
@@ -141,8 +170,35 @@ public:
         };
         std::array<Edge, 3> second, third;
         Third found;
-        for (int k = 0; k < ticks; ++k)
+        std::array<double, 3> work {}, push_work {};
+        const double least = std::max (1e-6, 2.0 * mechanics.quantum);
+        int more = 3;   // times that it may run on
+        const auto isOver = [&] {
+            found.range = found.swing = found.gone = 0.0;
+            bool changes = false;
+            for (std::size_t i = 0; i < 3; ++i)
+            {
+                const double range = third[i].high - third[i].low, swing = std::min (third[i].rise, third[i].fall);
+                const double swing_before = std::min (second[i].rise, second[i].fall);
+                found.range = std::max (found.range, range);
+                found.swing = std::max (found.swing, swing);
+                if (range >= 0.5 * (second[i].high - second[i].low) && work[i] > std::max (0.0, push_work[i])) found.gone = std::max (found.gone, range);
+                changes = changes || (swing > 0.5 * least && (swing < 0.9 * swing_before || swing > 1.1 * swing_before));
+            }
+            if (! (found.work > std::max (0.0, found.push_work))) found.gone = 0.0;
+            return ! changes && (found.gone <= least || found.swing > least);
+        };
+        for (int k = 0;; ++k)
         {
+            if (k == ticks)
+            {
+                if (isOver() || more == 0) break;
+                --more;
+                ticks *= 4;
+                second = third = {};
+                work = push_work = {};
+                found.work = found.push_work = 0.0;
+            }
             Vec3 at, end;
             for (int i = 0; i < 3; ++i)
             {
@@ -171,6 +227,8 @@ public:
                 {
                     found.work += due.force[i] * (t.x - before);
                     found.push_work += push[i] * (t.x - before);
+                    work[std::size_t (i)] += due.force[i] * (t.x - before);
+                    push_work[std::size_t (i)] += push[i] * (t.x - before);
                 }
                 if (! (std::abs (t.x - rest[i]) < 1.0)) found.is_far = true;
                 if (3 * k >= 2 * ticks)
@@ -179,12 +237,6 @@ public:
                     second[std::size_t (i)].to (t.x);
             }
             if (found.is_far) break;
-        }
-        for (std::size_t i = 0; i < 3 && ! found.is_far; ++i)
-        {
-            found.range = std::max (found.range, third[i].high - third[i].low);
-            found.second = std::max (found.second, second[i].high - second[i].low);
-            found.swing = std::max (found.swing, std::min (third[i].rise, third[i].fall));
         }
         for (int k = 0; k < 200; ++k)
             put (rest);

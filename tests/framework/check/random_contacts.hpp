@@ -16,23 +16,10 @@ namespace tactus::test
 struct RandomContact
 {
     std::string text, kinds;   // JSON; its parts
-    own::Mechanics mechanics;
+    Simulation device;
     double rate_hz = 1000.0;
     std::vector<Vec3> path;            // tick by tick
     std::vector<std::size_t> places;   // ticks of the path at which the tool is let go
-
-    Simulation simulation() const
-    {
-        return { .mass = mechanics.mass,
-                 .damping = mechanics.damping,
-                 .quantum = mechanics.quantum,
-                 .delay = mechanics.delay,
-                 .coulomb = mechanics.dry,
-                 .first_mode = mechanics.mode_hz,
-                 .first_mode_damping = mechanics.mode_ratio,
-                 .end_mass = mechanics.end_mass,
-                 .brake = mechanics.brake };
-    }
 };
 
 /// The same seed gives the same contact.
@@ -46,14 +33,14 @@ public:
         made = {};
         nodes = R"("at": { "type": "device.position", "role": "h" }, "motor": { "type": "device.force", "role": "h" })";
         wires.clear();
-        auto& m = made.mechanics;
+        auto& m = made.device;
         made.rate_hz = std::round (between (500.0, 4000.0));
         m.mass = between (0.03, 0.3);
         m.damping = between (0.003, 0.06) * m.mass * made.rate_hz;
         if (chance (0.3)) m.delay = 1 + int (3.0 * part());
         if (chance (0.3)) m.quantum = between (1e-6, 3e-5);
-        if (chance (0.3)) m.dry = between (0.005, 0.1);
-        if (chance (0.2)) m.mode_hz = between (0.03, 0.3) * made.rate_hz;
+        if (chance (0.3)) m.coulomb = between (0.005, 0.1);
+        if (chance (0.2)) m.first_mode = between (0.03, 0.3) * made.rate_hz;
         passive = 2.0 * m.damping * made.rate_hz / (2.0 * m.delay + 1.0);
         top = 0.0;
         depth = std::clamp (1.0 / passive * between (0.3, 3.0), 1e-4, 4e-3);
@@ -76,7 +63,7 @@ public:
         if (has_load && chance (0.5)) friction();
         if (chance (0.2)) corner();
         if (chance (0.15)) liquid();
-        if (m.mode_hz == 0.0 && chance (0.15)) brake();
+        if (m.first_mode == 0.0 && chance (0.15)) brake();
         walk();
         made.text = R"({ "format": "tactus-graph", "version": 2, "name": "random", "rate_hz": )" + number (made.rate_hz) + R"(, "nodes": { )" + nodes
                     + R"( }, "wires": [ )" + wires + " ] }";
@@ -119,7 +106,7 @@ private:
     }
 
     double stiffness() { return passive * between (0.15, 8.0); }
-    double damper() { return chance (0.4) ? 0.0 : made.mechanics.damping * between (0.1, 6.0); }
+    double damper() { return chance (0.4) ? 0.0 : made.device.damping * between (0.1, 6.0); }
 
     void floor()
     {
@@ -203,7 +190,7 @@ private:
     {
         if (made.kinds.find ("liquid") != std::string::npos) return;
         made.kinds += "liquid ";
-        const double most = made.mechanics.mass * made.rate_hz * between (0.05, 4.0) / (2.0 * made.mechanics.delay + 1.0);   // 2M/T is the limit
+        const double most = made.device.mass * made.rate_hz * between (0.05, 4.0) / (2.0 * made.device.delay + 1.0);   // 2M/T is the limit
         const auto law = chance (0.5) ? R"("linear": )" + number (most) + R"(, "max_damping": )" + number (most)
                                       : R"("linear": )" + number (0.05 * most) + R"(, "quadratic": )" + number (most * between (0.3, 20.0))
                                             + R"(, "max_damping": )" + number (most);
@@ -241,9 +228,9 @@ private:
     void brake()
     {
         made.kinds += "brake ";
-        made.mechanics.brake = between (0.5, 20.0) * made.mechanics.damping;
+        made.device.brake = between (0.5, 20.0) * made.device.damping;
         node ("brakes", "device.brake", R"("role": "h")");
-        node ("much", "signal.constant", R"("params": { "value": ")" + number (made.mechanics.brake * part()) + R"( N*s/m" })");
+        node ("much", "signal.constant", R"("params": { "value": ")" + number (made.device.brake * part()) + R"( N*s/m" })");
         wire ("much.out -> brakes.damping");
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Random contacts: the check judges a loop, and a simulation that shares no code with it shows whether the tool comes to rest. TACTUS_ROUNDS=5000 tries
 // 500 contacts; TACTUS_SEED is the first.
+// Without TACTUS_SEED, each run has the same contacts, counted from 0, so it never fails by chance. No trial has every start, so other seeds may show a
+// contact that is called stable though it swings; docs/check.md has a table of longer series.
 #include "random_contacts.hpp"
 
 #include "support/rounds.hpp"
@@ -23,60 +25,100 @@ using namespace tactus::test;
 
 namespace
 {
-/// The verdicts of the check on a contact.
-std::vector<check::Condition> judged (const graph::Graph& graph, const RandomContact& contact)
+/// The verdicts of the check on a contact, and the trial behind them.
+struct Judged
+{
+    std::vector<check::Condition> conditions;
+    check::Trial trial;
+};
+
+Judged judged (const graph::Graph& graph, const RandomContact& contact)
 {
     const check::Subject subject { graph, catalogue() };
-    const auto sim = contact.simulation();
     check::HandMotion motion { .rate_hz = contact.rate_hz, .ticks = contact.path.size() };
-    auto& role = motion.roles.emplace_back (check::RoleMotion { .role = "h", .layout = SimulatedDevice { sim }.layout() });
+    auto& role = motion.roles.emplace_back (check::RoleMotion { .role = "h", .layout = SimulatedDevice { contact.device }.layout() });
     for (const auto& p : contact.path)
         role.readings.push_back ({ .position = p, .true_position = p });
-    const std::vector<check::RoleDevice> devices { { .role = "h", .numbers = numbersOf (sim), .name = "sim", .simulated = sim } };
+    const std::vector<check::RoleDevice> devices { { .role = "h", .numbers = numbersOf (contact.device), .name = "sim", .simulated = contact.device } };
     const auto demand = check::measure (subject, motion, { .ticks = 10'000'000 });
     const auto trials = check::tryLoops (subject, motion, demand, devices);
-    return check::judge (demand, devices, { .trials = &trials });
+    return { check::judge (demand, devices, { .trials = &trials }), trials.by_role.front() };
 }
 
-/// The largest movement of a tool in its third second, over some places, starts and hands, and how it came about.
+/// A simulation, apart from the check's, at a place of a contact.
+class Place
+{
+public:
+    /// `waits`: ticks that the hand stays there.
+    Place (const graph::Graph& graph, const RandomContact& contact, std::size_t at, std::size_t waits = 0)
+        : tick (at), threshold (std::max (1e-6, 2.0 * contact.device.quantum)), loop (graph, catalogue(), {}, own::mechanicsOf (contact.device))
+    {
+        loop.follow ({ contact.path.begin(), contact.path.begin() + std::ptrdiff_t (at) + 1 });
+        if (waits > 0) loop.follow (std::vector (waits, contact.path[at]));
+        f = loop.force();
+        push = -f;
+        const Vec3 step = contact.path[at] - contact.path[at - 1];
+        if (step.norm() * contact.rate_hz > 1e-3) push += 0.5 * f.dot (step.normalized()) * step.normalized();
+    }
+
+    const Vec3& force() const { return f; }
+
+    /// How far the tool moves in the end, of the threshold. More than `most`: it tells how.
+    double moved (const Vec3& away, const own::Grip& grip, double most, std::string& how)
+    {
+        const auto third = loop.letGo (away, grip, push);
+        const bool slides = third.push_work > 2.0 * push.norm() * third.swing && third.work <= third.push_work;   // over bumps
+        const bool is_driven = third.is_far && third.most_work > third.most_push;
+        const double moved = third.is_far ? (is_driven ? 1e3 : 0.0) : std::max (slides ? 0.0 : third.swing, third.gone) / threshold;
+        if (moved <= most) return most;
+        std::ostringstream text;
+        text << "tick " << tick << ", " << 1e3 * away.norm() << " mm off, hand " << grip.mass << " kg: swing " << 1e6 * third.swing << " um, range "
+             << 1e6 * third.range << " um, work " << third.work << (third.is_far ? ", far" : "");
+        how = text.str();
+        return moved;
+    }
+
+private:
+    std::size_t tick;
+    double threshold;
+    own::Loop loop;
+    Vec3 f, push;
+};
+
+/// The largest movement of a tool in the end, of the threshold, over some places, starts and hands, and how it came about.
 struct Seen
 {
-    double most = 0.0;   // of the threshold
+    double most = 0.0;
     std::string how;
 };
 
 Seen simulated (const graph::Graph& graph, const RandomContact& contact, RandomContacts& draw)
 {
     Seen seen;
-    const auto threshold = std::max (1e-6, 2.0 * contact.mechanics.quantum);
-    for (const auto place : contact.places)
+    for (const auto at : contact.places)
     {
-        own::Loop loop { graph, catalogue(), {}, contact.mechanics };
-        loop.follow ({ contact.path.begin(), contact.path.begin() + std::ptrdiff_t (place) + 1 });
-        const Vec3 f = loop.force();
-        Vec3 push = -f;
-        const Vec3 step = contact.path[place] - contact.path[place - 1];
-        if (step.norm() * contact.rate_hz > 1e-3) push += 0.5 * f.dot (step.normalized()) * step.normalized();
+        Place place { graph, contact, at };
+        const Vec3 f = place.force();
         const own::Grip grips[] { {}, { 6e-3, 2.0 + 2.0 * draw.part(), 200.0 + 600.0 * draw.part() }, { 0.554, 6.45, 135.0 } };
         for (const double off : { 2e-4, 2e-3 })
             for (const auto& grip : grips)
-            {
-                const Vec3 away = off * (draw.chance (0.5) && f.norm() > 1e-6 ? Vec3 (f.normalized()) : draw.direction());
-                const auto third = loop.letGo (away, grip, push);
-                const bool is_graph = third.work > std::max (0.0, third.push_work);   // else the hand drives it
-                const bool goes_on = third.range > threshold && third.range >= 0.5 * third.second && is_graph;
-                const bool slides = third.push_work > 2.0 * push.norm() * third.swing && third.work <= third.push_work;   // over bumps
-                const bool is_driven = third.is_far && third.most_work > third.most_push;
-                const double moved = third.is_far ? (is_driven ? 1e3 : 0.0) : std::max (slides ? 0.0 : third.swing, goes_on ? third.range : 0.0) / threshold;
-                if (moved <= seen.most) continue;
-                seen.most = moved;
-                std::ostringstream text;
-                text << "tick " << place << ", " << 1e3 * off << " mm off, hand " << grip.mass << " kg: swing " << 1e6 * third.swing << " um, range "
-                     << 1e6 * third.range << " um, work " << third.work << (third.is_far ? ", far" : "");
-                seen.how = text.str();
-            }
+                seen.most = place.moved (off * (draw.chance (0.5) && f.norm() > 1e-6 ? Vec3 (f.normalized()) : draw.direction()), grip, seen.most, seen.how);
     }
     return seen;
+}
+
+/// Lets the tool go where the check says that it swings, with the same hand and as far off.
+void simulateThere (const graph::Graph& graph, const RandomContact& contact, const check::Trial& trial, Seen& seen)
+{
+    const auto at = std::max<std::size_t> (1, std::size_t (std::lround (trial.t_s * contact.rate_hz)));
+    Place place { graph, contact, at, std::size_t (0.1 * contact.rate_hz) };
+    const double off = trial.off > 0.0 ? trial.off : 2e-3;
+    const Vec3 out = place.force().norm() > 1e-6 ? Vec3 (place.force().normalized()) : Vec3 (Vec3::UnitZ());
+    const Vec3 aside = out.unitOrthogonal(), other = out.cross (aside);
+    const Vec3 up = 0.6 * out + 0.64 * aside + 0.48 * other, down = -0.8 * out + 0.48 * aside + 0.36 * other;
+    for (const Vec3& way : { out, aside, Vec3 (-aside), other, Vec3 (-other), up, down })
+        if (seen.most <= 1.0)
+            seen.most = place.moved (off * way, { trial.hand.mass, trial.hand.damping, trial.hand.stiffness }, seen.most, seen.how);
 }
 }   // namespace
 
@@ -99,8 +141,9 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
         const auto compiled = compile (loaded.graph, catalogue());
         INFO (test::text (compiled.messages));
         REQUIRE (compiled.plan);
-        const auto conditions = judged (loaded.graph, contact);
-        const auto seen = simulated (loaded.graph, contact, draw);
+        const auto [conditions, trial] = judged (loaded.graph, contact);
+        auto seen = simulated (loaded.graph, contact, draw);
+        if (trial.swings && seen.most <= 1.0) simulateThere (loaded.graph, contact, trial, seen);   // the places above are not all that the check has tried
         const auto row = std::ranges::find (conditions, "stiffness", &check::Condition::id);
         const bool has_verdict = row != conditions.end() && row->verdict != check::Verdict::unknown && row->verdict != check::Verdict::broken;
         const bool is_blessed = has_verdict && row->verdict != check::Verdict::unstable, does_swing = seen.most > 1.0;
@@ -111,8 +154,8 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
         if (! has_verdict || is_blessed == does_swing)
             list << i << ' ' << contact.kinds << (does_swing ? "SWINGS " : "rests ") << seen.most << " (" << seen.how << "), said "
                  << (row == conditions.end() ? "nothing" : std::string (nameOf (row->verdict)) + ": " + row->text) << '\n';
-        if (const auto& m = contact.mechanics; first != nullptr && count == 1)
-            list << contact.text << " M " << m.mass << " B " << m.damping << " dry " << m.dry << " delta " << m.quantum << " F0 " << m.mode_hz << " d "
+        if (const auto& m = contact.device; first != nullptr && count == 1)
+            list << contact.text << " M " << m.mass << " B " << m.damping << " dry " << m.coulomb << " delta " << m.quantum << " F0 " << m.first_mode << " d "
                  << m.delay << '\n';
     }
     INFO (list.str());
@@ -125,6 +168,25 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
     CHECK (none <= std::max (1, count / 20));
 }
 
+TEST_CASE ("contacts that few starts make swing are not called stable or passive", "[check]")
+{
+    // 200: a friction whose loop is not known, with one of the hands only. 3050: a liquid that swings after a hard blow.
+    for (const std::uint64_t seed : { 200, 3050 })
+    {
+        RandomContacts draw { seed };
+        const auto contact = draw.draw();
+        const auto loaded = readGraph (contact.text);
+        const auto conditions = judged (loaded.graph, contact).conditions;
+        const auto seen = simulated (loaded.graph, contact, draw);
+        const auto row = std::ranges::find (conditions, "stiffness", &check::Condition::id);
+        REQUIRE (row != conditions.end());
+        INFO (seed << ": " << row->text << '\n'
+                   << seen.how);
+        CHECK (seen.most > 1.0);
+        CHECK ((row->verdict == check::Verdict::unstable || row->verdict == check::Verdict::unknown));
+    }
+}
+
 namespace
 {
 /// A graph of one role on a device of 0.1 kg and 2 N s/m at 1 kHz. The tool is pressed with 1 N into the contact, or moved along a given path.
@@ -134,7 +196,7 @@ RandomContact made (const std::string& nodes, const std::string& wires, double d
                               "at": { "type": "device.position", "role": "h" }, "motor": { "type": "device.force", "role": "h" })"
                               + (nodes.empty() ? "" : ", " + nodes) + R"( }, "wires": [ )" + wires + " ] }",
                       .kinds = "made",
-                      .mechanics = { .mass = 0.1, .damping = 2.0 },
+                      .device = { .mass = 0.1, .damping = 2.0 },
                       .rate_hz = 1000.0,
                       .path = std::move (path),
                       .places = {} };
@@ -159,7 +221,7 @@ Both bothOf (const RandomContact& contact)
                        << test::text (loaded.messages));
     REQUIRE_FALSE (hasErrors (loaded.messages));
     RandomContacts draw { 7 };
-    const auto conditions = judged (loaded.graph, contact);
+    const auto conditions = judged (loaded.graph, contact).conditions;
     const auto row = std::ranges::find (conditions, "stiffness", &check::Condition::id);
     REQUIRE (row != conditions.end());
     return { *row, simulated (loaded.graph, contact, draw).most > 1.0 };
@@ -261,9 +323,8 @@ TEST_CASE ("dry friction and a brake may hold what the linear loop alone would l
 {
     auto contact = made (plane ("floor", R"("stiffness": 6000)"), felt_floor, 2e-4);
     CHECK (bothOf (contact).row.verdict == check::Verdict::unstable);
-    contact.mechanics.brake = 20.0;
-    contact.text.replace (contact.text.find (R"("at": {)"), 0,
-                          R"("brakes": { "type": "device.brake", "role": "h" },
+    contact.device.brake = 20.0;
+    contact.text.replace (contact.text.find (R"("at": {)"), 0, R"("brakes": { "type": "device.brake", "role": "h" },
                              "much": { "type": "signal.constant", "params": { "value": "3 N*s/m" } }, )");
     contact.text.replace (contact.text.find (R"("at.position -> floor)"), 0, R"("much.out -> brakes.damping", )");
     const auto braked = bothOf (contact);
