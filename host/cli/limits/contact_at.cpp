@@ -132,8 +132,9 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
         fail ("limits/no_contact", "the hand feels no force that depends on its position, so there is nothing to limit",
               "another motion of the hand: --sweep, --device ROLE=gesture:NAME or --device ROLE=trace:FILE.csv; or another --role");
     if (! is_known)
-        fail ("limits/no_loop", "the force does not respond in the same way on every tick, so its loop is not known",
-              "sections that run on every tick: leave out `every`, or choose another --role");
+        fail ("limits/no_loop", "the force takes more than 64 ticks to settle after a step of the tool, or does not respond in the same way on every "
+                                "tick, so its loop is not known",
+              "a filter with a higher cutoff, or a lower --rate; sections that run on every tick: leave out `every`; or choose another --role");
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
     way = motion;
@@ -207,20 +208,52 @@ Contact::Measured Contact::measured (double rate_hz, const std::vector<double>& 
             fail (Message::error (message.id,
                                   (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
                                   message.text, message.remedy));
-    const auto demand = check::measure (changed, rate_hz == way.rate_hz ? way : check::atRate (way, rate_hz),
-                                        { .at_s = static_cast<double> (way.ticks) / way.rate_hz });
-    const auto at = std::ranges::find_if (demand.roles, [&] (const check::RoleDemand& d) { return d.role == role.device.role && d.axis == its_axis; });
+    const bool is_base = params.empty() && more.empty();
+    const Vec3 pressed = is_base || ! its_axis.empty() ? Vec3 (Vec3::Zero()) : asIs (rate_hz, {}).force;
     Measured found;
-    if (at->slopes.empty() || demand.linked.empty()) return found;
-    const auto first = static_cast<Eigen::Index> (3 * (at - demand.roles.begin()));
-    for (const auto& now : demand.linked.front().responses)
-        found.response.emplace_back (now.block (first, first, 3, 3));
-    if (found.response.empty())
-        fail (Message::error ("limits/no_loop", (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz",
-                              "the force does not respond in the same way on every tick", "a smaller range of --x and --y"));
-    found.stiffness = stretch (found.response.back());
-    found.damping = at->slopes.front().damping;
+    Vec3 shift = Vec3::Zero();
+    constexpr int most_tries = 8;
+    constexpr double same_force = 5e-3;
+    for (int i = 0; i < most_tries; ++i)
+    {
+        const auto demand = check::measure (changed, pressedBy (shift, rate_hz), { .at_s = static_cast<double> (way.ticks) / way.rate_hz });
+        const auto at = std::ranges::find_if (demand.roles, [&] (const check::RoleDemand& d) { return d.role == role.device.role && d.axis == its_axis; });
+        if (at->slopes.empty() || demand.linked.empty()) return found;
+        const auto first = static_cast<Eigen::Index> (3 * (at - demand.roles.begin()));
+        found.response.clear();
+        for (const auto& now : demand.linked.front().responses)
+            found.response.emplace_back (now.block (first, first, 3, 3));
+        if (found.response.empty()) return found;
+        found.stiffness = stretch (found.response.back());
+        found.damping = at->slopes.front().damping;
+        found.force = at->slopes.front().force;
+        const double wanted = pressed.norm();
+        if (! (wanted > 0.0)) break;
+        const Vec3 out = pressed / wanted;
+        const double missing = wanted - found.force.dot (out), slope = out.dot (Mat3 (found.response.back()) * out);
+        if (std::abs (missing) <= same_force * wanted || ! (slope > 0.0)) break;
+        constexpr double longest = 2e-3;   // m at a time
+        shift -= std::clamp (missing / slope, -longest, longest) * out;
+    }
     return found;
+}
+
+/// The way to the place, and from there by a shift, slowly.
+check::HandMotion Contact::pressedBy (const Vec3& shift, double rate_hz) const
+{
+    auto its = way;
+    for (auto& moved : its.roles)
+    {
+        if (moved.role != role.device.role || shift.isZero (0.0)) continue;
+        const auto last = moved.readings.size() - 1, begin = last - static_cast<std::size_t> (std::ceil (0.1 * motion.rate_hz)) + 1;
+        for (auto k = begin; k <= last; ++k)
+        {
+            const double part = std::min (1.0, 2.0 * static_cast<double> (k - begin) / static_cast<double> (last - begin + 1));
+            moved.readings[k].position += part * shift;
+            moved.readings[k].true_position += part * shift;
+        }
+    }
+    return rate_hz == its.rate_hz ? its : check::atRate (its, rate_hz);
 }
 
 const Contact::Measured& Contact::asIs (double rate_hz, const std::vector<double>& params)
@@ -237,6 +270,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
     key.push_back (rate_hz);
     if (const auto found = models.find (key); found != models.end()) return found->second;
     const auto& base = asIs (rate_hz, params);
+    if (base.response.empty()) return models[std::move (key)];
     const double period_s = 1.0 / rate_hz;
     Model m { .stiffness = base.stiffness, .damping = base.damping, .rest = {}, .spring = {}, .damper = {} };
     const auto valueOf = [&] (const std::string& param, double set) {   // the one that is varied along an axis, too
@@ -248,6 +282,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
     {
         const double b = valueOf (damping_param, damping_set), more = 0.1 * damping();
         const auto other = measured (rate_hz, params, { { damping_param, Json (b + more) } });
+        if (other.response.empty()) return models[std::move (key)];
         m.damper = scaled (1.0 / more, sum (other.response, -1.0, base.response));
         const double each = stretch (excessOf (m.damper, period_s));
         if (each > 0.0)
@@ -263,6 +298,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         if (k > 0.0)
         {
             const auto other = measured (rate_hz, params, { { stiffness_param, Json (1.01 * k) } });
+            if (other.response.empty()) return models[std::move (key)];
             const auto change = scaled (100.0, sum (other.response, -1.0, base.response));   // of all of the param
             if (const double of_param = change.empty() ? 0.0 : stretch (change.back()); of_param > 0.0)
             {
@@ -299,16 +335,22 @@ Standing Contact::at (const Conditions& c)
     const double period_s = periodOf (numbers, rate_hz);
     const bool varies = c.stiffness || c.damping;
     const auto& m = model (rate_hz, c.params);
+    if (m.rest.empty())
+    {
+        const double unknown = std::nan ("");
+        return { .stiffness = c.stiffness.value_or (unknown), .damping = c.damping.value_or (unknown), .load = unknown, .period_s = period_s };
+    }
     Standing s { .stiffness = c.stiffness.value_or (m.stiffness), .damping = c.damping.value_or (m.damping), .period_s = period_s };
+    const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
+    constexpr std::array<double, 3> whole { 1.0, 1.0, 1.0 };
     const auto response = varies ? sum (sum (m.rest, s.stiffness, m.spring), s.damping, m.damper) : asIs (rate_hz, c.params).response;
-    s.load = loadOf (response, numbers, period_s);
+    s.load = check::passivityLoad (response, axes, whole, period_s).value_or (std::nan (""));
     s.largest_damper = check::largestDamper (numbers, period_s);
     const bool is_smooth = numbers.quantum && numbers.quantum->value <= 0.0;
     s.stiffest_held = is_smooth                            ? std::numeric_limits<double>::infinity()
                       : numbers.quantum && numbers.coulomb ? 2.0 * numbers.coulomb->value / numbers.quantum->value
                                                            : std::numeric_limits<double>::quiet_NaN();
     s.quietest_damper = 0.5 * s.stiffest_held * period_s;
-    const std::array<const DeviceNumbers*, 3> axes { &numbers, &numbers, &numbers };
     if (period_s <= (1.0 + 1e-9) / rate_hz) s.radius = check::largestRadius (response, axes, period_s);
     return s;
 }

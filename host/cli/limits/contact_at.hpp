@@ -42,7 +42,8 @@ struct Standing
 };
 
 /// The heaviest contact of a role or of an axis: the place with the largest load, in all directions together. Of several such places, it is the one with the
-/// largest force. For other params and rates, it is measured again: the tool takes the same path to exactly the same place.
+/// largest force. For other params and rates, it is measured again: the tool takes the same path to exactly the same place. With another param, the tool
+/// is then pressed in or let out until its force is as before.
 ///
 /// The params `stiffness` and `damping` of the steepest node that has them vary the contact. The change that such a param makes to the response is
 /// measured, so a filter or a hold after the node counts. Without such a param, the whole response grows with the stiffness, and a damper along the steepest
@@ -69,7 +70,7 @@ public:
 private:
     using Response = std::vector<check::Jacobian>;   // tick by tick, three rows and columns
 
-    /// A response that grows with two numbers: rest + stiffness * spring + damping * damper.
+    /// A response that grows with two numbers: rest + stiffness * spring + damping * damper. Without a rest, it is not known.
     struct Model
     {
         double stiffness = 0.0, damping = 0.0;   // as measured
@@ -80,11 +81,13 @@ private:
     {
         Response response;
         double stiffness = 0.0, damping = 0.0;
+        Vec3 force = Vec3::Zero();   // where the tool stays
     };
 
     Measured measured (double rate_hz, const std::vector<double>& params, const std::vector<plan::Override>& more);
     const Measured& asIs (double rate_hz, const std::vector<double>& params);
     const Model& model (double rate_hz, const std::vector<double>& params);
+    check::HandMotion pressedBy (const Vec3& shift, double rate_hz) const;
     void findParams (const check::Demand&, const check::Slope&, const Plan&);
 
     check::Subject subject;

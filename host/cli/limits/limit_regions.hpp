@@ -32,6 +32,7 @@ struct View
 struct Range
 {
     double low = 0.0, high = 0.0;
+    bool is_low_known = true, is_high_known = true;   // false: beyond it, the loop is not known
 };
 
 /// The limits of the working point.
@@ -219,12 +220,14 @@ private:
     std::optional<Range> rangeOf (Rule rule, const Varied& v, const std::vector<double>& values, double now,
                                   const std::vector<std::pair<Varied::What, double>>& others = {}) const
     {
-        const auto holds = [&] (double at) {
+        const auto valueAt = [&] (double at) {
             auto c = conditions ({ &v }, { at });
             for (const auto& [what, other] : others)
                 (what == Varied::What::damping ? c.damping : c.stiffness) = other;
-            return value (rule, c) < 0.0;
+            return value (rule, c);
         };
+        const auto holds = [&] (double at) { return valueAt (at) < 0.0; };
+        const auto isKnown = [&] (double at) { return ! std::isnan (valueAt (at)); };
         const auto between = [&] (double in, double out) {
             for (int i = 0; i < 14; ++i)
                 (holds (0.5 * (in + out)) ? in : out) = 0.5 * (in + out);
@@ -239,7 +242,8 @@ private:
             while (i + 1 < values.size() && holds (values[i + 1]))
                 ++i;
             const Range found { first == 0 ? values.front() : between (values[first], values[first - 1]),
-                                i + 1 == values.size() ? std::numeric_limits<double>::infinity() : between (values[i], values[i + 1]) };
+                                i + 1 == values.size() ? std::numeric_limits<double>::infinity() : between (values[i], values[i + 1]),
+                                first == 0 || isKnown (values[first - 1]), i + 1 == values.size() || isKnown (values[i + 1]) };
             const double away = std::max ({ 0.0, found.low - now, now - found.high });
             if (best && away >= nearest) continue;
             nearest = away;

@@ -48,9 +48,10 @@ std::string padded (std::string text, std::size_t width)
 std::string describe (const std::optional<Range>& r, bool is_least)
 {
     if (! r) return "nowhere";
-    if (is_least) return "at least " + number (r->low);
+    if (is_least) return (r->is_low_known ? "at least " : "unknown below ") + number (r->low);
     if (std::isinf (r->high)) return "any";
-    return "at most " + number (r->high) + (r->low > 0.0 && r->low > 0.01 * r->high ? ", at least " + number (r->low) : "");
+    const auto most = (r->is_high_known ? "at most " : "unknown above ") + number (r->high);
+    return most + (r->low > 0.0 && r->low > 0.01 * r->high ? ", at least " + number (r->low) : "");
 }
 
 void print (const LimitRegions& report, Contact& contact, const LimitsOptions& options, const Limits& passive, const Limits& stable)
@@ -91,7 +92,10 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
 Json toJson (const std::optional<Range>& r)
 {
     if (! r) return {};
-    return Json { { "from", r->low }, { "to", std::isfinite (r->high) ? Json (r->high) : Json() } };
+    Json range { { "from", r->low }, { "to", std::isfinite (r->high) ? Json (r->high) : Json() } };
+    if (! r->is_low_known) range["unknown_below"] = r->low;
+    if (! r->is_high_known) range["unknown_above"] = r->high;
+    return range;
 }
 
 Json toJson (const Limits& l) { return Json { { "stiffness", toJson (l.stiffness) }, { "damping", toJson (l.damping) }, { "rate", toJson (l.rate) } }; }

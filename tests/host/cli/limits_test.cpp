@@ -2,6 +2,7 @@
 // `tactus limits`.
 #include "framework/check/own_loop.hpp"
 #include "program.hpp"
+#include "support/rounds.hpp"
 
 #include <tactus/check/sampled_loop.hpp>
 #include <tactus/file/csv.hpp>
@@ -13,7 +14,10 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <filesystem>
+#include <numbers>
+#include <random>
 #include <utility>
 
 using namespace tactus;
@@ -143,6 +147,80 @@ TEST_CASE ("the limits of a wall behind a predictor are where a tool begins to s
     CHECK_FALSE (swings (3000.0, 1.05 * slowest));
 }
 
+namespace
+{
+/// The damping that a device needs, by the supremum on a fine grid of frequencies. `force`: after a step of 1 m into the contact, tick by tick.
+double neededFor (const std::vector<double>& force, double period)
+{
+    double most = 0.0;
+    constexpr int points = 4000;
+    for (int i = 1; i <= points; ++i)
+    {
+        const double w = std::numbers::pi * i / points;   // in radians per tick
+        std::complex<double> h = 0.0;
+        for (std::size_t k = 0; k < force.size(); ++k)
+            h += (force[k] - (k > 0 ? force[k - 1] : 0.0)) * std::polar (1.0, -w * static_cast<double> (k));
+        most = std::max (most, 0.5 * period * ((1.0 - std::polar (1.0, -w)) * h).real() / (1.0 - std::cos (w)));
+    }
+    return most;
+}
+}   // namespace
+
+TEST_CASE ("the limit of passive stiffness is within 1 % of the supremum over the frequency, with damping, filters and delays", "[check][cli]")
+{
+    const Scratch scratch;
+    std::mt19937_64 random { 11 };
+    const auto between = [&] (double low, double high) { return low + (high - low) * std::uniform_real_distribution<double> { 0.0, 1.0 }(random); };
+    for (int i = 0; i < tactus::test::rounds (12); ++i)
+    {
+        const double rate_hz = std::round (between (1000.0, 5000.0)), B = between (0.5, 4.0), b = i % 3 == 0 ? 0.0 : between (0.0, 0.3) * B;
+        const int delay = static_cast<int> (between (0.0, 3.99));
+        const bool is_filtered = i % 2 == 0;
+        const double cutoff = rate_hz * between (0.15, 0.35);
+        const auto wall = [&] (double stiffness) {
+            const auto text = [] (auto v) { return std::to_string (v); };
+            const auto smooth = R"(, "smooth": { "type": "filter.reconstruction", "params": { "cutoff": )" + text (cutoff) + " } }";
+            const std::string through = R"("wall.force -> smooth.in", "smooth.out -> motor.force")";
+            return R"({ "format": "tactus-graph", "version": 2, "name": "Wall", "rate_hz": )" + text (rate_hz)
+                   + R"(, "devices": { "h": { "driver": "sim", "mass": 0.1, "damping": )" + text (B) + R"(, "delay": )" + text (delay)
+                   + R"(, "position": [0, 0, "-0.2 mm"], "hand_force": [0, 0, "-0.3 N"] } }, "nodes": {
+                     "hand": { "type": "device.position", "role": "h" }, "motor": { "type": "device.force", "role": "h" },
+                     "wall": { "type": "deform.plane", "params": { "stiffness": )"
+                   + text (stiffness) + R"(, "damping": )" + text (b) + " } }" + (is_filtered ? smooth : "")
+                   + R"( }, "wires": [ "hand.position -> wall.position", )" + (is_filtered ? through : R"("wall.force -> motor.force")") + " ] }";
+        };
+        const auto response = [&] (double stiffness) {
+            constexpr double step = 1e-6;
+            own::Loop loop { readGraph (wall (stiffness)).graph, catalogue(), {}, { .mass = 0.1, .damping = B } };
+            const Vec3 place { 0.0, 0.0, -1e-3 };
+            loop.follow ({ place });
+            const double before = loop.force().z();
+            std::vector<double> all (static_cast<std::size_t> (delay), 0.0);
+            for (const auto& f : loop.stepTo (place - Vec3 (0.0, 0.0, step), 200))
+                all.push_back ((f.z() - before) / step);
+            return all;
+        };
+        const double some = B * rate_hz / (2.0 * delay + 1.0);
+        const auto at_one = response (some), at_two = response (2.0 * some);
+        double low = 0.0, high = 4.0 * some;
+        for (int k = 0; k < 40; ++k)
+        {
+            const double middle = 0.5 * (low + high);
+            auto mixed = at_one;
+            for (std::size_t n = 0; n < mixed.size(); ++n)
+                mixed[n] += (middle / some - 1.0) * (at_two[n] - at_one[n]);
+            (neededFor (mixed, 1.0 / rate_hz) <= B ? low : high) = middle;
+        }
+        const auto ran = runTactus ({ "limits", scratch.write ("wall.json", wall (0.5 * low)), "--json" });
+        INFO (i << ": " << rate_hz << " Hz, B " << B << ", b " << b << ", delay " << delay << ", cutoff " << (is_filtered ? cutoff : 0.0) << '\n'
+                << ran.out << ran.err);
+        REQUIRE (ran.status == 0);
+        const auto passive = Json::parse (ran.out).at ("passive");
+        CHECK (passive.at ("rule") == Json ("sufficient"));
+        CHECK (passive.at ("stiffness").at ("to").get<double>() == Approx (low).epsilon (0.01));
+    }
+}
+
 TEST_CASE ("`tactus limits` finds those of an axis, as it finds them for a tool that moves along one line", "[check][cli]")
 {
     const Scratch scratch;
@@ -197,6 +275,25 @@ TEST_CASE ("each point of a table of `tactus limits` is the exact loop of a wall
     compareWithLoop (measured);
     compareWithLoop (tableOf ({ "limits", file, "--x", "rate=300:4000", "--y", "stiffness=100:20000", "--steps", "4" }, scratch.path ("c.csv")));
     compareWithLoop (tableOf ({ "limits", file, "--steps", "3" }, scratch.path ("d.csv")));
+}
+
+TEST_CASE ("a param is varied at the same force, so the place follows it", "[check][cli]")
+{
+    // A Hertz contact behind a gain g: f = g K w^1.5. At the same force, w^1.5 is f/(g K), and the slope 1.5 g K w^0.5 grows with g^(2/3).
+    const Scratch scratch;
+    const auto file = scratch.write ("hertz.json", R"({ "format": "tactus-graph", "version": 2, "name": "Hertz", "rate_hz": 1000, "devices": { "tip":
+        { "driver": "sim", "mass": 0.1, "damping": 2, "position": [0, 0, "-1 mm"], "hand_force": [0, 0, "-2 N"] } }, "nodes": {
+        "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "settings": { "law": { "power": [40000, 1.5] } } }, "amp": { "type": "signal.gain", "params": { "gain": 1 } } },
+        "wires": ["hand.position -> wall.position", "wall.force.z -> amp.in", "amp.out -> motor.force.z"] })");
+    const auto table = tableOf ({ "limits", file, "--x", "amp.gain=0.5:8", "--y", "rate=1000:2000", "--steps", "4" }, scratch.path ("gain.csv"));
+    const auto gain = table.column ("amp.gain").value(), stiffness = table.column ("stiffness (N/m)").value();
+    const double each = table.at (0, stiffness) / std::pow (table.at (0, gain), 2.0 / 3.0);
+    for (std::size_t i = 0; i < table.rows(); ++i)
+    {
+        INFO ("gain " << table.at (i, gain));
+        CHECK (table.at (i, stiffness) == Approx (each * std::pow (table.at (i, gain), 2.0 / 3.0)).epsilon (0.01));
+    }
 }
 
 TEST_CASE ("`tactus limits` draws a picture of each kind", "[check][cli]")
