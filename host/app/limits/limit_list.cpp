@@ -9,12 +9,14 @@
 #include <host/devices/sessions/binding.hpp>
 #include <host/devices/sessions/choose_clock.hpp>
 #include <host/devices/sessions/role_fits.hpp>
+#include <tactus/check/trials.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -143,13 +145,17 @@ std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::st
     return device != devices.end() ? device->name : TRANS ("unknown device").toStdString();
 }
 
-LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const Plan& plan)
+LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const check::Trials& trials, const Plan& plan)
 {
     LimitList list;
-    for (const auto& c : check::judge (demand, devices))
+    for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
     {
         if (c.id == "stiffness" && c.isKnown() && c.value > 0.0)
-            list.contacts.push_back ({ steepestOf (demand, c.role), nameOf (devices, c.role), c.limit / c.value, c.may_grow });
+            list.contacts.push_back ({ .node = steepestOf (demand, c.role),
+                                       .device = nameOf (devices, c.role),
+                                       .verdict = c.verdict,
+                                       .passive_up_to = c.limit / c.value,
+                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : c.may_grow });
         const bool is_broken = c.isBroken();
         if (c.verdict == check::Verdict::not_reached)
             ++list.not_reached;
@@ -192,7 +198,9 @@ std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession&
         else if (const auto* described = g.device (role))
         {
             Messages said_by_run;
-            describe (r, describedByGraph (described, role, said_by_run), g.folder, profiles);
+            const auto description = describedByGraph (described, role, said_by_run);
+            describe (r, description, g.folder, profiles);
+            if (check::simulationOf (description, g.folder)) r.simulated = description;
         }
     }
     return roles;
@@ -226,7 +234,7 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
     for (const auto& r : job.roles)
     {
         if (r.hand) hands.push_back ({ r.role, *r.hand, r.hand_folder });
-        devices.push_back ({ r.role, r.numbers, r.device });
+        devices.push_back ({ r.role, r.numbers, r.device, r.simulated ? check::simulationOf (*r.simulated, job.graph.folder) : std::nullopt });
     }
     const auto begun = std::chrono::steady_clock::now();
     const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
@@ -235,7 +243,8 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
     try
     {
         const auto demand = check::measure (subject, recorded.motion, { .ticks = ticksWithin (took.count(), recorded.motion.ticks) });
-        return listOf (demand, devices, *compiled.plan);
+        const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticksWithin (took.count(), recorded.motion.ticks) / 4 });
+        return listOf (demand, devices, trials, *compiled.plan);
     }
     catch (const check::Stopped&)
     {

@@ -22,6 +22,7 @@ struct LimitRole
     std::string role;
     std::string device;   ///< its name, for people
     DeviceNumbers numbers {};
+    std::optional<Json> simulated {};       ///< description of a simulated device, whose brake and axes are tried; empty for others
     std::optional<Json> hand {};            ///< description of the device that moves the hand; empty: as the graph describes
     std::filesystem::path hand_folder {};   ///< base of the relative paths in `hand`
 
@@ -57,8 +58,9 @@ struct ContactLimit
 {
     std::string node;     ///< path of the steepest node
     std::string device;   ///< name of the role's device
+    check::Verdict verdict = check::Verdict::passive;
     double passive_up_to = 0.0;
-    double stable_up_to = 0.0;   ///< without a hand and with the usual ones; 0 if it is not known, because the contact is passive
+    double stable_up_to = 0.0;   ///< without a hand and with the usual ones; 0 if it is not known: the contact is passive, or only trials judge it
 
     bool operator== (const ContactLimit&) const = default;
 };

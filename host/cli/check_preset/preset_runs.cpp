@@ -3,6 +3,7 @@
 
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
+#include <tactus/check/trials.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/json_text.hpp>
@@ -202,9 +203,10 @@ Messages judgePreset (const check::Subject& subject, const fs::path& folder, std
     const auto demand = check::measure (subject, recorded.motion, { .ticks = ticks });
     std::vector<check::RoleDevice> devices;
     for (const auto& [role, description] : subject.graph.devices)
-        devices.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}), "sim" });
+        devices.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}), "sim", check::simulationOf (description, folder) });
     Messages messages;
-    for (const auto& c : check::judge (demand, devices))
+    const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticks / 6 });
+    for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
         if (c.isBroken())
             messages.push_back (Message::warning ("preset/condition", c.node.empty() ? "/devices/" + pointerPart (c.role) : "/nodes/" + pointerPart (c.node),
                                                   "on its own device, the preset breaks the condition `" + std::string (c.id) + "`: " + c.text,

@@ -34,11 +34,19 @@ LimitBlock::LimitBlock (std::function<std::vector<ContactLimit>()> g) : get (std
 
 juce::String LimitBlock::textOf (const ContactLimit& c)
 {
-    if (c.passive_up_to >= 1.0) return filled (TRANS ("Passive on %1, and up to %2 times as steep"), c.device, factorText (c.passive_up_to));
-    if (c.stable_up_to >= 1.0)
+    using check::Verdict;
+    // The limit of the linear loop, unless only the trials show a swing, or what calms it.
+    const bool is_known = c.verdict == Verdict::stable ? c.stable_up_to >= 1.0 : c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
+    if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, and up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::passive_here)
+        return filled (TRANS ("Passive on %1 along this motion, and up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::stable && ! is_known)
+        return filled (TRANS ("It comes to rest in a simulation of %1; passive up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::unstable && ! is_known) return filled (TRANS ("It does not come to rest in a simulation of %1"), c.device);
+    if (c.verdict == Verdict::stable)
         return filled (TRANS ("Stable on %1 with usual hands, and up to %2 times as steep; passive up to %3 times"), c.device, factorText (c.stable_up_to),
                        factorText (c.passive_up_to));
-    if (c.stable_up_to > 0.0)
+    if (c.verdict == Verdict::unstable)
         return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as steep, passive up to %3 times"), c.device,
                        factorText (c.stable_up_to), factorText (c.passive_up_to));
     return filled (TRANS ("Not passive on %1; passive up to %2 times as steep"), c.device, factorText (c.passive_up_to));
@@ -78,9 +86,10 @@ void LimitBlock::paint (juce::Graphics& g)
             g.setColour (colour);
             if (to > from) g.fillRect (juce::Rectangle<float>::leftTopRightBottom (at (from), bar.getY(), at (to), bar.getBottom()));
         };
-        const bool is_known = c.stable_up_to > 0.0;
-        const double stable = std::max (c.passive_up_to, c.stable_up_to);
-        part (0.0, c.passive_up_to, theme.of (Quantity::energy).withAlpha (0.7f));
+        const bool is_known = c.stable_up_to > 0.0 || c.verdict == check::Verdict::unstable;
+        const bool swings_in_trials = c.verdict == check::Verdict::unstable && ! (c.stable_up_to > 0.0 && c.stable_up_to < 1.0);
+        const double stable = swings_in_trials ? 0.0 : std::max (c.passive_up_to, c.stable_up_to);
+        part (0.0, std::min (c.passive_up_to, stable), theme.of (Quantity::energy).withAlpha (0.7f));
         part (c.passive_up_to, stable, theme.of (Quantity::length).withAlpha (0.7f));
         part (stable, end, is_known ? theme.stop.withAlpha (0.7f) : theme.hairline);
         g.setColour (theme.text);

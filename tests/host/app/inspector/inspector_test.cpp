@@ -482,6 +482,7 @@ TEST_CASE ("a law is plotted as one line across the plot", "[inspector]")
 
 TEST_CASE ("the inspector says how steep the contact of the selected node may become", "[app][inspector][limits]")
 {
+    using check::Verdict;
     InspectorRig rig { "granite_wall.json" };
     rig.select ("wall");
     const auto block = [&] {
@@ -490,13 +491,18 @@ TEST_CASE ("the inspector says how steep the contact of the selected node may be
         return all.front();
     };
     CHECK (block()->getHeight() == 0);
-    rig.inspector->showLimits ({ { "wall", "Simulated", 1.5, 0.0 }, { "other", "Simulated", 0.5, 2.0 } });
+    rig.inspector->showLimits ({ { "wall", "Simulated", Verdict::passive, 1.5, 0.0 }, { "other", "Simulated", Verdict::stable, 0.5, 2.0 } });
     const int one = block()->getHeight();
     CHECK (one > 0);
-    rig.inspector->showLimits ({ { "wall", "Simulated", 1.5, 0.0 }, { "wall/inner", "Simulated", 0.5, 2.0 } });
+    rig.inspector->showLimits ({ { "wall", "Simulated", Verdict::passive, 1.5, 0.0 }, { "wall/inner", "Simulated", Verdict::stable, 0.5, 2.0 } });
     CHECK (block()->getHeight() > one);
-    CHECK (LimitBlock::textOf ({ "wall", "A", 0.5, 2.0 }).startsWith ("Stable on A with usual hands, and up to 2 times as steep"));
-    CHECK (LimitBlock::textOf ({ "wall", "A", 0.5, 0.75 }).startsWith ("It swings on A"));
+    const auto text = [] (Verdict verdict, double passive, double stable) { return LimitBlock::textOf ({ "wall", "A", verdict, passive, stable }); };
+    CHECK (text (Verdict::passive, 2.0, 0.0).startsWith ("Passive on A, and up to 2 times"));
+    CHECK (text (Verdict::passive_here, 2.0, 0.0).startsWith ("Passive on A along this motion"));
+    CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands, and up to 2 times as steep"));
+    CHECK (text (Verdict::stable, 0.5, 0.75).startsWith ("It comes to rest in a simulation of A"));   // dry friction holds it
+    CHECK (text (Verdict::unstable, 0.5, 0.75).startsWith ("It swings on A"));
+    CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("It does not come to rest in a simulation of A"));   // it bounces
     rig.inspector->showLimits ({});
     CHECK (block()->getHeight() == 0);
 }

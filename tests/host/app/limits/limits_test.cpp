@@ -3,6 +3,7 @@
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
+#include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/run/device_setup.hpp>
@@ -221,6 +222,10 @@ TEST_CASE ("the steepest contact of a role has its limits, in multiples of what 
     REQUIRE (stable.contacts.size() == 1);
     CHECK (stable.contacts[0].passive_up_to == Approx (0.4 / 0.5).epsilon (0.01));
     CHECK (stable.contacts[0].stable_up_to >= stable.contacts[0].passive_up_to);
+    CHECK (passive.contacts[0].verdict == check::Verdict::passive);
+    CHECK (LimitBlock::textOf (passive.contacts[0]).startsWith ("Passive on "));
+    CHECK (stable.contacts[0].verdict == check::Verdict::unstable);
+    CHECK (LimitBlock::textOf (stable.contacts[0]).startsWith ("It swings on "));
 }
 
 TEST_CASE ("a check that is stopped finds nothing, and closing does not wait for it", "[app][limits]")
