@@ -101,7 +101,7 @@ struct Trials
     std::vector<Trial> by_role {};   ///< in the order of Demand::roles
     std::size_t places = 0, runs = 0;
     std::size_t driven_away = 0;   ///< runs in which the hand drove a tool away from the motion
-    bool are_dry = false;   ///< a device has dry friction
+    bool are_dry = false;          ///< a device has dry friction
 };
 
 struct JudgeOptions
