@@ -90,7 +90,8 @@ Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::spa
         j["not_judged"].push_back (std::move (entry));
     }
     j["places"] = demand.linked.size();
-    if (options.trials != nullptr) j["trials"] = Json { { "places", options.trials->places }, { "runs", options.trials->runs }, { "driven_away", options.trials->driven_away } };
+    if (const auto* trials = options.trials; trials != nullptr)
+        j["trials"] = Json { { "places", trials->places }, { "runs", trials->runs }, { "driven_away", trials->driven_away } };
     j["alpha"] = options.factors.alpha;
     j["beta"] = options.factors.beta;
     j["gamma"] = options.factors.gamma;

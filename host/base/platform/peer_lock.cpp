@@ -276,7 +276,8 @@ PeerLock::Attempt PeerLock::take (int connected_socket, std::string_view part)
         const LockName name ("tactus " + (number > 0 ? std::to_string (number) + " " : "") + peer.name + " " + std::string (part));
         const int file = ::socket (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
         if (file < 0) return { .why = "it cannot be locked" };
-        if (! own.is_taken && ::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)   // the kernel tells a process that connects which process listens
+        // It listens, because the kernel tells a process that connects which process listens.
+        if (! own.is_taken && ::bind (file, name.get(), name.size) == 0 && ::listen (file, SOMAXCONN) == 0)
         {
             lock.slots[1] = keep (file);
             if (lock.slots[1] == nullptr) return full();

@@ -102,7 +102,8 @@ std::string randomToken()
 {
     std::random_device dice;
     std::string token;
-    for (int i = 0; i < 12; ++i)                                      // 2e18 tokens: at the 25 600 messages that are handled in a second, trying all of them takes three million years
+    constexpr int length = 12;   // 2e18 tokens: at 25 600 messages a second, trying all of them takes three million years
+    for (int i = 0; i < length; ++i)
         token += "0123456789abcdefghijkmnpqrstuvwxyz"[dice() % 34];   // without l and o, which look like digits
     return token;
 }

@@ -52,7 +52,8 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
     return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
 }
 
-/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it to rest.
+/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it
+/// to rest.
 /// `times`: the factor of all times until a Falcon that does not answer counts as gone, for tests on busy computers.
 template <int times>
 class Falcon
