@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 from support import PROGRAM, TestCase
 from tactus import Graph, data
@@ -79,7 +80,7 @@ class Data(TestCase):
             source.mkdir()
             for name, text in files.items():
                 (source / name).parent.mkdir(parents=True, exist_ok=True)
-                (source / name).write_text(text, encoding="utf-8")
+                (source / name).write_bytes(text if isinstance(text, bytes) else text.encode())
             said = io.StringIO()
             with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
                 status = data.main([kind, str(source), "-o", str(out), *options])
@@ -232,6 +233,49 @@ class Data(TestCase):
             self.assertFalse(outside.exists())
             self.assertIn(r"Models_\x1b]0;a\x07.xml: refused", said.getvalue())
             self.assertTrue(all(c.isprintable() or c == "\n" for c in said.getvalue()))
+
+    def damaged(self, content, rng):
+        """Bytes with a few mistakes: changed, cut off, left out, repeated, and numbers that no recording has."""
+        for _ in range(rng.choice((1, 1, 2, 4))):
+            at, kind = rng.randrange(len(content) + 1), rng.randrange(6)
+            end = min(len(content), at + rng.randrange(80))
+            if kind == 0:
+                content = content[:at] + bytes([rng.randrange(256)]) + content[at + 1:]
+            elif kind == 1:
+                content = content[:at] if rng.randrange(4) == 0 else content[:at] + content[end:]
+            elif kind == 2:
+                content = content[:end] + content[at:]
+            elif kind == 3:
+                odd = (b"nan", b"1e308", b"-1e200", b"1e-320", b"inf", b"0", b"1e400", b"\0", b"\xff\xfe", b"<model>", b"</value>", b"&a;", b"\n\n", b",,")
+                content = content[:at] + rng.choice(odd) + content[at:]
+            elif digits := [n for n, c in enumerate(content) if 48 <= c < 58]:
+                place = rng.choice(digits)
+                content = content[:place] + rng.choice((b"-", b".", b"e", b"9", b"e150", b"99999", b"")) + content[place + 1:]
+        return content
+
+    def test_damaged_files_are_refused_with_a_sentence_or_become_presets_that_compile(self):
+        rng = random.Random(63)
+        axes = [[rng.gauss(0.0, 1.0) for _ in range(1100)] for _ in range(2)]
+        moving = [(50.0, 1.0, 0.3, [0.5, 1.0, 1.5], [0.7, 1.4], 2.0)]
+        plain = [(50.0 + 30.0 * i, 1.0 + i, 0.3, frequencies_of(stable(4, rng)), [], 1.0) for i in range(2)]
+        for kind, name, content, count in (
+                ("hatt", "Models_A.xml", texture(plain), 300), ("hatt", "Models_A.xml", texture(moving), 20),
+                ("cluster", "accel/1_0_20_500_0.csv", "time,X,Y,Z\n" + "\n".join(f"{i / 6000:.9f},{axes[0][i]:.4f},{axes[1][i]:.3f},1" for i in range(1100)), 300),
+                ("lmt", "Accel/A_query1.txt", "\n".join(f"{v:.4f}" for v in axes[0]), 300)):
+            made = 0
+            for _ in range(count):
+                damaged = self.damaged(content.encode(), rng)
+                presets, said, status = self.imported({name: damaged}, kind=kind)
+                with self.subTest(kind=kind, said=said, content=damaged[:2000]):
+                    self.assertEqual(status, 0 if presets else 1)
+                    self.assertNotIn("Traceback", said)
+                    for preset in presets.values():
+                        made += 1
+                        self.assertEqual(json.loads(preset, parse_constant=self.fail)["format"], "tactus-graph")
+                        with warnings.catch_warnings():
+                            warnings.simplefilter("ignore")   # the model may be loud
+                            Graph.parse(preset).render(record=["texture.value"], duration=0.01)
+            self.assertLess(made, count)
 
 
 @unittest.skipUnless(PROGRAM, "the program is not built")

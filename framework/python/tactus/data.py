@@ -34,6 +34,9 @@ LAGS = 40                # of the autocorrelation for its error
 FEWEST = 1000            # samples of a recording
 USED = 0.8               # the middle part of a recording that is used: a stroke begins and ends at rest
 GRAVITY = 9.80665        # m/s2
+LARGEST = 1e12           # number in a file
+RANGES = {"speed": (0.0, 1e9), "force": (0.0, 1e9), "rate": (10.0, 1e5)}   # of a model in a texture.noise; m/s, N and Hz
+VARIANCES = (1e-30, 1e30)                                                  # N2
 LICENCES = {
     "hatt": "made from a file of the Penn Haptic Texture Toolkit, whose licence allows research without profit, but does not allow passing on the toolkit "
             "or anything made of it: do not share this preset",
@@ -56,13 +59,22 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text)
 
 
+def reason(problem: Exception) -> str:
+    return "its numbers are too large or too small for a model" if isinstance(problem, ArithmeticError) else str(problem)
+
+
+def needs_sense(value: float, what: str) -> float:
+    if not math.isfinite(value):
+        raise Problem(f"{what} is not finite")
+    if abs(value) > LARGEST:
+        raise Problem(f"{what} is {value:g}: it is too large")
+    return value
+
+
 def numbers(element: Element, path: str) -> list[float]:
     """The values of a list, such as <speedList><value>1</value>…</speedList>; a number must be finite."""
     found = element.find(path)
-    values = [] if found is None else [float(value.text or "") for value in found.findall("value")]
-    if not all(map(math.isfinite, values)):
-        raise Problem(f"a number of {path} is not finite")
-    return values
+    return [] if found is None else [needs_sense(float(value.text or ""), f"a number of {path}") for value in found.findall("value")]
 
 
 def number(element: Element, name: str, otherwise: float | None = None) -> float:
@@ -71,10 +83,7 @@ def number(element: Element, name: str, otherwise: float | None = None) -> float
         if otherwise is None:
             raise Problem(f"there is no <{name}>")
         return otherwise
-    value = float(text)
-    if not math.isfinite(value):
-        raise Problem(f"<{name}> is not finite")
-    return value
+    return needs_sense(float(text), f"<{name}>")
 
 
 def product(a: list[float], b: list[float]) -> list[float]:
@@ -167,15 +176,18 @@ def read_hatt(path: pathlib.Path) -> tuple[list[Model], float]:
                 denominator, share, error = ar_for([gain * c for c in polynomial_of(moving)], denominator)
                 variance *= share
             speed, force = 1e-3 * number(model, "speedMod"), number(model, "forceMod")
-        except (Problem, ValueError) as problem:
-            raise Problem(f"model {i + 1}: {problem}") from None
+        except (Problem, ValueError, ArithmeticError) as problem:
+            raise Problem(f"model {i + 1}: {reason(problem)}") from None
         models.append({"speed": speed, "force": force, "polynomial": denominator, "variance": variance, "error": error})
     if not models:
         raise Problem("it has no <model>")
     claimed = int(number(root, "numMod", len(models)))
     if claimed != len(models):
         raise Problem(f"it has {len(models)} models, but <numMod> says {claimed}")
-    return models, number(root, "mu", 0.0)
+    friction = number(root, "mu", 0.0)
+    if not 0.0 <= friction <= 10.0:
+        raise Problem(f"<mu> is {friction:g}, not between 0 and 10")
+    return models, friction
 
 
 def on_even_clock(times: list[float], columns: list[list[float]]) -> tuple[list[list[float]], float, float]:
@@ -232,10 +244,7 @@ def model_of(correlations: list[list[float]]) -> tuple[list[float], float, float
 
 
 def finite_numbers(words: Sequence[str]) -> list[float]:
-    values = [float(word) for word in words]
-    if not all(map(math.isfinite, values)):
-        raise Problem("a number is not finite")
-    return values
+    return [needs_sense(float(word), "a number") for word in words]
 
 
 def read_rows(path: pathlib.Path, names: list[str]) -> list[list[float]]:
@@ -308,8 +317,8 @@ def models_of(recordings: Recordings, kind: str, given: argparse.Namespace) -> t
                     axes = long_enough([finite_numbers(re.split(r"[\s,;]+", path.read_text(encoding="utf-8-sig").strip()))])
                 correlations.append(correlation_of(axes))
                 rates.append(rate)
-            except (Problem, ValueError) as problem:
-                raise Problem(f"{path}: {problem}") from None
+            except (Problem, ValueError, ArithmeticError) as problem:
+                raise Problem(f"{path}: {reason(problem)}") from None
         polynomial, variance, error = model_of(correlations)
         models.append({"speed": speed, "force": force, "polynomial": polynomial, "variance": variance * unit * unit})
         worst = max(worst, error)
@@ -353,7 +362,19 @@ def preset_of(name: str, models: list[Model], friction: float, mass: float, sour
                                "surface.stiffness": "a guess", "drag.d_max": "a guess"}}}
 
 
+def check(models: list[Model], mass: float) -> None:
+    """Refuses models that a texture.noise cannot hold."""
+    for i, m in enumerate(models):
+        low, high = VARIANCES
+        if not all(map(math.isfinite, m["polynomial"])) or not low <= m["variance"] * mass * mass <= high:
+            raise Problem(f"model {i + 1}: its variance of {m['variance'] * mass * mass:g} N2 is not between {low:g} and {high:g}")
+        for name, (low, high) in RANGES.items():
+            if not low <= m[name] <= high:
+                raise Problem(f"model {i + 1}: its {name} of {m[name]:g} is not between {low:g} and {high:g}")
+
+
 def write_preset(out: pathlib.Path, name: str, models: list[Model], friction: float, given: argparse.Namespace, source: str) -> pathlib.Path:
+    check(models, given.mass)
     target = out / f"{name.lower().replace(' ', '_')}.json"
     preset = preset_of(name, models, friction, given.mass, source, given.kind)
     try:
@@ -377,8 +398,8 @@ def import_hatt(given: argparse.Namespace) -> tuple[list[str], bool]:
             for m in models:
                 m["rate"] = given.rate or 1000.0
             target = write_preset(given.out, name, models, friction, given, f"the models of HaTT, {path.name}")
-        except (Problem, ValueError, OSError) as problem:
-            sentences.append(f"{path}: refused: {problem}")
+        except (Problem, ValueError, LookupError, ArithmeticError, OSError) as problem:
+            sentences.append(f"{path}: refused: {reason(problem)}")
             refused = True
             continue
         worst = max(m["error"] for m in models)
@@ -398,8 +419,8 @@ def import_recordings(given: argparse.Namespace) -> tuple[list[str], bool]:
             models, sentence = models_of(recordings, given.kind, given)
             target = write_preset(given.out, name, models, 0.4, given, f"{source}, {name}")
             sentences.append(f"{target}: {sentence}")
-        except (Problem, OSError) as problem:
-            sentences.append(f"{name}: refused: {problem}")
+        except (Problem, ArithmeticError, OSError) as problem:
+            sentences.append(f"{name}: refused: {reason(problem)}")
             refused = True
     return sentences, refused
 
