@@ -58,7 +58,8 @@ Result<Signal> readWav (const std::filesystem::path& path)
         reader.reset (juce::WavAudioFormat().createReaderFor (samples.stream.release(), true));
 
     if (reader == nullptr || ! isKnown (*reader))
-        return Message::error ("wav/not_a_wav", path.string(), "it is not a supported WAV file",
+        return Message::error ("wav/not_a_wav", path.string(),
+                               "it is not a supported WAV file" + (samples.why.empty() ? "" : ": " + samples.why),
                                "save it as WAV, 32- or 64-bit float or 8-, 16-, 24- or 32-bit integer");
 
     const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;

@@ -44,14 +44,33 @@ juce::int64 takeSize (juce::InputStream& in) { return static_cast<std::uint32_t>
 
 juce::int64 padded (juce::int64 bytes) { return bytes + (bytes & 1); }
 
-bool isSupported (const std::string& format)
-{
-    if (format.size() < shortest_format) return false;
-    const int code = static_cast<unsigned char> (format[0]) | static_cast<unsigned char> (format[1]) << 8;
-    return code == 1 || code == 3 || code == 0xfffe;   // integers, floats, extensible; JUCE would decode Ogg Vorbis too
-}
-
 int numberAt (const std::string& format, std::size_t at) { return static_cast<unsigned char> (format[at]) | static_cast<unsigned char> (format[at + 1]) << 8; }
+
+/// Why the samples of a format cannot be read, as a part of a sentence; empty if they can. The bits of an extensible format are those of its container: the
+/// lowest of them may be 0.
+std::string whyNot (const std::string& format)
+{
+    if (format.empty()) return "it has no chunk 'fmt ' before its samples";
+    if (format.size() < shortest_format) return "its chunk 'fmt ' is too short";
+    int code = numberAt (format, 0);
+    if (code == 0xfffe)
+    {
+        if (format.size() < longest_format) return "its chunk 'fmt ' is too short for an extensible format";
+        code = numberAt (format, 24);
+    }
+    const int channels = numberAt (format, 2), bits = numberAt (format, 14), bytes = numberAt (format, 12);
+    static constexpr std::pair<int, std::string_view> compressed[] { { 2, "ADPCM" }, { 6, "A-law" }, { 7, "mu-law" }, { 17, "IMA ADPCM" }, { 49, "GSM" }, { 80, "MPEG" }, { 85, "MP3" } };
+    for (const auto& [known, name] : compressed)
+        if (code == known) return "its samples are compressed, as " + std::string (name);
+    if (code != 1 && code != 3) return "its samples have a format that is not read, of the number " + std::to_string (code);
+    if (channels == 0) return "its header says 0 channels";
+    if (numberAt (format, 4) == 0 && numberAt (format, 6) == 0) return "its header says 0 samples per second";
+    const bool is_float = code == 3, fits = is_float ? bits == 32 || bits == 64 : bits == 8 || bits == 16 || bits == 24 || bits == 32;
+    if (! fits) return "its samples are " + std::string (is_float ? "floats" : "integers") + " of " + std::to_string (bits) + " bits";
+    if (bytes != 0 && bytes != channels * bits / 8)
+        return "its header says " + std::to_string (bytes) + " bytes for " + std::to_string (channels) + " samples of " + std::to_string (bits) + " bits";
+    return {};
+}
 
 /// The whole frames in a number of bytes.
 juce::int64 wholeFrames (const std::string& format, juce::int64 bytes)
@@ -79,11 +98,13 @@ bool isUnknown (juce::InputStream& wav, std::uint64_t size, juce::int64 start, b
     return size >= near_2_gb && size <= past_2_gb && start + static_cast<juce::int64> (size) > wav.getTotalLength();
 }
 
-/// Finds the chunks as JUCE does: the claimed size of the file ends the search. None if the file is not a WAV.
-std::optional<Chunks> findChunks (juce::InputStream& wav)
+/// Finds the chunks as JUCE does: the claimed size of the file ends the search. None if the file is not a WAV; then `why` is the reason.
+std::optional<Chunks> findChunks (juce::InputStream& wav, std::string& why)
 {
     const auto kind = take (wav, 4);
-    const bool is_rf64 = kind == "RF64";
+    const bool is_rf64 = kind == "RF64" || kind == "BW64";   // two names of one layout
+    why = kind.empty() ? "it is empty" : kind == "RIFX" ? "its numbers are big-endian (RIFX)"
+                                                        : "it does not begin with 'RIFF' and 'WAVE'";
     if (! is_rf64 && kind != "RIFF") return std::nullopt;
     auto end = static_cast<std::uint64_t> (takeSize (wav)) + 8;
     // A program that streams cannot go back to write the sizes, and leaves 0 or the largest number.
@@ -93,6 +114,7 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
     std::optional<juce::int64> long_size;
     if (is_rf64)
     {
+        why = "it has no chunk 'ds64', which holds its size";
         if (take (wav, 4) != "ds64") return std::nullopt;
         const auto size = takeSize (wav), start = wav.getPosition();
         if (size < 28) return std::nullopt;
@@ -105,7 +127,11 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
     bool says_none = false;
     for (int chunk = 0; static_cast<std::uint64_t> (wav.getPosition()) < end && ! wav.isExhausted(); ++chunk)
     {
-        if (chunk == most_chunks) return std::nullopt;
+        if (chunk == most_chunks)
+        {
+            why = "it has more than " + std::to_string (most_chunks) + " chunks before its samples";
+            return std::nullopt;
+        }
         const auto name = take (wav, 4);
         const auto size = takeSize (wav), start = wav.getPosition();
         if (name == "fmt ") found.format = take (wav, static_cast<int> (std::min<juce::int64> (size, longest_format)));
@@ -234,12 +260,14 @@ std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wa
 
 WavSamples samplesOnly (std::unique_ptr<juce::InputStream> wav)
 {
-    const auto chunks = findChunks (*wav);
-    if (! chunks || ! isSupported (chunks->format)) return {};
+    WavSamples none;
+    const auto chunks = findChunks (*wav, none.why);
+    if (chunks) none.why = whyNot (chunks->format);
+    if (! none.why.empty()) return none;
     const auto in_file = std::max (juce::int64 { 0 }, wav->getTotalLength() - chunks->data_start);
     const auto bytes = std::clamp (chunks->data_bytes.value_or (0), juce::int64 { 0 }, in_file);
-    if (hasDoubles (chunks->format)) return { rounded (*chunks, *wav, bytes), bytes / 2 };
-    return { std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes), bytes };
+    if (hasDoubles (chunks->format)) return { rounded (*chunks, *wav, bytes), bytes / 2, {} };
+    return { std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes), bytes, {} };
 }
 
 }   // namespace tactus::host

@@ -4,6 +4,7 @@
 #include <juce_core/juce_core.h>
 
 #include <memory>
+#include <string>
 
 namespace tactus::host
 {
@@ -13,12 +14,13 @@ struct WavSamples
 {
     std::unique_ptr<juce::InputStream> stream;
     juce::int64 bytes = 0;
+    std::string why {};   ///< there is no stream, as a part of a sentence
 };
 
 /// The WAV file without its metadata: a header with only the format and the size of the samples, then the samples, which are read
 /// from the file when they are needed. JUCE's reader parses all metadata, and deeply nested XML overflows its stack. The sizes are
 /// those that the file claims; if it claims none, as streams do, all bytes to its end are samples. 64-bit floats, which JUCE does not read,
-/// become 32-bit ones. The stream is null if the file is not a WAV, or its format is neither integers nor floats. [any thread]
+/// become 32-bit ones. The stream is null if the file is not a WAV, or its format is neither integers nor floats; then there is a reason. [any thread]
 WavSamples samplesOnly (std::unique_ptr<juce::InputStream> wav);
 
 }   // namespace tactus::host
