@@ -246,7 +246,7 @@ private:
             {
                 const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
                 return fail ("csv/not_a_number", column, inColumn (name_of_column, written, "is not a number"),
-                             has_separator ? "separate the columns by commas" : "write a number like -1.5e-3, without a unit");
+                             has_separator ? "separate the columns by commas" : "write a number like -1.5e-3, without a unit or marks between thousands");
             }
 
             table.values.push_back (number.value);

@@ -314,8 +314,11 @@ Result<ModesFit> fitModes (const RecordedRing& given, FitCourse* course)
     report.residual = ring.largest * std::sqrt (residual.squaredNorm() / static_cast<double> (ring.size()));
     report.left_out_residual = ring.largest * leftOut (found, residual);
     report.size = ring.largest * std::sqrt (ring.meanSquare());
-    report.notes.push_back ("fitted from " + roundedText (ring.start, 4) + " s to " + roundedText (ring.start + ring.duration(), 4)
-                            + " s; the amplitudes are those at the blow, at " + roundedText (ring.blow, 4) + " s");
+    // Times since 1970 need more digits to differ.
+    const double end = ring.start + ring.duration();
+    const int digits = 4 + static_cast<int> (std::log10 (std::max (1.0, end / ring.duration())));
+    report.notes.push_back ("fitted from " + roundedText (ring.start, digits) + " s to " + roundedText (end, digits)
+                            + " s; the amplitudes are those at the blow, at " + roundedText (ring.blow, digits) + " s");
     std::vector<double> t, fitted;
     for (Index i = 0; i < ring.size(); ++i)
     {

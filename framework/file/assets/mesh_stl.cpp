@@ -56,6 +56,9 @@ void readText (std::string_view bytes, MeshBuilder& mesh)
 
 void readBinary (std::string_view bytes, MeshBuilder& mesh)
 {
+    // A title of text, and a number of triangles below 16 million: a byte of 0 is among the first 84 bytes of every binary file that is complete.
+    const bool may_be_binary = bytes.substr (0, header).find ('\0') != bytes.npos || (bytes.size() >= header && bytes.size() >= binarySize (bytes));
+    if (! bytes.empty() && ! may_be_binary) throw MeshProblem { "mesh/syntax", "it is neither a text that begins with 'solid', nor a binary .stl" };
     if (bytes.size() < header || bytes.size() < binarySize (bytes)) throw MeshProblem { "mesh/truncated", "it has fewer triangles than its header says" };
     bytes = bytes.substr (header, binarySize (bytes) - header);
     while (! bytes.empty())

@@ -49,14 +49,22 @@ char separatorOf (const std::string& line)
 }
 
 /// The fields of a line, without spaces around them. Several spaces separate like one.
-Fields fieldsOf (const std::string& line)
+Fields fieldsOf (const std::string& line, char separator)
 {
-    const char separator = separatorOf (line);
     Fields fields;
     for (auto& part : split (separator == ' ' ? trimmed (line) : line, separator))
         if (auto field = trimmed (part); separator != ' ' || ! field.empty())
             fields.push_back (separator == ',' ? std::move (field) : withPoint (std::move (field)));
     return fields;
+}
+
+Fields fieldsOf (const std::string& line) { return fieldsOf (line, separatorOf (line)); }
+
+/// The fields of a row of a table whose first row has this separator. A semicolon or a tab separates also where a field is not a number, such as 1.000,5.
+Fields fieldsOfRow (const std::string& line, char usual)
+{
+    const bool is_usual = (usual == ';' || usual == '\t') && line.find (usual) != std::string::npos;
+    return fieldsOf (line, is_usual ? usual : separatorOf (line));
 }
 
 /// The number of fields, without empty ones at the end.
@@ -87,8 +95,13 @@ std::string joined (Fields fields, std::size_t columns, bool are_names)
     std::string line;
     if (fields.size() > columns && filled (fields) <= columns) fields.resize (columns);
     for (std::size_t i = 0; i < fields.size(); ++i)
-        line += (i > 0 ? "," : "") + (are_names && fields[i].empty() ? columnName (i) : are_names ? withoutLatin1 (fields[i])
-                                                                                                  : fields[i]);
+    {
+        if (i > 0) line += ',';
+        if (are_names)
+            line += fields[i].empty() ? columnName (i) : withoutLatin1 (fields[i]);
+        else   // one field, even if it is not a number
+            line += fields[i].find (',') == std::string::npos ? fields[i] : '"' + fields[i] + '"';
+    }
     return line;
 }
 
@@ -168,7 +181,7 @@ std::optional<RecordedText> tableIn (const std::string& written_text)
     else
         table.add (joined (names, columns, true), written[place.first_row - 1]);
     for (auto i = place.first_row; i < written.size(); ++i)
-        table.add (joined (fieldsOf (lines[written[i]]), columns, false), written[i]);
+        table.add (joined (fieldsOfRow (lines[written[i]], separatorOf (first)), columns, false), written[i]);
     return table;
 }
 
