@@ -87,7 +87,7 @@ void writeSamples (const ConvertOptions& options, const Clip& clip, const reader
     wrote (options.out);
     for (const auto& m : source.leftOut())
         std::cout << "  loss: " << inOneLine (m.where) << ": " << inOneLine (m.text) << "\n";
-    std::cout << "  loss: samples at " << roundedText (options.rate_hz, 3) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
+    std::cout << "  loss: samples at " << roundedText (options.rate_hz, 9) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
 }
 
 void writeFile (const std::string& out, const Clip& clip, double rate_hz, const readers::ClipFile& source)

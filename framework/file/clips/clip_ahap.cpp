@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace tactus::readers
@@ -66,34 +67,52 @@ struct Event
     }
 };
 
+/// A recording that is played within an event.
+struct Sound
+{
+    Event event {};
+    const Signal* signal = nullptr;
+};
+
 class AhapReader
 {
 public:
-    explicit AhapReader (ClipJson& f) : file (f) { intensity.initial = 1.0; }
+    AhapReader (ClipJson& f, const ReadSound& r, ClipSounds& s) : file (f), read_sound (r), sounds (s)
+    {
+        intensity.initial = 1.0;
+        volume.initial = 1.0;
+    }
 
     Clip read()
     {
         const auto& root = file.root();
         const auto pattern = file.need (root, "Pattern");
         file.list (pattern);
+        file.noteOthers (root, { "Version", "Metadata", "Pattern" });
         for (std::size_t i = 0; i < pattern.json->size(); ++i)
         {
             const auto entry = ClipJson::entry (pattern, i);
             file.object (entry);
-            if (const auto event = file.find (entry, "Event"))
-                readEvent (*event);
-            else if (const auto parameter = file.find (entry, "Parameter"))
-                readParameter (*parameter);
-            else if (const auto curve = file.find (entry, "ParameterCurve"))
-                readCurve (*curve);
-            else
+            file.noteOthers (entry, { "Event", "Parameter", "ParameterCurve" });
+            const auto event = file.find (entry, "Event"), parameter = file.find (entry, "Parameter"), curve = file.find (entry, "ParameterCurve");
+            if (event) readEvent (*event);
+            if (parameter) readParameter (*parameter);
+            if (curve) readCurve (*curve);
+            if (! event && ! parameter && ! curve)
                 file.refuse (entry, "clip/missing", "it is neither an Event, nor a Parameter, nor a ParameterCurve", "correct or remove it");
         }
         if (const auto data = file.find (root, "Metadata"))
+        {
             for (const auto& [key, value] : data->json->items())
-                if (value.is_string()) clip.notes.emplace_back (lower (key), value.asString());
+                if (value.is_string())
+                    clip.notes.emplace_back (lower (key), value.asString());
+                else
+                    file.note ({ &value, &*data, key }, "clip/not_carried", "the metadata " + quote (key) + " are left out: a clip holds texts only",
+                               "keep the original file");
+        }
         intensity.join();
         sharpness.join();
+        volume.join();
         makeTracks();
         return std::move (clip);
     }
@@ -126,59 +145,129 @@ private:
         const auto type = file.need (spot, "EventType");
         const auto& kind = file.text (type);
         const bool is_tap = kind == "HapticTransient";
+        file.noteOthers (spot, { "Time", "EventType", "EventDuration", "EventParameters", "EventWaveformPath", "EventWaveformUseVolumeEnvelope",
+                                 "EventWaveformLoopEnabled" });
+        if (kind == "AudioContinuous") return leaveOut (spot, type, "a clip holds recordings, and this is a tone of the phone");
+        if (kind == "AudioCustom") return readSound (spot, type);
         if (! is_tap && kind != "HapticContinuous")
-        {
-            if (kind != "AudioContinuous" && kind != "AudioCustom")
-                file.refuse (type, "clip/range", "there is no event type " + quote (kind),
-                             "types are HapticTransient, HapticContinuous, AudioContinuous and AudioCustom");
-            const auto sound = file.find (spot, "EventWaveformPath");
-            return file.note (type, "clip/not_carried",
-                              "the sound " + (sound && sound->json->is_string() ? quote (sound->json->asString()) : "event")
-                                  + " is left out: a clip holds no sounds",
-                              "play it alongside the clip");
-        }
+            file.refuse (type, "clip/range", "there is no event type " + quote (kind),
+                         "types are HapticTransient, HapticContinuous, AudioContinuous and AudioCustom");
         Event event { .time = timeOf (spot) };
         const auto duration = is_tap ? std::nullopt : file.find (spot, "EventDuration");
         if (duration) event.duration = limited (*duration, 0.0, 30.0);
         if (! is_tap && ! (event.duration > 0.0))
-            return file.note (spot, "clip/not_carried", "the continuous event is left out: it has no EventDuration", "give it one, in seconds");
-        if (const auto list = file.find (spot, "EventParameters"))
+            return file.note (spot, "clip/not_carried",
+                              std::string ("the continuous event is left out: ") + (duration ? "its EventDuration is 0" : "it has no EventDuration"),
+                              "give it one, in seconds");
+        readEventParameters (spot, event, is_tap ? Kind::tap : Kind::tone);
+        (is_tap ? taps : events).push_back (event);
+    }
+
+    /// The sound of an event is left out, for a reason that is a part of a sentence.
+    void leaveOut (const Spot& event, const Spot& type, const std::string& why)
+    {
+        const auto path = file.find (event, "EventWaveformPath");
+        file.note (type, "clip/not_carried",
+                   "the sound " + (path && path->json->is_string() ? quote (path->json->asString()) : "event") + " is left out: " + why,
+                   "play it alongside the clip");
+    }
+
+    /// A recording that the phone plays with the pattern. It sounds on channels of its own, after that of the vibration.
+    void readSound (const Spot& spot, const Spot& type)
+    {
+        const auto path = file.find (spot, "EventWaveformPath");
+        if (! path || ! path->json->is_string()) return leaveOut (spot, type, "it has no EventWaveformPath");
+        if (! read_sound) return leaveOut (spot, type, "sounds are not read here");
+        const auto& name = path->json->asString();
+        auto known = sounds.find (name);
+        if (known == sounds.end())
         {
-            file.list (*list);
-            for (std::size_t i = 0; i < list->json->size(); ++i)
-            {
-                const auto entry = ClipJson::entry (*list, i);
-                readEventParameter (entry, event, is_tap);
-            }
+            auto made = read_sound (name);
+            if (! made) return leaveOut (spot, type, made.error().text);
+            if (made->channels.empty() || made->channels.front().empty() || ! (made->rate_hz > 0.0)) return leaveOut (spot, type, "it has no samples");
+            known = sounds.emplace (name, std::move (*made)).first;
+            countNumbers (static_cast<double> (known->second.channels.size() * known->second.channels.front().size()));
+        }
+        const auto& signal = known->second;
+        const double whole = static_cast<double> (signal.channels.front().size()) / signal.rate_hz;
+        Sound sound { .event = { .time = timeOf (spot), .duration = whole }, .signal = &signal };
+        const auto isTrue = [&] (std::string_view key, bool otherwise) {
+            const auto value = file.find (spot, key);
+            return value && value->json->is_boolean() ? value->json->get<bool>() : otherwise;
+        };
+        const bool loops = isTrue ("EventWaveformLoopEnabled", false), has_shape = isTrue ("EventWaveformUseVolumeEnvelope", true);
+        if (const auto duration = file.find (spot, "EventDuration"))
+            if (const double wanted = limited (*duration, 0.0, longest_clip_s); wanted > 0.0)
+                sound.event.duration = loops ? wanted : std::min (wanted, whole);
+        if (loops && sound.event.duration == whole)
+            file.note (spot, "clip/changed", "the sound loops without an EventDuration; it is played once", "give it an EventDuration, in seconds");
+        sound.event.intensity = 1.0;
+        readEventParameters (spot, sound.event, has_shape ? Kind::sound : Kind::bare_sound);
+        countNumbers (sound.event.duration * signal.rate_hz * static_cast<double> (signal.channels.size()));
+        played.push_back (sound);
+    }
+
+    void countNumbers (double more)
+    {
+        if ((numbers += more) > budgets().numbers) tooLarge();
+    }
+
+    /// Kind of an event: what its parameters act on.
+    enum class Kind
+    {
+        tap,
+        tone,
+        sound,
+        bare_sound   ///< without an attack, decay and release
+    };
+
+    void readEventParameters (const Spot& spot, Event& event, Kind kind)
+    {
+        const auto list = file.find (spot, "EventParameters");
+        if (! list) return;
+        file.list (*list);
+        for (std::size_t i = 0; i < list->json->size(); ++i)
+        {
+            const auto entry = ClipJson::entry (*list, i);
+            file.noteOthers (entry, { "ParameterID", "ParameterValue" });
+            readEventParameter (entry, event, kind);
         }
         if (event.hasShape())
             file.note (spot, "clip/changed",
                        "its attack, decay and release are straight lines of as many seconds within its duration: Apple does not publish their shape",
                        "draw them into a curve of HapticIntensityControl");
-        (is_tap ? taps : events).push_back (event);
     }
 
-    void readEventParameter (const Spot& spot, Event& event, bool is_tap)
+    void readEventParameter (const Spot& spot, Event& event, Kind kind)
     {
         const auto id = file.need (spot, "ParameterID");
         const auto& name = file.text (id);
         const auto value = file.find (spot, "ParameterValue");
         if (! value) return file.note (spot, "clip/habit", quote (name) + " has no ParameterValue; its default is used", "give it one");
-        if (name == "HapticIntensity")
+        const bool is_sound = kind == Kind::sound || kind == Kind::bare_sound, has_shape = kind == Kind::tone || kind == Kind::sound;
+        if (name == (is_sound ? "AudioVolume" : "HapticIntensity"))
             event.intensity = limited (*value, 0.0, 1.0);
-        else if (name == "HapticSharpness")
+        else if (name == "HapticSharpness" && ! is_sound)
             event.sharpness = limited (*value, 0.0, 1.0);
-        else if (name == "Sustained" && ! is_tap)
+        else if (name == "Sustained" && has_shape)
             event.is_sustained = limited (*value, 0.0, 1.0) >= 0.5;
-        else if (name == "AttackTime" && ! is_tap)
+        else if (name == "AttackTime" && has_shape)
             event.attack = limited (*value, 0.0, 1.0);
-        else if (name == "DecayTime" && ! is_tap)
+        else if (name == "DecayTime" && has_shape)
             event.decay = limited (*value, 0.0, 1.0);
-        else if (name == "ReleaseTime" && ! is_tap)
+        else if (name == "ReleaseTime" && has_shape)
             event.release = limited (*value, 0.0, 1.0);
-        else if (! (name == "Sustained" && file.number (*value) == 1.0))
-            file.note (spot, "clip/not_carried", quote (name) + " of " + numberText (file.number (*value)) + " is left out",
-                       "draw it into a curve of HapticIntensityControl");
+        else if (const double v = file.number (*value); v != neutral (name, is_sound))
+            file.note (spot, "clip/not_carried", quote (name) + " of " + numberText (v) + " is left out",
+                       is_sound ? "change the recording itself" : "draw it into a curve of HapticIntensityControl");
+    }
+
+    /// The value of a parameter that changes nothing; NaN if every value would change something.
+    static double neutral (const std::string& name, bool is_sound)
+    {
+        if (name == "Sustained" || (is_sound && name == "AudioBrightness")) return 1.0;
+        if (is_sound && (name == "AudioPan" || name == "AudioPitch")) return 0.0;
+        return std::numeric_limits<double>::quiet_NaN();
     }
 
     Control* controlOf (const Spot& spot)
@@ -187,6 +276,7 @@ private:
         const auto& name = file.text (id);
         if (name == "HapticIntensityControl") return &intensity;
         if (name == "HapticSharpnessControl") return &sharpness;
+        if (name == "AudioVolumeControl") return &volume;
         file.note (id, "clip/not_carried", "changes of " + quote (name) + " are left out",
                    "no action is needed if it is of a sound; else draw it into a curve of HapticIntensityControl");
         return nullptr;
@@ -200,16 +290,18 @@ private:
             file.note (spot, "clip/habit", "there is no ParameterValue; its default is used", "give it one");
             return control.initial;
         }
-        return limited (*value, &control == &intensity ? 0.0 : -1.0, 1.0);
+        return limited (*value, &control == &sharpness ? -1.0 : 0.0, 1.0);
     }
 
     void readParameter (const Spot& spot)
     {
+        file.noteOthers (spot, { "ParameterID", "Time", "ParameterValue" });
         if (auto* control = controlOf (spot)) control->curves.push_back ({ { timeOf (spot), controlValue (spot, *control) } });
     }
 
     void readCurve (const Spot& spot)
     {
+        file.noteOthers (spot, { "ParameterID", "Time", "ParameterCurveControlPoints" });
         auto* control = controlOf (spot);
         if (control == nullptr) return;
         const auto list = file.need (spot, "ParameterCurveControlPoints");
@@ -219,6 +311,7 @@ private:
         for (std::size_t i = 0; i < list.json->size(); ++i)
         {
             const auto point = ClipJson::entry (list, i);
+            file.noteOthers (point, { "Time", "ParameterValue" });
             const double time = start + timeOf (point);
             if (! curve.empty() && time < curve.back().time)
                 file.refuse (point, "clip/order", "its time is before that of the previous point", "sort the points by time");
@@ -309,11 +402,11 @@ private:
     }
 
     /// The first track that is free at this time, with a gap of silence before it.
-    ClipTrack& freeTrack (double time)
+    ClipTrack& freeTrack (double time, int channel = 1)
     {
         constexpr double rounding = 1e-9;   // of the sum of a time and a duration
         for (auto& track : clip.tracks)
-            if (track.amplitude.empty() || track.amplitude.back().time <= time + rounding)
+            if (track.channel == channel && (track.amplitude.empty() || track.amplitude.back().time <= time + rounding))
             {
                 if (! track.amplitude.empty() && track.amplitude.back().time < time)
                 {
@@ -323,8 +416,8 @@ private:
                 return track;
             }
         if (clip.tracks.size() >= at (most_clip_tracks))
-            file.refuse (file.root(), "clip/too_large", "more than " + std::to_string (most_clip_tracks) + " continuous events sound together", "remove some");
-        return clip.tracks.emplace_back();
+            file.refuse (file.root(), "clip/too_large", "more than " + std::to_string (most_clip_tracks) + " events sound together", "remove some");
+        return clip.tracks.emplace_back (ClipTrack { .channel = channel, .is_wave = channel > 1 });
     }
 
     void makeTracks()
@@ -347,6 +440,37 @@ private:
             const double strength = e.intensity * intensity.at (e.time);
             clip.tracks.front().taps.push_back ({ e.time, strength * strength, std::clamp (e.sharpness + sharpness.at (e.time), 0.0, 1.0) });
         }
+        std::ranges::stable_sort (played, {}, [] (const Sound& s) { return s.event.time; });
+        for (const auto& sound : played)
+            for (std::size_t c = 0; c < sound.signal->channels.size(); ++c)
+                addSound (sound, c);
+    }
+
+    /// One channel of a recording, as a wave.
+    void addSound (const Sound& sound, std::size_t c)
+    {
+        const auto& e = sound.event;
+        const auto& samples = sound.signal->channels[c];
+        auto& points = freeTrack (e.time, static_cast<int> (std::min<std::size_t> (c + 2, at (most_clip_channels)))).amplitude;
+        const double start = points.empty() ? e.time : std::max (e.time, points.back().time), rate = sound.signal->rate_hz;
+        const auto count = static_cast<std::size_t> (std::ceil (e.duration * rate - 1e-6));
+        std::size_t limited_ones = 0, odd = 0;
+        double last = 0.0;
+        for (std::size_t k = 0; k < count; ++k)
+        {
+            const double since = static_cast<double> (k) / rate, sample = samples[k % samples.size()];
+            const double v = std::isfinite (sample) ? sample * e.intensity * volume.at (e.time + since) * e.shape (since) : 0.0;
+            last = std::clamp (v, -1.0, 1.0);
+            if (! std::isfinite (sample)) ++odd;
+            if (last != v) ++limited_ones;
+            points.push_back ({ start + since, last });
+        }
+        points.push_back ({ start + static_cast<double> (count) / rate, last });   // the last sample lasts as long as the others
+        const auto noteCount = [&] (std::size_t n, const char* id, const std::string& what) {
+            if (n > 0) file.note (file.root(), id, std::to_string (n) + " samples of a sound " + what, "change the recording");
+        };
+        noteCount (limited_ones, "clip/clamped", "are limited to 1");
+        noteCount (odd, "clip/not_finite", "are not finite numbers; 0 is used instead");
     }
 
     [[noreturn]] void tooLarge() const
@@ -355,12 +479,16 @@ private:
     }
 
     ClipJson& file;
+    const ReadSound& read_sound;
+    ClipSounds& sounds;
     Clip clip;
-    Control intensity, sharpness;
+    Control intensity, sharpness, volume;
     std::vector<Event> events, taps;
+    std::vector<Sound> played;
+    double numbers = 0.0;   // samples of sounds, as read and as played
 };
 }   // namespace
 
-Clip readAhap (ClipJson& file) { return AhapReader (file).read(); }
+Clip readAhap (ClipJson& file, const ReadSound& read_sound, ClipSounds& sounds) { return AhapReader (file, read_sound, sounds).read(); }
 
 }   // namespace tactus::readers

@@ -115,9 +115,10 @@ Json curvesOf (const Clip& clip, Messages& losses)
 }
 }   // namespace
 
-ClipText writeAhap (const Clip& clip)
+ClipText writeAhap (const Clip& given)
 {
     ClipText made;
+    const auto clip = weighted (given, made.losses);
     const auto isApart = [] (const ClipTrack& t) { return ! t.phases.empty(); };
     std::optional<Json> pattern;
     if (clip.tracks.size() > 1 || std::ranges::any_of (clip.tracks, isApart)) pattern = eventsOf (clip);

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace tactus::readers
 {
@@ -44,16 +46,27 @@ ChannelDifference compare (const Clip& a, const Clip& b, int channel)
 
 std::vector<ChannelDifference> compareClips (const Clip& first, const Clip& second, bool mixed)
 {
-    const auto hasWave = [] (const Clip& clip) { return std::ranges::any_of (clip.tracks, &ClipTrack::is_wave); };
-    if (hasWave (first) != hasWave (second)) return compareClips (withoutWaves (first), withoutWaves (second), mixed);
-    if (mixed) return { compare (first, second, 0) };
+    // In a channel with envelopes in one clip and waves in the other, the envelopes of the waves are compared.
+    const auto hasBoth = [&] (int channel) {
+        bool kinds[2][2] {};
+        for (const auto* clip : { &first, &second })
+            for (const auto& t : clip->tracks)
+                if (channel == 0 || t.channel == channel) kinds[clip == &first][t.is_wave] = kinds[clip == &first][t.is_wave] || ! t.amplitude.empty();
+        return kinds[0][0] != kinds[1][0] || kinds[0][1] != kinds[1][1];
+    };
     std::set<int> channels;
+    if (mixed) channels.insert (0);
     for (const auto* clip : { &first, &second })
         for (const auto& t : clip->tracks)
-            channels.insert (t.channel);
+            if (! mixed) channels.insert (t.channel);
+    std::optional<std::pair<Clip, Clip>> envelopes;
     std::vector<ChannelDifference> all;
     for (const int channel : channels)
-        all.push_back (compare (first, second, channel));
+    {
+        const bool as_envelopes = hasBoth (channel);
+        if (as_envelopes && ! envelopes) envelopes.emplace (withoutWaves (first), withoutWaves (second));
+        all.push_back (as_envelopes ? compare (envelopes->first, envelopes->second, channel) : compare (first, second, channel));
+    }
     return all;
 }
 

@@ -58,14 +58,14 @@ Message unknownKind (std::string_view name)
                            "clips are .haptic, .ahap, .hjif and .json");
 }
 
-Clip readAs (Format format, ClipJson& file)
+Clip readAs (Format format, ClipJson& file, const ReadSound& read_sound, ClipSounds& sounds)
 {
     switch (format)
     {
     case Format::haptic:
         return readHaptic (file);
     case Format::ahap:
-        return readAhap (file);
+        return readAhap (file, read_sound, sounds);
     case Format::hjif:
         return readHjif (file);
     default:
@@ -90,7 +90,7 @@ Messages ClipFile::leftOut() const
     return out;
 }
 
-Result<ClipFile> readClip (std::string_view bytes, std::string_view name)
+Result<ClipFile> readClip (std::string_view bytes, std::string_view name, const ReadSound& read_sound)
 {
     const auto by_name = formatOf (name);
     if (by_name == Format::none) return unknownKind (name);
@@ -98,7 +98,7 @@ Result<ClipFile> readClip (std::string_view bytes, std::string_view name)
     {
         ClipJson file (bytes, name);
         ClipFile made;
-        made.clip = readAs (by_name == Format::json ? inside (file) : by_name, file);
+        made.clip = readAs (by_name == Format::json ? inside (file) : by_name, file, read_sound, made.sounds);
         made.notes = file.takeNotes();
         if (const auto what = problemOf (made.clip); ! what.empty()) return Message::error ("clip/range", std::string (name), what, "correct it");
         return made;

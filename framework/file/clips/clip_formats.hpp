@@ -5,12 +5,13 @@
 
 #include "clip_file.hpp"
 #include "clip_json.hpp"
+#include "clip_mixing.hpp"
 
 namespace tactus::readers
 {
 
 Clip readHaptic (ClipJson&);
-Clip readAhap (ClipJson&);
+Clip readAhap (ClipJson&, const ReadSound&, ClipSounds&);
 Clip readHjif (ClipJson&);
 Clip readOwnClip (ClipJson&);
 

@@ -4,6 +4,7 @@
 
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 
@@ -22,12 +23,13 @@ double timeOf (const ClipJson& file, const Spot& point, double before)
     return time;
 }
 
-void readEmphasis (const ClipJson& file, const Spot& point, double time, double amplitude, ClipTrack& track)
+void readEmphasis (ClipJson& file, const Spot& point, double time, double amplitude, ClipTrack& track)
 {
     constexpr double rounding = 1e-6;
     const auto emphasis = file.find (point, "emphasis");
     if (! emphasis) return;
     file.object (*emphasis);
+    file.noteOthers (*emphasis, { "amplitude", "frequency" });
     const auto hard = file.need (*emphasis, "amplitude"), sharp = file.need (*emphasis, "frequency");
     const ClipTap tap { time, file.number (hard, 0.0, 1.0), file.number (sharp, 0.0, 1.0) };
     if (tap.amplitude < amplitude - rounding)
@@ -37,12 +39,16 @@ void readEmphasis (const ClipJson& file, const Spot& point, double time, double 
     track.taps.push_back (tap);
 }
 
-void readNotes (const ClipJson& file, Clip& clip)
+void readNotes (ClipJson& file, Clip& clip)
 {
     const auto data = file.find (file.root(), "metadata");
     if (! data) return;
     for (const auto& [key, value] : data->json->items())
-        if (value.is_string() && ! value.asString().empty()) clip.notes.emplace_back (key, value.asString());
+        if (! value.is_string() && ! (value.is_array() && value.size() == 0))
+            file.note ({ &value, &*data, key }, "clip/not_carried", "the metadata " + quote (key) + " are left out: a clip holds texts only",
+                       "keep the original file");
+        else if (value.is_string() && ! value.asString().empty())
+            clip.notes.emplace_back (key, value.asString());
 }
 }   // namespace
 
@@ -58,6 +64,10 @@ Clip readHaptic (ClipJson& file)
     const auto envelopes = file.need (continuous, "envelopes");
     const auto amplitude = file.need (envelopes, "amplitude");
     file.list (amplitude);
+    file.noteOthers (root, { "version", "metadata", "signals" });
+    file.noteOthers (signals, { "continuous" });
+    file.noteOthers (continuous, { "envelopes" });
+    file.noteOthers (envelopes, { "amplitude", "frequency" });
     if (amplitude.json->size() < 2)
         file.refuse (amplitude, "clip/too_few", "the envelope has " + std::to_string (amplitude.json->size()) + " points; it needs at least 2", "add points");
 
@@ -68,6 +78,7 @@ Clip readHaptic (ClipJson& file)
     {
         const auto point = ClipJson::entry (amplitude, i);
         file.object (point);
+        file.noteOthers (point, { "time", "amplitude", "emphasis" });
         before = timeOf (file, point, before);
         const auto value = file.need (point, "amplitude");
         track.amplitude.push_back ({ before, file.number (value, 0.0, 1.0) });
@@ -84,6 +95,7 @@ Clip readHaptic (ClipJson& file)
         {
             const auto point = ClipJson::entry (*frequency, i);
             file.object (point);
+            file.noteOthers (point, { "time", "frequency" });
             before = timeOf (file, point, before);
             const auto value = file.need (point, "frequency");
             track.sharpness.push_back ({ before, file.number (value, 0.0, 1.0) });
@@ -127,9 +139,10 @@ std::vector<ClipPoint> pointsFor (const ClipTrack& track)
 }
 }   // namespace
 
-ClipText writeHaptic (const Clip& clip)
+ClipText writeHaptic (const Clip& given)
 {
     ClipText made;
+    const auto clip = weighted (given, made.losses);
     const auto track = oneTrack (clip, made.losses);
     const auto points = pointsFor (track);
     Json amplitude = Json::array(), frequency = Json::array();

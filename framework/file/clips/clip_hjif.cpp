@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -32,7 +33,8 @@ struct Band
 
     Kind kind = Kind::wave;
     int channel = 1;
-    double low = 0.0, high = 0.0;   // Hz
+    double low = 0.0, high = 0.0;                                // Hz
+    double earliest = std::numeric_limits<double>::infinity();   // ticks, of the effects so far
     HjifCurve curve = HjifCurve::cubic;
     std::vector<HjifEffect> effects {};
 };
@@ -48,6 +50,20 @@ public:
         timescale = file.numberOr (root, "timescale", 1000.0, 1.0, 1e9);
         if (const auto text = file.find (root, "description"); text && text->json->is_string() && ! text->json->asString().empty())
             clip.notes.emplace_back ("description", text->json->asString());
+        file.noteOthers (root, { "version", "profile", "level", "date", "description", "timescale", "avatars", "perceptions", "syncs" });
+        const auto isLonger = [] (const std::optional<Spot>& list, std::size_t most) { return list && list->json->is_array() && list->json->size() > most; };
+        if (const auto avatars = file.find (root, "avatars"); isLonger (avatars, 0))
+        {
+            const auto first = ClipJson::entry (*avatars, 0);
+            if (isLonger (avatars, 1) || file.find (first, "mesh")) leaveOut (*avatars, "the avatars are", "which avatar feels it, and where");
+        }
+        if (const auto syncs = file.find (root, "syncs"); syncs && syncs->json->is_array())
+            for (std::size_t i = 0; i < syncs->json->size(); ++i)
+            {
+                const auto sync = ClipJson::entry (*syncs, i);   // one at 0 s says nothing
+                if (const auto at = file.find (sync, "timestamp"); at && at->json->is_number() && at->json->get<double>() != 0.0)
+                    leaveOut (sync, "the sync point is", "when other media begin");
+            }
         const auto perceptions = file.need (root, "perceptions");
         file.list (perceptions);
         perceptions_count = perceptions.json->size();
@@ -64,8 +80,32 @@ public:
     }
 
 private:
+    /// Notes a part of the file for which a clip has no place.
+    void leaveOut (const Spot& spot, const std::string& what, const std::string& of)
+    {
+        file.note (spot, "clip/not_carried", what + " left out: a clip does not say " + of, "keep the original file");
+    }
+
+    /// Notes those of the keys that are there, and say something.
+    void leaveOutKeys (const Spot& object, std::initializer_list<std::string_view> keys, const std::string& of)
+    {
+        for (const auto& key : keys)
+            if (const auto found = file.find (object, key))
+            {
+                const auto& v = *found->json;
+                const bool is_empty = (v.is_number() && v.get<double>() == 0.0) || (v.is_string() && v.asString().empty()) || (v.is_array() && v.size() == 0)
+                                      || v.is_null();
+                if (! is_empty) leaveOut (*found, quote (key) + " is", of);
+            }
+    }
+
     void readPerception (const Spot& spot)
     {
+        file.noteOthers (spot, { "id", "avatar_id", "description", "perception_modality", "priority", "unit_exponent", "perception_unit_exponent",
+                                 "effect_semantic_scheme", "reference_devices", "effect_library", "channels", "tracks" });
+        leaveOutKeys (spot, { "reference_devices" }, "on which device it was made");
+        leaveOutKeys (spot, { "priority" }, "what matters more");
+        leaveOutKeys (spot, { "description" }, "what its parts are called");
         if (const auto modality = file.find (spot, "perception_modality"); modality && modality->json->is_string())
         {
             const auto& name = modality->json->asString();
@@ -86,15 +126,20 @@ private:
         {
             const auto channel = ClipJson::entry (*channels, i);
             file.object (channel);
+            file.noteOthers (channel, { "id", "description", "gain", "mixing_coefficient", "mixing_weight", "body_part_mask", "priority", "reference_device_id",
+                                        "frequency_sampling", "sample_count", "direction", "actuator_resolution", "body_part_target", "actuator_target",
+                                        "vertices", "bands" });
+            leaveOutKeys (channel, { "body_part_mask", "body_part_target", "actuator_target", "actuator_resolution", "vertices" }, "where it is felt");
+            leaveOutKeys (channel, { "direction" }, "in which direction it pushes");
+            leaveOutKeys (channel, { "priority" }, "what matters more");
+            leaveOutKeys (channel, { "description" }, "what its parts are called");
             if (++channel_count > most_clip_channels) file.refuse (channel, "clip/too_large", "there are more than 1024 channels", "split the file");
             channel_now = perceptions_count == 1 ? static_cast<int> (file.numberOr (channel, "id", channel_count - 1.0, -1e9, 1e9)) + 1 : channel_count;
             if (channel_now < 1 || channel_now > most_clip_channels) channel_now = channel_count;
             gain = file.numberOr (channel, "gain", 1.0, -1e6, 1e6) * std::pow (10.0, exponent);
             for (const auto* key : { "mixing_coefficient", "mixing_weight" })
-                if (const auto weight = file.find (channel, key); weight && file.number (*weight) != 1.0)
-                    file.note (*weight, "clip/not_carried",
-                               quote (key) + " of " + numberText (file.number (*weight)) + " is left out: channels are not mixed here",
-                               "set the gain of the node that plays the channel");
+                if (const auto weight = file.find (channel, key); weight && file.number (*weight, 0.0, heaviest_mixing) != 1.0)
+                    setMixingWeight (clip, channel_now, file.number (*weight));
             const auto all = file.find (channel, "bands");
             if (! all) continue;
             file.list (*all);
@@ -131,6 +176,9 @@ private:
         const auto kind = kindOf (spot);
         if (! kind) return;
         Band band { .kind = *kind, .channel = channel_now };
+        file.noteOthers (spot, { "band_type", "lower_frequency_limit", "upper_frequency_limit", "curve_type", "block_length", "window_length",
+                                 "encoding_modality", "priority", "effects" });
+        leaveOutKeys (spot, { "priority" }, "what matters more");
         band.low = file.numberOr (spot, "lower_frequency_limit", 0.0, 0.0, 1e5);
         band.high = file.numberOr (spot, "upper_frequency_limit", 0.0, 0.0, 1e5);
         if (const auto type = file.find (spot, "curve_type"); band.kind == Band::Kind::curve && type) band.curve = curveType (spot, *type);
@@ -170,8 +218,15 @@ private:
     void readEffect (const Spot& spot, const std::optional<Spot>& library, Band& band)
     {
         double start = file.numberOr (spot, "position", 0.0, -longest_clip_s * timescale, longest_clip_s * timescale);
-        if (isJustBelow16Bits (start)) start = wrapped (spot, "position", start);
-        if (file.isText (spot, "effect_type", "Composite"))
+        if (mayBeNegative (start) && ! (band.earliest < start))
+            start = wrapped (spot, "position", start);
+        else
+            band.earliest = std::min (band.earliest, start);
+        file.noteOthers (spot, { "effect_type", "id", "position", "phase", "base_signal", "semantic", "semantic_keywords", "priority", "keyframes", "timeline",
+                                 "composition", "wavelet_stream" });
+        leaveOutKeys (spot, { "semantic", "semantic_keywords" }, "what it means");
+        leaveOutKeys (spot, { "priority" }, "what matters more");
+        if (file.isText (spot, "effect_type", "Composite") || file.isText (spot, "effect_type", "Timeline"))
             return file.note (spot, "clip/not_carried", "the composite effect is left out", "put its effects into the band");
         if (! file.isText (spot, "effect_type", "Reference")) return readKeyframes (spot, start, band);
         const auto found = library ? inLibrary (spot, *library) : std::nullopt;
@@ -179,10 +234,8 @@ private:
         readKeyframes (*found, start, band);
     }
 
-    /// MPEG's own decoder writes positions before its packet as unsigned numbers of 16 bits: 65534 is -2. A position that is really as large is
-    /// rare, and the note names it.
-    static bool isJustBelow16Bits (double ticks) { return ticks >= 65536.0 - 64.0 && ticks < 65536.0; }
-
+    /// MPEG's own decoder writes positions before its packet as unsigned numbers of 16 bits: 65534 is -2. The effects of a band are in order, so a position
+    /// after another is really as large.
     double wrapped (const Spot& spot, std::string_view key, double ticks)
     {
         const double meant = ticks - 65536.0;
@@ -199,6 +252,7 @@ private:
         {
             const auto frame = ClipJson::entry (list, i);
             file.object (frame);
+            file.noteOthers (frame, { "relative_position", "amplitude_modulation", "frequency_modulation" });
             ticks.push_back (file.numberOr (frame, "relative_position", 0.0, -longest_clip_s * timescale, longest_clip_s * timescale));
             if (++keyframes > budgets().numbers) file.refuse (frame, "clip/too_large", "the effects have more keyframes than the budget allows", "shorten it");
         }
@@ -207,7 +261,7 @@ private:
             const auto frame = ClipJson::entry (list, i);
             const bool goes_back = i + 1 < ticks.size() && ticks[i] > ticks[i + 1];
             const bool is_wrap = ticks[i] >= 32768.0 && ticks[i] < 65536.0 && goes_back && ticks[i] - 65536.0 <= ticks[i + 1];
-            if (is_wrap || (i == 0 && ticks.size() == 1 && isJustBelow16Bits (ticks[i])))
+            if (is_wrap || (i == 0 && ticks.size() == 1 && mayBeNegative (ticks[i])))
                 ticks[i] = wrapped (frame, "relative_position", ticks[i]);
             else if (goes_back)
             {

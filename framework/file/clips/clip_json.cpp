@@ -4,6 +4,7 @@
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::readers
@@ -67,7 +68,15 @@ void ClipJson::note (const Spot& spot, std::string id, std::string text, std::st
         return;
     }
     groups[kind] = { .index = notes.size() };
-    notes.push_back (Message::warning (std::move (id), placeOf (spot), pointer + ": " + std::move (text), std::move (remedy)));
+    notes.push_back (Message::warning (std::move (id), placeOf (spot), (pointer.empty() ? "" : pointer + ": ") + std::move (text), std::move (remedy)));
+}
+
+void ClipJson::noteOthers (const Spot& spot, std::initializer_list<std::string_view> known)
+{
+    if (! spot.json->is_object()) return;
+    for (const auto& [key, value] : spot.json->items())
+        if (std::ranges::find (known, key) == known.end())
+            note ({ &value, &spot, key }, "clip/not_carried", quote (key) + " is left out: the format has no such key here", "check its spelling");
 }
 
 Messages ClipJson::takeNotes()

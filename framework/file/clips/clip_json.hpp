@@ -5,6 +5,7 @@
 
 #include <tactus/text/message.hpp>
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ public:
 
     /// A warning. Notes that differ only in their numbers are one, with a count.
     void note (const Spot&, std::string id, std::string text, std::string remedy);
+    /// Warns of each key of an object that is not in a list: clip/not_carried.
+    void noteOthers (const Spot& object, std::initializer_list<std::string_view> known);
     Messages takeNotes();   ///< all of them, at most most_messages
 
     std::optional<Spot> find (const Spot& object, std::string_view key) const;

@@ -38,9 +38,10 @@ void rowsOf (const ClipJson& file, const Spot& track, std::string_view key, std:
     }
 }
 
-void readTrack (const ClipJson& file, const Spot& spot, ClipTrack& track)
+void readTrack (ClipJson& file, const Spot& spot, ClipTrack& track)
 {
     file.object (spot);
+    file.noteOthers (spot, { "channel", "wave", "amplitude", "sharpness", "transients", "phases" });
     track.channel = static_cast<int> (file.numberOr (spot, "channel", 1.0, 1.0, most_clip_channels));
     if (const auto wave = file.find (spot, "wave"); wave && wave->json->is_boolean()) track.is_wave = wave->json->get<bool>();
     const auto positive = [&] (const Spot& row, double v) {
@@ -74,8 +75,10 @@ Clip readOwnClip (ClipJson& file)
         file.refuse (version, "clip/version", "version " + numberText (v) + " is not known", "update Tactus, or save it as version 1");
 
     Clip clip;
+    file.noteOthers (root, { "format", "version", "notes", "voice", "tracks" });
     if (const auto voice = file.find (root, "voice"))
     {
+        file.noteOthers (*voice, { "lowest", "highest", "transient_lowest", "transient_highest", "ducking" });
         const auto hertz = [&] (std::string_view key, double& value) { value = file.numberOr (*voice, key, value, 0.1, 1e5); };
         hertz ("lowest", clip.voice.lowest);
         hertz ("highest", clip.voice.highest);

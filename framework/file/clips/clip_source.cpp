@@ -69,7 +69,7 @@ double fraction (double cycles) { return cycles - std::floor (cycles); }
 class HjifSound
 {
 public:
-    HjifSound (const Json& root, const SampleTimes& t) : file (root), times (t) {}
+    HjifSound (const Json& root, const SampleTimes& t, bool m) : file (root), times (t), is_mixed (m) {}
 
     ChannelSamples render()
     {
@@ -89,12 +89,17 @@ public:
                 for (const auto* band : elements (member (channel, "bands")))
                     addBand (band, perception, sum);
                 const double gain = numberIn (channel, "gain").value_or (1.0) * unit;
+                weights[id] = numberIn (channel, "mixing_coefficient").value_or (numberIn (channel, "mixing_weight").value_or (1.0));
                 auto& out = made[id];
                 out.resize (times.count);
                 for (std::size_t k = 0; k < sum.size(); ++k)
                     out[k] += gain * std::clamp (sum[k], -1.0, 1.0);
             }
         }
+        if (is_mixed && made.size() > 1)
+            for (auto& [id, samples] : made)
+                for (double& v : samples)
+                    v *= weights[id];
         return std::move (made);
     }
 
@@ -108,9 +113,11 @@ private:
     void addBand (const Json* band, const Json* perception, std::vector<double>& sum)
     {
         const auto type = textIn (band, "band_type");
+        std::vector<double> before;   // the positions of the effects so far that are what they seem
         for (const auto* effect : elements (member (band, "effects")))
         {
-            const double start = narrow (numberIn (effect, "position").value_or (0.0));
+            const double written = numberIn (effect, "position").value_or (0.0), start = follows (before, written) ? written : narrow (written);
+            if (start == written) before.push_back (start);
             const auto kind = textIn (effect, "effect_type");
             if (kind == "Composite") continue;
             const Json* source = effect;
@@ -130,6 +137,11 @@ private:
             else if (type == "VectorialWave" || (type == "Wave" && textIn (band, "encoding_modality") != "Wavelet"))
                 addTone (keys, source, start, sum);
         }
+    }
+
+    static bool follows (const std::vector<double>& before, double ticks)
+    {
+        return std::ranges::any_of (before, [ticks] (double b) { return b < ticks; });
     }
 
     /// Numbers of 16 bits that are meant as negative ones.
@@ -271,25 +283,27 @@ private:
 
     const Json& file;
     const SampleTimes& times;
+    bool is_mixed;
     ChannelSamples made;
+    std::map<int, double> weights;
     double timescale = 1000.0;
 };
 
 //==============================================================================
-/// Apple AHAP. One channel.
+/// Apple AHAP. One channel of vibration, and those of its recordings.
 class AhapSound
 {
 public:
-    AhapSound (const Json& root, const ClipVoice& v, const SampleTimes& t) : file (root), voice (v), times (t) {}
+    AhapSound (const Json& root, const ClipVoice& v, const SampleTimes& t, const ClipSounds& s) : file (root), voice (v), times (t), sounds (s) {}
 
     ChannelSamples render()
     {
         const auto pattern = elements (member (&file, "Pattern"));
         for (const auto* entry : pattern)
         {
-            if (const auto* p = member (entry, "Parameter"); p != nullptr && member (entry, "Event") == nullptr)
+            if (const auto* p = member (entry, "Parameter"); p != nullptr)
                 addControl (p, { { timeIn (p), valueIn (p) } });
-            else if (const auto* c = member (entry, "ParameterCurve"); c != nullptr && member (entry, "Event") == nullptr)
+            if (const auto* c = member (entry, "ParameterCurve"); c != nullptr)
             {
                 std::vector<ClipPoint> points;
                 for (const auto* point : elements (member (c, "ParameterCurveControlPoints")))
@@ -297,12 +311,17 @@ public:
                 if (! points.empty()) addControl (c, std::move (points));
             }
         }
-        for (auto* list : { &gains, &shifts })
+        for (auto* list : { &gains, &shifts, &volumes })
             std::ranges::stable_sort (*list, {}, [] (const auto& points) { return points.front().time; });
+        for (const auto& points : shifts)
+            for (const auto& p : points)
+                corners.push_back (p.time);
+        std::ranges::sort (corners);
         sum.resize (times.count);
         for (const auto* entry : pattern)
             if (const auto* event = member (entry, "Event")) addEvent (event);
-        return { { 1, std::move (sum) } };
+        made[1] = std::move (sum);
+        return std::move (made);
     }
 
 private:
@@ -312,7 +331,7 @@ private:
     double valueIn (const Json* object, std::string id = {}) const
     {
         if (id.empty()) id = textIn (object, "ParameterID");
-        const bool is_gain = id == "HapticIntensityControl";
+        const bool is_gain = id == "HapticIntensityControl" || id == "AudioVolumeControl";
         return std::clamp (numberIn (object, "ParameterValue").value_or (is_gain ? 1.0 : 0.0), is_gain ? 0.0 : -1.0, 1.0);
     }
 
@@ -320,6 +339,7 @@ private:
     {
         const auto id = textIn (object, "ParameterID");
         if (id == "HapticIntensityControl") gains.push_back (std::move (points));
+        if (id == "AudioVolumeControl") volumes.push_back (points);
         if (id == "HapticSharpnessControl") shifts.push_back (std::move (points));
     }
 
@@ -344,7 +364,7 @@ private:
     void addEvent (const Json* event)
     {
         const auto type = textIn (event, "EventType");
-        double intensity = 1.0, sharpness = 0.5, attack = 0.0, decay = 0.0, release = 0.0;
+        double intensity = 1.0, sharpness = 0.5, attack = 0.0, decay = 0.0, release = 0.0, loudness = 1.0;
         bool sustained = true;
         for (const auto* p : elements (member (event, "EventParameters")))
         {
@@ -352,6 +372,7 @@ private:
             if (! v) continue;
             const double used = std::clamp (*v, 0.0, 1.0);
             const auto id = textIn (p, "ParameterID");
+            if (id == "AudioVolume") loudness = used;
             if (id == "HapticIntensity") intensity = used;
             if (id == "HapticSharpness") sharpness = used;
             if (id == "AttackTime") attack = used;
@@ -368,8 +389,24 @@ private:
             for (auto k = part.begin; k < part.end; ++k)
                 sum[k] += strength * strength * std::sin (2.0 * pi * hertz * (times[k] - start));
         }
+        const double duration = std::clamp (numberIn (event, "EventDuration").value_or (0.0), 0.0, type == "AudioCustom" ? longest_clip_s : 30.0);
+        const auto shapeAt = [&] (double since, double whole) {
+            double shape = attack > 0.0 && since < attack ? since / attack : 1.0;
+            if (! sustained && since >= attack) shape = decay > 0.0 ? std::max (0.0, 1.0 - (since - attack) / decay) : 0.0;
+            if (release > 0.0 && whole - since < release) shape *= (whole - since) / release;
+            return shape;
+        };
+        if (type == "AudioCustom")
+        {
+            const auto isTrue = [&] (std::string_view key, bool otherwise) {
+                const auto* v = member (event, key);
+                return v != nullptr && v->is_boolean() ? v->get<bool>() : otherwise;
+            };
+            const bool has_shape = isTrue ("EventWaveformUseVolumeEnvelope", true);
+            addSound (textIn (event, "EventWaveformPath"), start, duration, isTrue ("EventWaveformLoopEnabled", false),
+                      [&] (double t, double whole) { return loudness * valueAt (volumes, t, 1.0) * (has_shape ? shapeAt (t - start, whole) : 1.0); });
+        }
         if (type != "HapticContinuous") return;
-        const double duration = std::clamp (numberIn (event, "EventDuration").value_or (0.0), 0.0, 30.0);
         const auto part = between (times, start, start + duration);
         double cycles = 0.0, last = start;
         for (auto k = part.begin; k < part.end; ++k)
@@ -377,25 +414,48 @@ private:
             const double t = times[k], since = t - start;
             cycles = fraction (cycles + phaseBetween (sharpness, last, t));
             last = t;
-            double shape = attack > 0.0 && since < attack ? since / attack : 1.0;
-            if (! sustained && since >= attack) shape = decay > 0.0 ? std::max (0.0, 1.0 - (since - attack) / decay) : 0.0;
-            if (release > 0.0 && duration - since < release) shape *= (duration - since) / release;
-            const double i = intensity * valueAt (gains, t, 1.0) * shape;
+            const double i = intensity * valueAt (gains, t, 1.0) * shapeAt (since, duration);
             sum[k] += i * i * std::sin (2.0 * pi * cycles);
         }
     }
 
-    /// The integral of the frequency between two near times, by Simpson's rule in four parts: a curve may have a corner between them.
+    /// A recording, as a sound card plays it: straight between its samples.
+    template <typename Gain>
+    void addSound (const std::string& path, double start, double duration, bool loops, Gain gain)
+    {
+        const auto found = sounds.find (path);
+        if (found == sounds.end()) return;
+        const auto& [rate, channels] = found->second;
+        const auto n = channels.front().size();
+        const double own = static_cast<double> (n) / rate, whole = duration > 0.0 && (loops || duration < own) ? duration : own;
+        const auto part = between (times, start, start + whole);
+        for (std::size_t c = 0; c < channels.size(); ++c)
+        {
+            auto& out = made[static_cast<int> (c) + 2];
+            out.resize (times.count);
+            const auto sample = [&] (double k) {
+                const double last = std::ceil (whole * rate - 1e-6) - 1.0, v = channels[c][static_cast<std::size_t> (std::min (k, last)) % n];
+                return std::isfinite (v) ? v : 0.0;
+            };
+            for (auto k = part.begin; k < part.end; ++k)
+            {
+                const double at = (times[k] - start) * rate, left = std::floor (at), v = sample (left) + (at - left) * (sample (left + 1.0) - sample (left));
+                out[k] += std::clamp (v * gain (times[k], whole), -1.0, 1.0);
+            }
+        }
+    }
+
+    /// The integral of the frequency between two near times, by Simpson's rule from corner to corner of the curves.
     double phaseBetween (double sharpness, double from, double to) const
     {
-        constexpr int parts = 4;
         if (shifts.empty()) return (to - from) * frequency (sharpness, from);
         double whole = 0.0;
-        const double h = (to - from) / parts;
-        for (int i = 0; i < parts; ++i)
+        for (auto corner = std::ranges::upper_bound (corners, from); from < to; ++corner)
         {
-            const double a = from + i * h;
-            whole += h / 6.0 * (frequency (sharpness, a) + 4.0 * frequency (sharpness, a + 0.5 * h) + frequency (sharpness, a + h));
+            const double until = corner != corners.end() && *corner < to ? *corner : to, h = until - from, little = 1e-6 * h;   // off the steps at its ends
+            whole += h / 6.0 * (frequency (sharpness, from + little) + 4.0 * frequency (sharpness, from + 0.5 * h) + frequency (sharpness, until - little));
+            from = until;
+            if (corner == corners.end()) break;
         }
         return whole;
     }
@@ -403,8 +463,11 @@ private:
     const Json& file;
     const ClipVoice& voice;
     const SampleTimes& times;
-    Curves gains, shifts;
+    const ClipSounds& sounds;
+    Curves gains, shifts, volumes;
+    std::vector<double> corners;   // times of the points of `shifts`
     std::vector<double> sum;
+    ChannelSamples made;
 };
 
 //==============================================================================
@@ -472,15 +535,16 @@ ChannelSamples renderHaptic (const Json& root, const ClipVoice& voice, const Sam
 }
 }   // namespace
 
-std::optional<ChannelSamples> renderFile (std::string_view text, std::string_view name, const ClipVoice& voice, const SampleTimes& times)
+std::optional<ChannelSamples> renderFile (std::string_view text, std::string_view name, const ClipVoice& voice, const SampleTimes& times,
+                                          const SourceParts& parts)
 {
     try
     {
         const ClipJson file (text, name);
         const Json& root = *file.root().json;
         if (textIn (&root, "format") == "tactus-clip") return {};
-        if (member (&root, "Pattern") != nullptr) return AhapSound (root, voice, times).render();
-        if (member (&root, "perceptions") != nullptr) return HjifSound (root, times).render();
+        if (member (&root, "Pattern") != nullptr) return AhapSound (root, voice, times, parts.sounds).render();
+        if (member (&root, "perceptions") != nullptr) return HjifSound (root, times, parts.is_mixed).render();
         if (member (&root, "signals") != nullptr) return renderHaptic (root, voice, times);
     }
     catch (const ClipProblem&)

@@ -49,6 +49,9 @@ struct HjifEffect
     std::vector<ClipPoint> wave() const;
 };
 
+/// True for the positions of an effect that may be negative numbers of 16 bits: MPEG's own decoder writes -2 as 65534.
+inline bool mayBeNegative (double ticks) { return ticks >= 65536.0 - 64.0 && ticks < 65536.0; }
+
 enum class HjifCurve
 {
     linear,

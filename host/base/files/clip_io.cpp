@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "clip_io.hpp"
 #include "clip_samples.hpp"
+#include "clip_sounds.hpp"
 #include "wav.hpp"
 
+#include <tactus/file/clips/clip_mixing.hpp>
 #include <tactus/file/clips/clip_signal.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>
@@ -42,10 +44,17 @@ double rateFor (const Clip& clip, double wanted_hz)
     return usual_rate_hz;
 }
 
+/// The clip as its channels are added up, if they are.
+Clip asMixed (const Clip& clip, bool is_mixed)
+{
+    Messages told_by_the_writer;
+    return is_mixed ? readers::weighted (clip, told_by_the_writer) : clip;
+}
+
 std::vector<ClipLoss> lossesOf (const Clip& clip, const Clip& back, bool is_mixed, const std::string& why = {})
 {
     std::vector<ClipLoss> losses;
-    for (const auto& d : readers::compareClips (clip, back, is_mixed))
+    for (const auto& d : readers::compareClips (asMixed (clip, is_mixed), back, is_mixed))
         losses.push_back ({ is_mixed ? "all channels" : "channel " + std::to_string (d.channel), d, why });
     return losses;
 }
@@ -96,11 +105,15 @@ Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wante
     times = { rate_hz, 0.0, std::min (times.count, all.value.front().size()) };
     for (std::size_t c = 0; c < all.channels.size(); ++c)
         samples[all.channels[c]].assign (all.value[c].begin(), all.value[c].begin() + static_cast<std::ptrdiff_t> (times.count));
-    const bool is_wave = std::ranges::any_of (clip.tracks, &ClipTrack::is_wave);
+    const bool is_wave = std::ranges::all_of (clip.tracks, &ClipTrack::is_wave);
     SavedClip saved { {},
                       lossesOf (clip, clipOfRendered (all, rate_hz), false,
                                 is_wave ? "" : "read back from the samples in steps of 10 ms; the samples are the signal that the clip plays"),
                       false };
+    for (const auto& [key, value] : clip.notes)
+        if (key != "rate")
+            saved.losses.push_back (
+                Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a WAV of Tactus holds only samples", "keep the original file"));
     if (peak > 1.0)
         saved.losses.push_back (Message::warning (
             "clip/changed", path.string(), "the signal reaches " + roundedText (peak) + ", so all samples are divided by this number: beyond 1, programs clip",
@@ -204,7 +217,7 @@ Result<readers::ClipFile> loadClip (const fs::path& path)
     auto bytes = readFile (name);
     if (bytes)
     {
-        auto read = readers::readClip (*bytes, name);
+        auto read = readers::readClip (*bytes, name, soundsBeside (path));
         if (! read) return read.error();
         read->name = name;
         read->text = std::move (*bytes);
@@ -238,10 +251,11 @@ Result<SavedClip> saveText (const Clip& clip, const fs::path& path, readers::Sam
                        is_mixed };
 }
 
-/// The times of a comparison: between the round times at which drawn envelopes step, and few enough to take only a moment.
+/// The times of a comparison: between the round times at which drawn envelopes step, at a rate that is prime, so that they are not at one place between the
+/// ticks of a format either, and few enough to take only a moment.
 readers::SampleTimes comparisonOf (const Clip& clip, double& seconds)
 {
-    constexpr double rate_hz = 8000.0, offset = 0.4142, longest_s = 600.0, most = 1e7;
+    constexpr double rate_hz = 7993.0, offset = 0.4142, longest_s = 600.0, most = 1e7;
     constexpr double tail_s = 0.05;   // the longest transient
     const double all = clip.lastEvent() + tail_s;
     seconds = std::min ({ all, longest_s, most / rate_hz / static_cast<double> (std::max<std::size_t> (1, clip.tracks.size())) });
@@ -263,8 +277,9 @@ Result<SavedClip> saveClip (const Clip& clip, const fs::path& path, double rate_
     if (extension == ".csv") written = readers::renderSamples (clip, times);   // the rows are the clip, number by number
     // The comparison is with the file that the clip was read from, unless the clip has been edited since.
     const bool is_same = source != nullptr && source->clip == clip;
-    const auto original = is_same ? readers::renderFile (source->text, source->name, ClipVoice {}, times) : std::nullopt;
-    saved->samples = readers::compareSamples (original ? *original : readers::renderSamples (clip, times), written, saved->is_mixed);
+    const auto original = is_same ? readers::renderFile (source->text, source->name, ClipVoice {}, times, { source->sounds, saved->is_mixed }) : std::nullopt;
+    saved->samples =
+        readers::compareSamples (original ? *original : readers::renderSamples (asMixed (clip, saved->is_mixed), times), written, saved->is_mixed);
     saved->compared = original ? "an independent rendering of " + printableName (fs::path (source->name).filename().string()) : "the clip";
     if (source != nullptr && ! is_same) saved->compared = "the clip after it was changed, and not with its file";
     if (seconds > 0.0) saved->compared += ", in its first " + threeDigits (seconds) + " s";
