@@ -94,7 +94,7 @@ std::optional<PlotData> envelopeOf (const graph::Graph& graph, const graph::Node
 {
     const auto written = node.settings.find ("clip");
     if (node.type != clip_type || written == node.settings.end() || ! written->is_string() || written->asString().empty()) return std::nullopt;
-    const auto file = loadClip (resolved (written->asString(), graph.folder));
+    const auto file = loadClip (resolved (written->asString(), graph.folder), true);
     if (! file) return std::nullopt;
     const ClipScore score (file->clip);
     std::vector<ClipScore::Cursor> cursors (file->clip.tracks.size());

@@ -189,7 +189,7 @@ bool isClipFile (const fs::path& file)
     return bytes && readers::readClip (*bytes, file.string()).has_value();
 }
 
-Result<readers::ClipFile> loadClip (const fs::path& path)
+Result<readers::ClipFile> loadClip (const fs::path& path, bool as_node)
 {
     const auto name = path.string(), extension = extensionOf (path);
     readers::ClipFile made;
@@ -217,7 +217,7 @@ Result<readers::ClipFile> loadClip (const fs::path& path)
     auto bytes = readFile (name);
     if (bytes)
     {
-        auto read = readers::readClip (*bytes, name, soundsBeside (path));
+        auto read = readers::readClip (*bytes, name, as_node ? readers::ReadSound {} : soundsBeside (path));
         if (! read) return read.error();
         read->name = name;
         read->text = std::move (*bytes);

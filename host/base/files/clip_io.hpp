@@ -22,8 +22,8 @@ bool isClipExtension (const std::filesystem::path&);
 bool isClipFile (const std::filesystem::path&);
 
 /// Reads a clip of any format: .haptic, .ahap, .hjif, .json, .wav or .csv. Ids: those of readClip, readWav, readTable and clipOfTable,
-/// file/unreadable, clip/unknown_kind. [main thread]
-Result<readers::ClipFile> loadClip (const std::filesystem::path&);
+/// file/unreadable, clip/unknown_kind. Recordings that an .ahap names are read too, unless `as_node`: signal.clip reads no file but its own. [main thread]
+Result<readers::ClipFile> loadClip (const std::filesystem::path&, bool as_node = false);
 
 /// The difference between a part of the clip in the file and the clip that was saved. Both are rendered.
 struct ClipLoss
