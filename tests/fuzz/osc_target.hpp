@@ -14,7 +14,8 @@ inline void tryOsc (std::string_view bytes)
 {
     constexpr std::size_t shortest_message = 8;
     const auto packet = host::readPacket (bytes), again = host::readPacket (bytes);
-    if (packet.messages.size() > bytes.size() / shortest_message + 1 || packet.right != again.right || packet.messages.size() != again.messages.size()) std::abort();
+    if (packet.messages.size() > bytes.size() / shortest_message + 1) std::abort();
+    if (packet.right != again.right || packet.messages.size() != again.messages.size()) std::abort();
     for (const auto& message : packet.messages)
         if (static_cast<std::size_t> (message.size()) > bytes.size()) std::abort();
 }

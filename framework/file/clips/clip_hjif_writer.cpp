@@ -77,7 +77,9 @@ void checkTicks (const Clip& clip, double rate, Messages& losses)
         for (const auto& p : track.amplitude)
             if (const double at = p.time * rate; track.is_wave && std::abs (at - std::round (at)) > close_enough) ++moved;
     if (moved > 0)
-        lose (losses, "tracks", std::to_string (moved) + " points of waves are moved by up to half a tick of 1/" + std::to_string (std::llround (rate)) + " s: the finest that the format allows",
+        lose (losses, "tracks",
+              std::to_string (moved) + " points of waves are moved by up to half a tick of 1/" + std::to_string (std::llround (rate))
+                  + " s: the finest that the format allows",
               "write a .json or .wav");
 }
 
@@ -146,7 +148,11 @@ ClipText writeHjif (const Clip& clip)
         auto& channel = channels[track.channel];
         if (channel.is_null())
         {
-            channel = Json { { "id", track.channel - 1 }, { "description", "" }, { "gain", 1.0 }, { "mixing_coefficient", mixingWeight (clip, track.channel) }, { "body_part_mask", 0 } };
+            channel = Json { { "id", track.channel - 1 },
+                             { "description", "" },
+                             { "gain", 1.0 },
+                             { "mixing_coefficient", mixingWeight (clip, track.channel) },
+                             { "body_part_mask", 0 } };
             channel["bands"] = Json::array();
         }
         addTrack (channel["bands"], track, clip.voice, rate);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The weights with which the channels of an HJIF are added up. MPEG's own software plays each channel by itself, at its gain, and stores the weight for whoever
-// plays several channels on one actuator.
+// The weights with which the channels of an HJIF are added up. MPEG's own software plays each channel by itself, at its gain, and only stores the weight,
+// for players with one actuator for several channels.
 #include "clip_mixing.hpp"
 #include "clip_formats.hpp"
 

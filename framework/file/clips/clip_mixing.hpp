@@ -16,7 +16,7 @@ bool isMixingNote (std::string_view key);
 double mixingWeight (const Clip&, int channel);
 void setMixingWeight (Clip&, int channel, double weight);
 
-/// The clip as its channels are added up: each times its weight, without the notes of weights. Says what changed beyond that.
+/// The clip with its channels ready to be added up: each times its weight, without the notes of weights. Losses beyond that are named.
 Clip weighted (Clip, Messages& losses);
 
 }   // namespace tactus::readers

@@ -215,7 +215,9 @@ Source randomAhap (Random& random, const std::vector<float>& hum, double hum_rat
     const auto gain = control ("HapticIntensityControl", 0.1, 1.0), shift = control ("HapticSharpnessControl", -0.3, 0.5),
                volume = control ("AudioVolumeControl", 0.0, 1.0);
     // Before the first point of a curve, a control has its default.
-    const auto at = [] (const Line& line, double t, double initial) { return ! line.points.empty() && t >= line.points.front().first ? line.held (t, 0.0) : initial; };
+    const auto at = [] (const Line& line, double t, double initial) {
+        return ! line.points.empty() && t >= line.points.front().first ? line.held (t, 0.0) : initial;
+    };
     made.sounds[1];
     for (int n = 1 + random.below (4); n > 0; --n)
     {
