@@ -17,6 +17,7 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -98,9 +99,11 @@ struct Told
     bool isDriven() const { return isEffort() && bytes[2] == 1; }
     bool isNeutral() const { return isEffort() && bytes[2] == 0; }
     std::uint16_t echo() const { return static_cast<std::uint16_t> (bytes[3] | bytes[4] << 8); }
+    /// In uN; a number that is no force if this is not an effort.
     std::int32_t force (std::size_t axis) const
     {
-        std::int32_t f = 0;
+        std::int32_t f = std::numeric_limits<std::int32_t>::min();
+        if (! isEffort()) return f;
         std::memcpy (&f, bytes.data() + 5 + 4 * axis, 4);
         return f;
     }
