@@ -425,7 +425,8 @@ private:
     {
         const auto found = sounds.find (path);
         if (found == sounds.end()) return;
-        const auto& [rate, channels] = found->second;
+        const double rate = found->second.rate_hz;
+        const auto& channels = found->second.channels;
         const auto n = channels.front().size();
         const double own = static_cast<double> (n) / rate, whole = duration > 0.0 && (loops || duration < own) ? duration : own;
         const auto part = between (times, start, start + whole);
