@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: MIT
+#include "smooth_body.hpp"
+#include "mesh_walk.hpp"
+#include <tactus/kit/math/math.hpp>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SparseLU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace tactus
+{
+
+namespace
+{
+constexpr double reach = 1.6;     // of a node's weight, over its longest edge
+constexpr int fitted_rings = 3;   // nodes that a polynomial is fitted to
+
+constexpr std::array<int, 15> power_x { 0, 1, 0, 2, 1, 0, 3, 2, 1, 0, 4, 3, 2, 1, 0 }, power_y { 0, 0, 1, 0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 3, 4 };
+
+double power (double a, int n)
+{
+    double result = 1.0;
+    for (; n > 0; --n)
+        result *= a;
+    return result;
+}
+}   // namespace
+
+SmoothBody::SmoothBody (const Mesh& mesh, double crease)
+    : corners (mesh.triangles.size()), beside (mesh.triangles.size(), { -1, -1, -1 }), face (mesh.triangles.size(), -1)
+{
+    const MeshWalk walk (mesh);
+    const auto normal = [&] (int t) { return direction (areaNormal (cornersOf (mesh, t))); };
+    const double least = math::cos (crease);
+    std::vector<int> todo;
+    int faces = 0;
+    for (int start = 0; start < mesh.size(); ++start)
+    {
+        if (face[at (start)] >= 0) continue;
+        face[at (start)] = faces;
+        for (todo = { start }; ! todo.empty();)
+        {
+            const int t = todo.back();
+            todo.pop_back();
+            for (int i = 0; i < 3; ++i)
+                if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] < 0 && normal (t).dot (normal (other)) >= least)
+                {
+                    face[at (other)] = faces;
+                    todo.push_back (other);
+                }
+        }
+        ++faces;
+    }
+
+    std::map<std::pair<int, int>, int> known;   // by point and face
+    std::vector<std::vector<int>> around (mesh.points.size());
+    for (int t = 0; t < mesh.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+        {
+            const int point = mesh.triangles[at (t)][at (i)], other = walk.beside (t, i);
+            const auto [found, fresh] = known.try_emplace ({ point, face[at (t)] }, static_cast<int> (nodes.size()));
+            if (fresh) nodes.push_back ({ .point = point, .p = mesh.points[at (point)], .z = Vec3::Zero() });
+            corners[at (t)][at (i)] = found->second;
+            around[at (point)].push_back (t);
+            if (other >= 0 && face[at (other)] == face[at (t)]) beside[at (t)][at (i)] = other;
+        }
+    std::vector<std::vector<int>> ring (nodes.size());
+    for (int t = 0; t < mesh.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+        {
+            const auto& own = corners[at (t)];
+            const int node = own[at (i)], next = own[at ((i + 1) % 3)], last = own[at ((i + 2) % 3)];
+            ring[at (node)].insert (ring[at (node)].end(), { next, last });
+            const Vec3 a = nodes[at (next)].p - nodes[at (node)].p, b = nodes[at (last)].p - nodes[at (node)].p, n = a.cross (b);
+            nodes[at (node)].z += direction (n) * math::atan2 (n.norm(), a.dot (b));
+        }
+    for (auto& neighbours : ring)
+    {
+        std::ranges::sort (neighbours);
+        neighbours.erase (std::unique (neighbours.begin(), neighbours.end()), neighbours.end());
+    }
+    fit (ring);
+
+    double widest = 0.0;
+    for (const auto& node : nodes)
+        widest = std::max (widest, node.radius);
+    for (int t = 0; t < mesh.size(); ++t)
+    {
+        const auto& own = corners[at (t)];
+        const Vec3 centre = (nodes[at (own[0])].p + nodes[at (own[1])].p + nodes[at (own[2])].p) / 3.0;
+        double size = 0.0;
+        for (const int node : own)
+            size = std::max (size, (nodes[at (node)].p - centre).norm());
+        std::set<int> seen (own.begin(), own.end());
+        std::vector<int> front (seen.begin(), seen.end());
+        while (! front.empty())   // all nodes around whose weights may reach the triangle, so that the next triangle has the same sums
+        {
+            const int a = front.back();
+            front.pop_back();
+            if ((nodes[at (a)].p - centre).norm() > widest + 1.15 * size) continue;
+            for (const int b : ring[at (a)])
+                if (seen.insert (b).second) front.push_back (b);
+        }
+        for (const int node : seen)
+            if ((nodes[at (node)].p - centre).norm() < nodes[at (node)].radius + 1.15 * size) near.items.push_back (node);
+        near.first.push_back (static_cast<int> (near.items.size()));
+
+        std::map<int, int> others;
+        for (const int point : mesh.triangles[at (t)])
+            for (const int other : around[at (point)])
+                if (face[at (other)] != face[at (t)]) others.try_emplace (face[at (other)], other);
+        for (const auto& [its, other] : others)
+            over.items.push_back (other);
+        over.first.push_back (static_cast<int> (over.items.size()));
+    }
+    pass();
+}
+
+/// Fits the polynomials, by least squares with weights that fall with the distance.
+void SmoothBody::fit (const std::vector<std::vector<int>>& ring)
+{
+    for (std::size_t v = 0; v < nodes.size(); ++v)
+    {
+        Node& node = nodes[v];
+        node.z = direction (node.z);
+        node.x = node.z.unitOrthogonal();
+        node.y = node.z.cross (node.x);
+        double mean = 0.0, longest = 0.0;
+        for (const int a : ring[v])
+        {
+            const double edge = (nodes[at (a)].p - node.p).norm();
+            mean += edge / static_cast<double> (ring[v].size());
+            longest = std::max (longest, edge);
+        }
+        node.radius = reach * longest;
+        node.over = 1.0 / (node.radius * node.radius);
+
+        std::set<int> seen { static_cast<int> (v) };
+        std::vector<int> front { static_cast<int> (v) }, use;
+        for (int k = 0; k < fitted_rings || (use.size() < 11 && ! front.empty()); ++k)
+        {
+            std::vector<int> next;
+            for (const int a : front)
+                for (const int b : ring[at (a)])
+                    if (seen.insert (b).second) next.push_back (b);
+            use.insert (use.end(), next.begin(), next.end());
+            front = next;
+        }
+        const int rows = static_cast<int> (use.size()), columns = (rows >= 17 ? 15 : rows >= 12 ? 10
+                                                                                                : 6)
+                                                                  - 1;
+        Eigen::MatrixXd a (rows, columns);
+        Eigen::VectorXd b (rows);
+        for (int row = 0; row < rows; ++row)
+        {
+            const Vec3 d = nodes[at (use[at (row)])].p - node.p;
+            const double weight = math::exp (-0.5 * d.squaredNorm() / (mean * mean));
+            for (int k = 0; k < columns; ++k)
+                a (row, k) = weight * power (d.dot (node.x) / mean, power_x[at (k + 1)]) * power (d.dot (node.y) / mean, power_y[at (k + 1)]);
+            b[row] = weight * d.dot (node.z);
+        }
+        const Eigen::VectorXd solved = a.completeOrthogonalDecomposition().solve (b);
+        for (int k = 0; k < columns; ++k)
+            node.c[at (k + 1)] = solved[k] / power (mean, power_x[at (k + 1)] + power_y[at (k + 1)]);
+    }
+}
+
+/// Shifts the polynomials so that the surface passes through all nodes.
+void SmoothBody::pass()
+{
+    std::vector<int> home (nodes.size(), -1);
+    for (int t = 0; t < size(); ++t)
+        for (const int node : corners[at (t)])
+            home[at (node)] = t;
+    const auto n = static_cast<int> (nodes.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd off (n);
+    for (int v = 0; v < n; ++v)
+    {
+        const Vec3& p = nodes[at (v)].p;
+        off[v] = valueAt (home[at (v)], p).g;
+        const auto from = entries.size();
+        double sum = 0.0;
+        for (int k = near.first[at (home[at (v)])]; k < near.first[at (home[at (v)]) + 1]; ++k)
+        {
+            const int other = near.items[at (k)];
+            const double r2 = (p - nodes[at (other)].p).squaredNorm() * nodes[at (other)].over;
+            if (r2 >= 1.0) continue;
+            entries.emplace_back (v, other, weightOf (nodes[at (other)], r2).w);
+            sum += entries.back().value();
+        }
+        for (auto i = from; i < entries.size(); ++i)
+            entries[i] = { entries[i].row(), entries[i].col(), entries[i].value() / sum };
+    }
+    Eigen::SparseMatrix<double> shares (n, n);
+    shares.setFromTriplets (entries.begin(), entries.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> solver (shares);
+    if (solver.info() != Eigen::Success) return;   // then the surface is near the nodes only
+    const Eigen::VectorXd shift = solver.solve (off);
+    for (int v = 0; v < n; ++v)
+        nodes[at (v)].c[0] = shift[v];
+}
+
+SmoothBody::Value SmoothBody::valueAt (int triangle, const Vec3& p) const noexcept
+{
+    // Sums of the weights and of weights times heights, with gradients and second derivatives: xx xy xz yy yz zz.
+    double W = 0.0, A = 0.0;
+    std::array<double, 3> dW {}, dA {};
+    std::array<double, 6> hW {}, hA {};
+    for (int item = near.first[at (triangle)]; item < near.first[at (triangle) + 1]; ++item)
+    {
+        const Node& q = nodes[at (near.items[at (item)])];
+        const std::array<double, 3> d { p.x() - q.p.x(), p.y() - q.p.y(), p.z() - q.p.z() };
+        const double r2 = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * q.over;
+        if (r2 >= 1.0) continue;
+        const auto [w, w1, w2] = weightOf (q, r2);
+        const double x = d[0] * q.x.x() + d[1] * q.x.y() + d[2] * q.x.z(), y = d[0] * q.y.x() + d[1] * q.y.y() + d[2] * q.y.z(),
+                     z = d[0] * q.z.x() + d[1] * q.z.y() + d[2] * q.z.z();
+
+        // The polynomial by powers of y; each row and its derivatives by Horner's rule.
+        const auto& c = q.c;
+        const double p0 = c[0] + x * (c[1] + x * (c[3] + x * (c[6] + x * c[10]))), p0x = c[1] + x * (2.0 * c[3] + x * (3.0 * c[6] + x * (4.0 * c[10]))),
+                     p0xx = 2.0 * c[3] + x * (6.0 * c[6] + x * (12.0 * c[10]));
+        const double p1 = c[2] + x * (c[4] + x * (c[7] + x * c[11])), p1x = c[4] + x * (2.0 * c[7] + x * (3.0 * c[11])),
+                     p1xx = 2.0 * c[7] + x * (6.0 * c[11]);
+        const double p2 = c[5] + x * (c[8] + x * c[12]), p2x = c[8] + x * (2.0 * c[12]), p2xx = 2.0 * c[12], p3 = c[9] + x * c[13], p3x = c[13], p4 = c[14];
+        const double f = z - (p0 + y * (p1 + y * (p2 + y * (p3 + y * p4)))), hx = p0x + y * (p1x + y * (p2x + y * p3x)),
+                     hy = p1 + y * (2.0 * p2 + y * (3.0 * p3 + y * (4.0 * p4)));
+        const double hxx = p0xx + y * (p1xx + y * p2xx), hxy = p1x + y * (2.0 * p2x + y * (3.0 * p3x)), hyy = 2.0 * p2 + y * (6.0 * p3 + y * (12.0 * p4));
+
+        std::array<double, 3> df {}, dw {}, a {}, b {};
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto axis = static_cast<int> (k);
+            df[k] = q.z[axis] - hx * q.x[axis] - hy * q.y[axis];
+            dw[k] = w1 * d[k];
+            a[k] = w * (hxx * q.x[axis] + hxy * q.y[axis]);
+            b[k] = w * (hxy * q.x[axis] + hyy * q.y[axis]);
+            dW[k] += dw[k];
+            dA[k] += w * df[k] + f * dw[k];
+        }
+        W += w;
+        A += w * f;
+        std::size_t m = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t l = k; l < 3; ++l, ++m)
+            {
+                const auto axis = static_cast<int> (k);
+                const double bends = w2 * d[k] * d[l] + (k == l ? w1 : 0.0);
+                hW[m] += bends;
+                hA[m] += dw[k] * df[l] + dw[l] * df[k] - q.x[axis] * a[l] - q.y[axis] * b[l] + f * bends;
+            }
+    }
+    Value value;
+    if (! (W > 0.0)) return value;
+    value.known = true;
+    value.g = A / W;
+    for (int k = 0; k < 3; ++k)
+        value.slope[k] = (dA[at (k)] - value.g * dW[at (k)]) / W;
+    std::size_t m = 0;
+    for (int k = 0; k < 3; ++k)
+        for (int l = k; l < 3; ++l, ++m)
+            value.bend (k, l) = value.bend (l, k) = (hA[m] - value.g * hW[m] - value.slope[k] * dW[at (l)] - dW[at (k)] * value.slope[l]) / W;
+    return value;
+}
+
+/// The triangle of the same face over which x is, walking from one of them. At a border, the last one before it.
+int SmoothBody::walked (int triangle, const Vec3& x) const noexcept
+{
+    for (int step = 0; step < 100; ++step)
+    {
+        const auto& own = corners[at (triangle)];
+        const Vec3 &a = nodes[at (own[0])].p, &b = nodes[at (own[1])].p, &c = nodes[at (own[2])].p;
+        const Vec3 n = (b - a).cross (c - a);
+        const std::array<double, 3> weights { (c - b).cross (x - b).dot (n), (a - c).cross (x - c).dot (n), (b - a).cross (x - a).dot (n) };
+        const auto lowest = std::ranges::min_element (weights) - weights.begin();
+        const int next = beside[at (triangle)][at (lowest)];
+        if (weights[at (lowest)] >= -1e-9 * n.squaredNorm() || next < 0) break;
+        triangle = next;
+    }
+    return triangle;
+}
+
+SmoothBody::Foot SmoothBody::cornerOf (int triangle) const noexcept
+{
+    Foot foot;
+    foot.triangles[0] = triangle;
+    foot.faces = 1;
+    foot.point = nodes[at (corners[at (triangle)][0])].p;
+    return foot;
+}
+
+/// Newton's method on x - p + sum_i l_i grad g_i (x) = 0, g_i (x) = 0, over the faces that hold the foot. The pulls are the l_i.
+bool SmoothBody::solve (Foot& foot, std::array<double, most>& pulls, const Vec3& p) const noexcept
+{
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + most, 3 + most>;
+    using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + most, 1>;
+    const int m = foot.faces;
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < 40; ++step)
+    {
+        std::array<Value, most> values;
+        for (int i = 0; i < m; ++i)
+        {
+            auto& triangle = foot.triangles[at (i)];
+            triangle = walked (triangle, foot.point);
+            values[at (i)] = valueAt (triangle, foot.point);
+            if (! values[at (i)].known) return false;
+        }
+        Vec3 move;
+        const double size = nodes[at (corners[at (foot.triangles[0])][0])].radius;
+        if (m == 1)
+        {
+            const Value& v = values[0];
+            const double gg = v.slope.squaredNorm();
+            foot.normal = v.slope / std::sqrt (gg);
+            pulls[0] = (p - foot.point).dot (v.slope) / gg;
+            const Vec3 a = foot.normal.unitOrthogonal(), b = foot.normal.cross (a), down = -v.g / gg * v.slope;
+            const Mat3 k = Mat3::Identity() + pulls[0] * v.bend;
+            const Vec3 r = p - foot.point - k * down;
+            const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
+            foot.found = aa > 0.0 && det > 0.0;   // else the tool is beyond the centre of curvature
+            const double ra = r.dot (a), rb = r.dot (b);
+            move = foot.found ? Vec3 { down + (bb * ra - ab * rb) / det * a + (aa * rb - ab * ra) / det * b } : Vec3 { down + ra * a + rb * b };
+        }
+        else
+        {
+            Matrix k = Matrix::Zero (3 + m, 3 + m);
+            Column r (3 + m);
+            if (step < 3)
+            {
+                Matrix g (3, m);
+                for (int i = 0; i < m; ++i)
+                    g.col (i) = values[at (i)].slope;
+                const Column l = (g.transpose() * g).eval().fullPivLu().solve ((g.transpose() * (p - foot.point)).eval());
+                for (int i = 0; i < m; ++i)
+                    pulls[at (i)] = l[i];
+            }
+            Mat3 bend = Mat3::Identity();
+            Vec3 rest = foot.point - p;
+            for (int i = 0; i < m; ++i)
+            {
+                const Value& v = values[at (i)];
+                bend += pulls[at (i)] * v.bend;
+                rest += pulls[at (i)] * v.slope;
+                k.block (0, 3 + i, 3, 1) = v.slope;
+                k.block (3 + i, 0, 1, 3) = v.slope.transpose();
+                r[3 + i] = -v.g;
+            }
+            k.topLeftCorner (3, 3) = bend;
+            r.head (3) = -rest;
+            const Column solved = k.fullPivLu().solve (r);
+            move = solved.head (3);
+            for (int i = 0; i < m; ++i)
+                pulls[at (i)] += solved[3 + i];
+            foot.found = true;
+        }
+        double length = move.norm();
+        if (! isFinite (move)) return false;
+        if (length > 0.5 * size)
+        {
+            move *= 0.5 * size / length;
+            length = 0.5 * size;
+        }
+        foot.point += move;
+        if (length < 1e-5 * size || (step > 3 && length > 0.5 * last)) return foot.found;   // the next move is of the order of its square
+        last = length;
+    }
+    return false;
+}
+
+SmoothBody::Foot SmoothBody::followed (const Foot& before, const Vec3& p) const noexcept
+{
+    Foot foot = before;
+    foot.found = false;
+    if (foot.faces == 0) return foot;
+    const double slack = 1e-9 * nodes[at (corners[at (foot.triangles[0])][0])].radius;
+    for (int round = 0; round < 12; ++round)
+    {
+        std::array<double, most> pulls {};
+        if (! solve (foot, pulls, p))
+        {
+            foot.found = false;
+            break;
+        }
+        if (foot.faces > 1)
+            if (const auto least = std::min_element (pulls.begin(), pulls.begin() + foot.faces); *least < -slack)   // a face that would hold the tool back
+            {
+                const auto i = least - pulls.begin();
+                std::shift_left (foot.triangles.begin() + i, foot.triangles.begin() + foot.faces, 1);
+                --foot.faces;
+                continue;
+            }
+        int added = -1;
+        double farthest = slack;
+        for (int i = 0; i < foot.faces && foot.faces < most; ++i)
+        {
+            const int triangle = foot.triangles[at (i)];
+            for (int k = over.first[at (triangle)]; k < over.first[at (triangle) + 1]; ++k)
+            {
+                const int other = over.items[at (k)];
+                const bool holds = std::any_of (foot.triangles.begin(), foot.triangles.begin() + foot.faces,
+                                                [&] (int t) { return face[at (t)] == face[at (other)]; });
+                if (holds) continue;
+                const int there = walked (other, foot.point);
+                if (const Value v = valueAt (there, foot.point); v.known && v.g > farthest)
+                {
+                    farthest = v.g;
+                    added = there;
+                }
+            }
+        }
+        if (added < 0) break;
+        foot.triangles[at (foot.faces++)] = added;
+    }
+    const Vec3 away = p - foot.point;
+    const double length = away.norm();
+    if (foot.faces == 1 && away.dot (foot.normal) < 0.0)
+        foot.distance = -length;
+    else
+        foot.distance = length;
+    if (length > slack) foot.normal = away / foot.distance;
+    return foot;
+}
+
+Mat3 SmoothBody::moves (const Foot& foot, const Vec3& p) const noexcept
+{
+    const Value v = valueAt (foot.triangles[0], foot.point);
+    const double gg = v.slope.squaredNorm(), pull = (p - foot.point).dot (v.slope) / gg;
+    const Vec3 n = v.slope / std::sqrt (gg), a = n.unitOrthogonal(), b = n.cross (a);
+    const Mat3 k = Mat3::Identity() + pull * v.bend;
+    const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
+    return (bb * a * a.transpose() - ab * (a * b.transpose() + b * a.transpose()) + aa * b * b.transpose()) / det;
+}
+
+}   // namespace tactus
