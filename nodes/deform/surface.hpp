@@ -11,7 +11,9 @@
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,45 +25,46 @@ namespace tactus::nodes
 /// An elastic body of any shape, as uneven as flesh. Measured or computed force-deflection curves are stored at the nodes of a
 /// mesh, and everything between them is interpolated.
 ///
-///     (p - r) . u^x = (p - r) . u^y = 0       the foot r: the place of the surface under the tool p
-///     w    = (p - r) . u^z                    depth; u^z points into the body
-///     s^nu = (r - c) . u^nu, nu = x, y        sideways stretch from the anchor c
-///     u^nu = sum_i n_i (r) u_i^nu             frame at the foot, by smooth weights n_i                       (5)
+///     r    = the point of the body nearest to the tool p, the foot
+///     w    = rho - (p - r) . n                depth; n the normal at the foot, out of the body, rho the tool's radius
+///     q    = r + rho n                        the foot on the body grown by rho
+///     s^nu = (q - c) . u^nu, nu = x, y        sideways stretch from the anchor c
+///     u^z  = -n, u^x from sum_i n_i (r) u_i^x, u^y = u^z x u^x                                               (5)
 ///     U    = sum_i n_i (r) [F_i^z (w) + F_i^x (s^x) + F_i^y (s^y)], F^nu the energy of the curve f^nu        (6)
 ///     f    = - dU/dp                          force on the tool, c fixed
 ///     |s| <= mu_c w                           else c is dragged along until it is                            (7)
-///     u^nu = sum_t w_t u_t^nu                 interpolated between the shapes of tools t                     (8)
-///     f^nu = sum_t w_t f_t^nu                 the same for mu_c                                              (9)
+///     U, n of a mixed tool: sum_t w_t of those of the shapes t; rho likewise                                 (8), (9)
+///
+/// The body is the smooth surface of framework/kit/geometry/smooth_body.hpp. It passes through all nodes, and n_i are its weights.
 ///
 /// So a contact has two points. The springs along the normal belong to the foot, and only the sideways stretch has a memory, the anchor. A touch
 /// begins where the path of the tool crosses the surface. The anchor stays there, and the tool pulls on it as on a leaning bristle:
 /// flesh sticks, stretches, slips and lets go without a second model. mu_c is a ratio of deflections: a body of stiffnesses k_t across
 /// and k_n along the normal has mu_c = mu k_n / k_t. mu_c may be a law or a curve of depth. Any adhesion function of Fig. 2 may move
 /// c, with d_max = mu_c w and d_stick = static_ratio d_max: see friction.elasto_plastic. With `friction: frictionless`, or mu 0
-/// everywhere, c is r.
+/// everywhere, c is q.
 ///
 /// A slip only shortens s, and so it only lowers U. It is never blocked: c is never farther behind than its bound, however stiff the
 /// place ahead is, and over a nodule the tool feels what it feels if it presses there. The force includes - dU/dr dr/dp: from soft to
 /// stiff, the tool is pushed back, and without this term the slide would create energy. See docs/decisions/surface_slips.md.
 ///
-/// A tool is inside if the straight line from its last sample outside crosses the surface. It belongs to the side through which it
+/// A tool with a radius is a ball. It rolls over sharp edges as over round ones, and does not enter holes narrower than itself.
+///
+/// A tool is inside if its way from its last place outside crosses the surface. It belongs to the side through which it
 /// entered, even in a thin plate where another side is nearer.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4, eq. (5) to (9), Fig. 2, 8 and 9;
-/// Mahvash & Hayward 2004; smooth weights: Clough & Tocher 1965.
+/// Mahvash & Hayward 2004; the surface: Ohtake et al. 2003.
 ///
 /// Departures from the printed chapter
 ///  - The chapter has one contact point c, which all springs hang on. In that model a contact stops for good where the body becomes stiffer.
-///  - Interpolated frames are neither of unit length nor orthogonal: u^z is normalised, u^x made orthogonal to it, and
-///    u^y = u^z x u^x.
+///  - u^z is the normal of the body. If frames are given, only their u^x counts. With an interpolated u^z, normals turn up to 1.7 times too
+///    fast, and the force has a pole at 0.58 of the radius of curvature.
 ///  - Eq. (7) is printed upside down: with more mu_c the contact would slip earlier.
 ///  - The weights of the tools are latched at contact onset: changing them during contact would add energy. If they are given per
 ///    node, they are interpolated at the point where the contact began.
-///  - The barycentric weights n_i are replaced by smooth ones (framework/kit/geometry/smooth_weights.hpp). The gradient of
-///    barycentric weights steps at the edges, and so would the force.
-///  - Where triangles meet at an angle, the body is rounded off between its edges (framework/kit/geometry/placed_surface.hpp). With flat
-///    triangles, the force would turn at each edge: by 0.4 N of 2.5 N on a ball of 20 mm with edges of 4 mm, and by 90 degrees on a box.
-///    The rounding fades out towards the triangles, so a touch begins at the mesh.
+///  - The barycentric weights n_i are replaced by those of the smooth body. They mix more than three nodes: on a regular mesh, a node has a
+///    share of 0.43 of its own curve. So a stiffness that changes over fewer than three cells is smoothed.
 ///  - A move of c costs the energy that it lowers: energy can come only from a move of c at fixed p that raises U. No move does, so the
 ///    node is passive for every mesh, frame, curve and mu. dissipated_energy is the fall of U, and never falls. The fall is computed with
 ///    the tool where it is in the middle of the move of c.
@@ -71,14 +74,15 @@ namespace tactus::nodes
 ///    sticks, it does no work.
 ///  - To make the ratio of drag to push the same at every depth, give the curves along x and y the shape of those along z:
 ///    f^x (mu_c d) = mu f^z (d).
-///  - Pressing straight down on a slope of stiffness k' also gives the sideways force - k' w^2 / 2, as on a bed of springs. Smooth weights
-///    are level at the nodes. So let one cell hold the whole rise of a stiffness; over several cells this force ripples.
-///  - On a flat body, the force changes by less than twice the steepest slope of the curves times the step of the tool. On others it
-///    changes faster where the tool is nearly as deep as the radius of curvature, and where the foot passes a node whose triangles do
-///    not lie in a plane: there the rounding has a tip. For steps of 10 um, the most was 0.2 N on the ball, 0.3 N on a box of 1 N/mm, and
-///    1.2 N on bumps of 6 mm in a mesh of 7 mm. Friction does not change this: a contact lets go as its bound shrinks, not all at once.
-///  - Deeper than the radius of curvature there is no foot. The contact then keeps the last one, with its force along the normal only,
-///    until the tool has a foot again at which U is not higher, or leaves.
+///  - Pressing straight down on a slope of stiffness k' also gives the sideways force - k' w^2 / 2, as on a bed of springs.
+///  - Without friction, and with the same curves at all nodes, the force changes by at most max (k, f / (R - w)) per distance moved: k the
+///    steepest slope of the curve, R the smallest radius of curvature, up to w = 0.9 R. A tool with a radius feels a sharp edge like this with R = rho.
+///  - An edge is sharp where triangles meet at more than `crease` degrees, if it parts the body into faces. The centre of a tool that is inside,
+///    deeper than rho, keeps the face that it is on, and feels a step where it passes the edge of that face. The difference of U is
+///    dissipated. `crease` 180 makes all edges round.
+///  - Deeper than 0.95 of the radius of curvature there is no foot. The contact then keeps the last one, with its force along the normal only,
+///    until the tool has a foot again at which U is not higher, or leaves. A step of the force there is bounded by the energy, not by a pole.
+///  - A tool in a hollow edge or in a slot touches only one of both sides from outside.
 ///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With
 ///    search_ticks above 0, a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring
 ///    triangles. In contact it only walks. Nothing can be touched before the first answer.
@@ -86,8 +90,8 @@ namespace tactus::nodes
 ///  - `normal` and `contact` are meant for friction and texture nodes that follow this one. `normal` belongs to the foot; `contact`
 ///    is the point of the mesh nearest to c. While apart, contact is p, and normal is the normal of the nearest patch.
 ///  - A contact ends when its foot passes the rim of an open mesh, and the force steps. A tool that starts inside, or came in around a
-///    rim, feels nothing until it has been outside once: a contact that begins inside would create energy. After a fault, a contact goes on
-///    unstretched.
+///    rim, feels nothing until it has been outside once: a contact that begins inside would create energy. A contact that cannot begin
+///    at once, such as at a thin corner, is tried again for eight ticks. After a fault, a contact goes on unstretched.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -126,6 +130,8 @@ struct ElasticSurface
         Vec3 origin = Vec3::Zero();
         Vec3 rotation = Vec3::Zero();
         int search_ticks = 0;
+        double crease = 30.0;
+        std::vector<double> tool_radius { 0.0 };
         Curve adhesion_curve { { 0.0, 0.7, 1.0 }, { 0.0, 0.0, 1.0 } };
     };
 
@@ -174,12 +180,15 @@ struct ElasticSurface
         setting (&Settings::rotation, "rotation", unit::radian, "rotation of the mesh: axis times angle"),
         setting (&Settings::search_ticks, "search_ticks", unit::count, "ticks that the search for the nearest patch takes; 0: within the tick",
                  { .hard = { 0, 1000 }, .usual = { 0, 40 } }),
+        setting (&Settings::crease, "crease", unit::count, "in degrees: triangles that meet at a larger angle meet at a sharp edge; others are parts of one smooth face",
+                 { .hard = { 0, 180 }, .usual = { 10, 180 } }),
+        setting (&Settings::tool_radius, "tool_radius", unit::metre, "radius of a round tool, one for each tool or one for all; 0: a point"),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max as a curve over |d| / d_max; only for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::torque, "torque", unit::torque, "torque on the tool, - dU / d tool times turn; only for blend follows"),
         output (&Outputs::resistance, "resistance", unit::newton, "force of the springs along the normal, f^z"),
-        output (&Outputs::depth, "depth", unit::metre, "depth below the foot, w; 0 while apart"),
-        output (&Outputs::normal, "normal", unit::count, "direction out of the body at the foot, -u^z"),
+        output (&Outputs::depth, "depth", unit::metre, "depth below the surface, w; 0 while apart"),
+        output (&Outputs::normal, "normal", unit::count, "direction out of the body at the foot, n"),
         output (&Outputs::contact, "contact", unit::metre, "point of the mesh nearest to the anchor c; while apart, the tool's position"),
         output (&Outputs::triangle, "triangle", unit::count, "number of the triangle with the contact point; -1 while apart"),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the tick of the first touch"),
@@ -216,14 +225,20 @@ struct ElasticSurface
         const auto inside = [] (double zeta) { return zeta >= 0.0 && zeta <= 1.0; };
         if (settings.adhesion_curve.empty()) return "adhesion_curve needs at least one point";
         if (! std::ranges::all_of (settings.adhesion_curve.y, inside)) return "adhesion_curve must stay between 0 (sticks) and 1 (slides)";
-        return settings.surface ? problemOf (*settings.surface) : "no surface is given";
+        if (! settings.surface) return "no surface is given";
+        const auto& radii = settings.tool_radius;
+        if (const auto tools = toolsOf (*settings.surface); radii.size() > 1 && radii.size() != tools)
+            return "tool_radius has " + std::to_string (radii.size()) + " values for " + std::to_string (tools) + " tools; give one for each, or one for all";
+        if (! std::ranges::all_of (radii, [] (double radius) { return radius >= 0.0 && radius < 1.0; }))
+            return "each tool_radius must be at least 0, and less than 1 m";
+        return problemOf (*settings.surface);
     }
 
     std::string warning (const Setup&) const
     {
         const auto& surface = *settings.surface;
         auto all = wrongSide (surface);
-        if (all.empty()) all = unevenForce (settings.surface, settings.scale);
+        if (all.empty()) all = sharpEdges (surface, creaseAngle(), settings.tool_radius);
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             all += (all.empty() ? "" : "; ") + std::to_string (triangles)
                    + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
@@ -233,13 +248,16 @@ struct ElasticSurface
     void prepare (const Setup& setup)
     {
         dt = setup.dt_s();
-        body = std::make_shared<const PlacedSurface> (settings.surface, settings.scale, settings.origin, settings.rotation);
+        body = std::make_shared<const PlacedSurface> (settings.surface, settings.scale, settings.origin, settings.rotation, creaseAngle(),
+                                                      settings.tool_radius);
         tool = trial = body->noTool();
         slippery = isSlippery();
         touch = {};
         near = {};
         contact = {};
         last = {};
+        clear = {};
+        entry = {};
         resumes = false;
         std::shared_ptr<const NearestTriangle> index;
         if (settings.search_ticks > 0 && setup.services.nearest_triangle)
@@ -247,12 +265,13 @@ struct ElasticSurface
         search = PatchSearch (body, settings.search_ticks, index, setup.services.answers);
     }
 
-    /// The contact continues if the mesh, its scale, its origin and its rotation are the same.
+    /// The contact continues if the mesh, its scale, its origin, its rotation and its creases are the same.
     void adopt (const ElasticSurface& old) noexcept
     {
         dissipated = old.dissipated;
         if (! old.body || settings.surface->mesh != old.settings.surface->mesh) return;
         if (settings.scale != old.settings.scale || settings.origin != old.settings.origin || settings.rotation != old.settings.rotation) return;
+        if (settings.crease != old.settings.crease) return;
         if (settings.surface->curves.size() == old.settings.surface->curves.size())
         {
             touch = old.touch;
@@ -263,6 +282,7 @@ struct ElasticSurface
             contact = old.contact;
         }
         near = old.near;
+        clear = old.clear;
         resumes = old.resumes;
         last = old.last;
     }
@@ -297,9 +317,8 @@ struct ElasticSurface
         }
         else if (near.triangle >= 0)
         {
-            const auto apart = body->feel (near, p, nullptr, tool);
-            out.normal = -apart.frame.row (2).transpose();
-            last.depth = apart.d.z();
+            out.normal = apart.normal;
+            last.depth = tool.radius - apart.distance;
         }
         last.known = isTouching() || near.triangle >= 0;
         last.position = p;
@@ -321,8 +340,11 @@ struct ElasticSurface
     double lag() const noexcept
     {
         if (! isTouching() || touch.frictionless) return 0.0;
-        return body->feel (touch.foot, last.position, &touch.anchor, tool).d.head<2>().norm();
+        return body->feel (touch.foot, &touch.anchor, tool).d.head<2>().norm();
     }
+
+    /// Where the last contact began. A test computes the hand's work of that step from there.
+    const SurfaceEntry& begunAt() const noexcept { return entry; }
 
 private:
     struct Sample
@@ -332,7 +354,31 @@ private:
         bool known = false;   // whether position and depth are valid
     };
 
-    bool isTouching() const noexcept { return touch.foot.triangle >= 0; }
+    /// A place where the tool was outside, and how many ticks ago.
+    struct Clear
+    {
+        Vec3 position = Vec3::Zero();
+        int age = -1;   // negative: none
+    };
+    static constexpr int oldest = 8;   // ticks in which a contact that could not begin is tried again
+
+    bool isTouching() const noexcept { return touch.foot.faces > 0; }
+
+    double creaseAngle() const noexcept { return settings.crease * std::numbers::pi / 180.0; }   // rad
+    static std::size_t toolsOf (const Surface& s) { return s.weights.empty() ? s.curves.size() : s.weights.size(); }
+
+    /// The foot while apart. If there is none, the nearest point of the mesh takes its place.
+    PlacedSurface::Foot apartAt (const Vec3& p) const noexcept
+    {
+        const auto& [triangle, on] = near;
+        const Vec3 away = p - on.point, normal = direction (areaNormal (cornersOf (body->walk().mesh(), triangle)));
+        PlacedSurface::Foot foot = body->smooth().footOn (triangle, on.point);
+        if (away.norm() < tool.radius + body->smooth().reachAt (triangle)) foot = body->smooth().followed (foot, p);
+        if (foot.found) return foot;
+        foot.normal = normal;
+        foot.distance = std::copysign (away.norm(), away.dot (normal));
+        return foot;
+    }
 
     /// The contact begins where the path of the tool crosses the surface.
     SurfaceSample open (const Inputs& in, std::optional<int> found) noexcept
@@ -342,30 +388,47 @@ private:
         near = search.nearest (found, before, p);
         if (near.triangle < 0) return {};
         body->choose (in.tool, near, tool);
+        apart = apartAt (p);
+        const auto& foot = apart;
         if (std::exchange (resumes, false))
         {
-            const SurfaceSample there = begun (*body, tool, before, isFrictionless(), p);
-            begin (there.touch);
+            const SurfaceSample there = begun (*body, tool, before.triangle < 0 ? foot : body->smooth().footOn (before.triangle, before.on.point), isFrictionless(), p);
+            if (there.touch.foot.faces > 0) begin ({ there.touch, p }, before.triangle < 0 ? near : before);
             return there;
         }
+        const bool outside = tool.radius - foot.distance <= 0.0;
+        if (clear.age >= 0 && ++clear.age > oldest) clear.age = -1;
+        std::optional<SurfaceEntry> crossed;
+        if (! outside && foot.found && clear.age >= 0) crossed = entryOf (*body, tool, foot, 1.0, clear.position, p, isFrictionless());
+        Spot entered = near;
+        const Vec3& from = clear.age >= 0 ? clear.position : last.position;
         const double gap2 = (before.on.point - last.position).squaredNorm();   // a shorter move crosses nothing
-        if (! last.known || before.triangle < 0 || (p - last.position).squaredNorm() < gap2 * (1.0 - margin (1e-9))) return {};
-        const Spot entered = body->walk().entered (last.position, p);
-        if (entered.triangle < 0) return {};
-        body->choose (in.tool, entered, tool);
-        const auto there = tactus::touched (*body, tool, entered, isFrictionless());
-        if (followed (*body, tool, there, entered.on.point, p).touch.held) return {};   // too far in, or through and out again
-        begin (there);
-        return move (entered.on.point, p);
+        if (! crossed && last.known && before.triangle >= 0 && (clear.age > 1 || (p - last.position).squaredNorm() >= gap2 * (1.0 - margin (1e-9))))
+        {
+            entered = body->walk().entered (from, p);
+            if (entered.triangle >= 0)
+            {
+                const double share = std::clamp ((entered.on.point - from).dot (p - from) / (p - from).squaredNorm(), 0.0, 1.0);
+                body->choose (in.tool, entered, tool);
+                crossed = entryOf (*body, tool, body->footFrom (entered, entered.on.point), share, from, p, isFrictionless());
+            }
+        }
+        if (outside) clear = { p, 0 };
+        if (! crossed) return {};
+        if (followed (*body, tool, crossed->touch, crossed->tool, p).touch.held) return {};   // too far in, or through and out again
+        begin (*crossed, entered);
+        return move (entry.tool, p);
     }
 
-    void begin (const SurfaceTouch& there) noexcept
+    void begin (const SurfaceEntry& there, const Spot& spot) noexcept
     {
-        touch = there;
-        contact = there.foot;
+        entry = there;
+        touch = there.touch;
+        contact = spot;
         adhesion = params.adhesion;
         blend = params.blend;
-        began = there.foot;
+        began = spot;
+        clear = {};
     }
 
     SurfaceSample move (const Vec3& from, const Vec3& to) noexcept
@@ -377,14 +440,19 @@ private:
         moved_at = step.share;
         slips = step.slips;
         if (isFinite (dissipated + step.lost)) dissipated += step.lost;
-        if (step.ends) near = search.nearest ({}, touch.foot, to);
+        if (step.ends)
+        {
+            near = search.nearest ({}, contact, to);
+            apart = apartAt (to);
+            if (! step.after.left && ! (step.after.felt.d.z() > 0.0)) clear = { to, 0 };
+        }
         touch = step.ends ? SurfaceTouch {} : step.after.touch;
         return step.after;
     }
 
     void report (const SurfaceSample& felt, const Vec3& p, Outputs& out) noexcept
     {
-        contact = body->walk().nearest (contact.triangle, touch.frictionless ? body->placeOf (touch.foot) : touch.anchor);
+        contact = body->walk().nearest (contact.triangle, touch.frictionless ? touch.foot.point : touch.anchor);
         out.force = forceOf (*body, tool, felt, p);
         out.resistance = felt.felt.f.z();
         out.depth = felt.felt.d.z();
@@ -398,8 +466,7 @@ private:
     /// dU / d tool, J, with the anchor where it is.
     double slopeOfTool (double number, const Vec3& p) noexcept
     {
-        const auto& s = *settings.surface;
-        const auto tools = static_cast<double> (s.weights.empty() ? s.curves.size() : s.weights.size());
+        const auto tools = static_cast<double> (toolsOf (*settings.surface));
         return toolSlope (number, tools - 1.0, [&] (double n) {
             body->choose (n, began, trial);
             return followed (*body, trial, touch, p, p).felt.energy;
@@ -409,9 +476,10 @@ private:
     Outputs fault() noexcept
     {
         resumes = resumes || isTouching();
-        if (isTouching()) near = touch.foot;
+        if (isTouching()) near = contact;
         touch = {};
         last = {};
+        clear = {};
         search.skip();
         return { .dissipated_energy = dissipated, .state = -1.0 };
     }
@@ -454,6 +522,9 @@ private:
     bool resumes = false;            // a fault has interrupted a contact
     double moved_at = 1.0;           // see movedAt()
     Spot near;                       // the nearest point of the mesh while apart, if known
+    PlacedSurface::Foot apart;       // the foot while apart
+    Clear clear;                     // where a contact can begin from
+    SurfaceEntry entry;              // where the last one began
     Sample last;
     double dissipated = 0.0;   // J
 };

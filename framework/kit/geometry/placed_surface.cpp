@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "placed_surface.hpp"
-#include <tactus/kit/math/math.hpp>
 
 #include <utility>
 
@@ -17,61 +16,97 @@ Mesh placed (const Mesh& mesh, double scale, const Vec3& origin, const Mat3& tur
     return result;
 }
 
-/// The frame with this u^z that results from turning (x, -y, -z) by the shortest rotation, so that neighbours get similar frames.
-Mat3 frameInto (const Vec3& z)
-{
-    Mat3 frame;
-    frame << Vec3::UnitX().transpose(), -Vec3::UnitY().transpose(), -Vec3::UnitZ().transpose();
-    return z.isZero (0.0) ? frame : Mat3 { frame * shortestRotation (-Vec3::UnitZ(), z).toRotationMatrix().transpose() };
-}
-
-/// The part of the way to a point at right angles to an edge.
-Vec3 awayFrom (const Vec3& start, const Vec3& edge, const Vec3& point)
-{
-    const Vec3 way = point - start;
-    return way - way.dot (edge) / edge.squaredNorm() * edge;
-}
+/// The u^x for this u^z that results from turning x and -z by the shortest rotation, so that neighbours get similar frames.
+Vec3 acrossFor (const Vec3& z) { return z.isZero (0.0) ? Vec3::UnitX() : Vec3 { shortestRotation (-Vec3::UnitZ(), z) * Vec3::UnitX() }; }
 }   // namespace
 
-PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation)
-    : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), frames (surface->frames)
+PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation, double crease, std::vector<double> r)
+    : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), smooth_body (mesh_walk.mesh(), crease),
+      radii (std::move (r)), alike (std::ranges::all_of (surface->curves, [] (const auto& nodes) { return nodes.size() == 1; }))
 {
-    const auto points = mesh_walk.mesh().points.size(), triangles = mesh_walk.mesh().triangles.size();
-    frames.reserve (points);
-    squared.reserve (std::max (points, frames.size()));
-    elements.reserve (triangles);
-    even.reserve (triangles);
-    if (frames.empty())
+    across.reserve (std::max (mesh_walk.mesh().points.size(), surface->frames.size()));
+    if (surface->frames.empty())
         for (const auto& n : normalsOf (mesh_walk.mesh()))
-            frames.push_back (frameInto (-n));
-    else
-        for (auto& f : frames)
-            f *= rotationMatrix (rotation).transpose();
+            across.push_back (acrossFor (-n));
+    for (const auto& f : surface->frames)
+        across.push_back (rotationMatrix (rotation) * f.row (0).transpose());
+}
 
-    for (const auto& f : frames)
-        squared.push_back (detail::orthonormal (f));
-    for (int t = 0; t < mesh_walk.mesh().size(); ++t)
+PlacedSurface::ContactSample PlacedSurface::feel (const Foot& foot, const Vec3* anchor, const Tool& tool) const noexcept
+{
+    ContactSample felt;
+    const Vec3 z = -foot.normal;
+    smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) { felt.mixed += share.amount * acrossAt (share.node, tool); });
+    Vec3 x = direction (felt.mixed - felt.mixed.dot (z) * z);
+    if (x.isZero (0.0)) x = z.unitOrthogonal();
+    felt.frame << x.transpose(), z.cross (x).transpose(), z.transpose();
+    felt.place = placeOf (foot, tool);
+    felt.d.z() = tool.radius - foot.distance;
+    if (anchor)
     {
-        const auto corners = cornersOf (mesh_walk.mesh(), t);
-        auto& element = elements.emplace_back();
-        for (int i = 0; i < 3; ++i)
-        {
-            const Vec3 &first = corners[at ((i + 1) % 3)], &second = corners[at ((i + 2) % 3)], edge = second - first;
-            const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3.0, rise = awayFrom (first, edge, corners[at (i)]);
-            element.feet[at (i)] = std::clamp (edge.dot (centroid - first) / edge.squaredNorm(), 0.0, 1.0);
-            const int beside = mesh_walk.beside (t, i);
-            if (beside < 0) continue;
-            Vec3 sum = direction (rise);
-            for (const Vec3& corner : cornersOf (mesh_walk.mesh(), beside))
-                if (corner != first && corner != second) sum += direction (awayFrom (first, edge, corner));
-            if (sum.norm() < margin (1e-9)) continue;      // level
-            constexpr double gentle = 0.2, narrow = 0.4;   // of a slope; of a triangle
-            element.roundings[at (i)] = { .rise = -0.5 * rise.norm() * sum, .width = std::clamp (gentle / std::max (0.5 * sum.norm(), gentle), narrow, 1.0) };
-        }
+        const Vec3 pulled = felt.frame * (felt.place - *anchor);
+        felt.d.head<2>() = pulled.head<2>();
+        felt.height = pulled.z();
     }
-    if (frames.size() != mesh_walk.mesh().points.size()) return;
-    for (const auto& [a, b, c] : mesh_walk.mesh().triangles)
-        even.push_back (frames[at (a)] == frames[at (b)] && frames[at (a)] == frames[at (c)]);
+    const auto add = [&] (const Surface::Curves& curves, double amount) {
+        const Response response = respond (curves, felt.d);
+        felt.f += amount * response.f;
+        felt.energy += amount * response.energy;
+    };
+    for (int i = 0; i < tool.count; ++i)
+    {
+        const auto& [shape, amount] = tool.shares[at (i)];
+        const auto& curves = surface->curves[at (shape)];
+        if (curves.size() == 1)
+            add (curves[0], amount);
+        else
+            smooth_body.mix (foot, nullptr, [&, part = amount] (const SmoothBody::Share& share) { add (curves[at (share.node)], part * share.amount); });
+    }
+    return felt;
+}
+
+Vec3 PlacedSurface::forceOf (const Foot& foot, const ContactSample& felt, const Vec3& p, const Tool& tool) const noexcept
+{
+    Vec3 force = felt.f.z() * foot.normal;
+    const bool stretched = ! felt.d.head<2>().isZero (0.0);
+    if (alike && ! stretched) return force;
+    const auto motion = smooth_body.motionOf (foot, p);
+    const Vec3 x = felt.frame.row (0).transpose(), y = felt.frame.row (1).transpose(), z = felt.frame.row (2).transpose();
+    const Vec3 sideways = felt.f.x() * x + felt.f.y() * y;
+    if (stretched)
+    {
+        const Mat3 place = motion.foot + tool.radius * motion.normal;
+        force -= place * sideways + felt.height * (motion.normal * sideways);   // both are symmetric
+    }
+    const double twist = felt.f.x() * felt.d.y() - felt.f.y() * felt.d.x(), length = (felt.mixed - felt.mixed.dot (z) * z).norm();
+    const bool turns = stretched && length > 0.0;
+    if (turns) force -= twist * felt.mixed.dot (z) / length * (motion.normal * y);
+    smooth_body.mix (foot, &motion, [&] (const SmoothBody::Share& share) {
+        double change = turns ? twist / length * y.dot (acrossAt (share.node, tool)) : 0.0;
+        if (! alike)
+            for (int i = 0; i < tool.count; ++i)
+                if (const auto& curves = surface->curves[at (tool.shares[at (i)].shape)]; curves.size() > 1)
+                    change += tool.shares[at (i)].amount * respond (curves[at (share.node)], felt.d).energy;
+        force -= change * share.slope;
+    });
+    return force;
+}
+
+double PlacedSurface::ratio (const Foot& foot, double depth, const Tool& tool) const noexcept
+{
+    const auto& mu = surface->mu;
+    if (mu.empty()) return 0.0;
+    if (mu.size() == 1) return mu[0](depth);
+    const auto nodes = mesh_walk.mesh().points.size();
+    double sum = 0.0;
+    smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
+        if (mu.size() == nodes)
+            sum += share.amount * mu[at (share.node)](depth);
+        else
+            for (int i = 0; i < tool.count; ++i)
+                sum += share.amount * tool.shares[at (i)].amount * mu[at (tool.shares[at (i)].shape) * nodes + at (share.node)](depth);
+    });
+    return sum;
 }
 
 }   // namespace tactus

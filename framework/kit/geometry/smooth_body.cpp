@@ -19,10 +19,13 @@ namespace tactus
 
 namespace
 {
-constexpr double reach = 1.6;     // of a node's weight, over its longest edge
-constexpr int fitted_rings = 3;   // nodes that a polynomial is fitted to
+constexpr double weight_reach = 1.6;   // of a node's weight, over its longest edge
+constexpr double flattest = 0.05;      // 1 - depth / radius of curvature, for a foot to be kept
+constexpr double damping = 0.01;       // weight of a term of a polynomial, over that of the node itself
+constexpr int fitted_rings = 3;        // nodes that a polynomial is fitted to
 
 constexpr std::array<int, 15> power_x { 0, 1, 0, 2, 1, 0, 3, 2, 1, 0, 4, 3, 2, 1, 0 }, power_y { 0, 0, 1, 0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 3, 4 };
+constexpr std::array<double, 15> choices { 1, 1, 1, 1, 2, 1, 1, 3, 3, 1, 1, 4, 6, 4, 1 };   // binomial
 
 double power (double a, int n)
 {
@@ -33,13 +36,14 @@ double power (double a, int n)
 }
 }   // namespace
 
-SmoothBody::SmoothBody (const Mesh& mesh, double crease)
-    : corners (mesh.triangles.size()), beside (mesh.triangles.size(), { -1, -1, -1 }), face (mesh.triangles.size(), -1)
+std::vector<int> facesOf (const Mesh& mesh, const MeshWalk& walk, double crease)
 {
-    const MeshWalk walk (mesh);
-    const auto normal = [&] (int t) { return direction (areaNormal (cornersOf (mesh, t))); };
-    const double least = math::cos (crease);
-    std::vector<int> todo;
+    const double least = math::cos (crease) - 1e-9;
+    std::vector<Vec3> normals;
+    normals.reserve (mesh.triangles.size());
+    for (int t = 0; t < mesh.size(); ++t)
+        normals.push_back (direction (areaNormal (cornersOf (mesh, t))));
+    std::vector<int> face (mesh.triangles.size(), -1), todo;
     int faces = 0;
     for (int start = 0; start < mesh.size(); ++start)
     {
@@ -50,7 +54,7 @@ SmoothBody::SmoothBody (const Mesh& mesh, double crease)
             const int t = todo.back();
             todo.pop_back();
             for (int i = 0; i < 3; ++i)
-                if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] < 0 && normal (t).dot (normal (other)) >= least)
+                if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] < 0 && normals[at (t)].dot (normals[at (other)]) >= least)
                 {
                     face[at (other)] = faces;
                     todo.push_back (other);
@@ -58,7 +62,15 @@ SmoothBody::SmoothBody (const Mesh& mesh, double crease)
         }
         ++faces;
     }
+    return face;
+}
 
+SmoothBody::SmoothBody (const Mesh& mesh, double crease)
+    : corners (mesh.triangles.size()), beside (mesh.triangles.size(), { -1, -1, -1 }), rim (mesh.triangles.size(), { false, false, false })
+{
+    const MeshWalk walk (mesh);
+    const auto normal = [&] (int t) { return direction (areaNormal (cornersOf (mesh, t))); };
+    face = facesOf (mesh, walk, crease);
     std::map<std::pair<int, int>, int> known;   // by point and face
     std::vector<std::vector<int>> around (mesh.points.size());
     for (int t = 0; t < mesh.size(); ++t)
@@ -69,6 +81,7 @@ SmoothBody::SmoothBody (const Mesh& mesh, double crease)
             if (fresh) nodes.push_back ({ .point = point, .p = mesh.points[at (point)], .z = Vec3::Zero() });
             corners[at (t)][at (i)] = found->second;
             around[at (point)].push_back (t);
+            rim[at (t)][at (i)] = other < 0;
             if (other >= 0 && face[at (other)] == face[at (t)]) beside[at (t)][at (i)] = other;
         }
     std::vector<std::vector<int>> ring (nodes.size());
@@ -112,12 +125,19 @@ SmoothBody::SmoothBody (const Mesh& mesh, double crease)
             if ((nodes[at (node)].p - centre).norm() < nodes[at (node)].radius + 1.15 * size) near.items.push_back (node);
         near.first.push_back (static_cast<int> (near.items.size()));
 
-        std::map<int, int> others;
+        std::map<int, std::pair<int, double>> others;   // by face
+        for (int i = 0; i < 3; ++i)
+            if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] != face[at (t)])
+                others[face[at (other)]] = { other, normal (other).dot (centre - mesh.corner (other, 0)) > 0.0 ? -1.0 : 1.0 };
         for (const int point : mesh.triangles[at (t)])
             for (const int other : around[at (point)])
-                if (face[at (other)] != face[at (t)]) others.try_emplace (face[at (other)], other);
+                if (face[at (other)] != face[at (t)] && normal (other).dot (centre - mesh.corner (other, 0)) <= 0.0)
+                    others.try_emplace (face[at (other)], std::pair { other, 1.0 });
         for (const auto& [its, other] : others)
-            over.items.push_back (other);
+        {
+            over.items.push_back (other.first);
+            bulges.push_back (other.second);
+        }
         over.first.push_back (static_cast<int> (over.items.size()));
     }
     pass();
@@ -139,12 +159,12 @@ void SmoothBody::fit (const std::vector<std::vector<int>>& ring)
             mean += edge / static_cast<double> (ring[v].size());
             longest = std::max (longest, edge);
         }
-        node.radius = reach * longest;
+        node.radius = weight_reach * longest;
         node.over = 1.0 / (node.radius * node.radius);
 
         std::set<int> seen { static_cast<int> (v) };
         std::vector<int> front { static_cast<int> (v) }, use;
-        for (int k = 0; k < fitted_rings || (use.size() < 11 && ! front.empty()); ++k)
+        for (int k = 0; k < fitted_rings; ++k)
         {
             std::vector<int> next;
             for (const int a : front)
@@ -153,22 +173,24 @@ void SmoothBody::fit (const std::vector<std::vector<int>>& ring)
             use.insert (use.end(), next.begin(), next.end());
             front = next;
         }
-        const int rows = static_cast<int> (use.size()), columns = (rows >= 17 ? 15 : rows >= 12 ? 10
-                                                                                                : 6)
-                                                                  - 1;
-        Eigen::MatrixXd a (rows, columns);
-        Eigen::VectorXd b (rows);
+        // Least squares with a small weight on all terms, so that a term that the nodes say little about stays small. The factors of the terms make
+        // this the same for all directions of x and y.
+        const int rows = static_cast<int> (use.size()), columns = terms - 1;
+        Eigen::MatrixXd a = Eigen::MatrixXd::Zero (rows + columns, columns);
+        Eigen::VectorXd b = Eigen::VectorXd::Zero (rows + columns);
+        const auto term = [] (int k, double x, double y) { return std::sqrt (choices[at (k)]) * power (x, power_x[at (k)]) * power (y, power_y[at (k)]); };
         for (int row = 0; row < rows; ++row)
         {
             const Vec3 d = nodes[at (use[at (row)])].p - node.p;
             const double weight = math::exp (-0.5 * d.squaredNorm() / (mean * mean));
             for (int k = 0; k < columns; ++k)
-                a (row, k) = weight * power (d.dot (node.x) / mean, power_x[at (k + 1)]) * power (d.dot (node.y) / mean, power_y[at (k + 1)]);
+                a (row, k) = weight * term (k + 1, d.dot (node.x) / mean, d.dot (node.y) / mean);
             b[row] = weight * d.dot (node.z);
         }
-        const Eigen::VectorXd solved = a.completeOrthogonalDecomposition().solve (b);
+        a.bottomRows (columns).diagonal().setConstant (damping);
+        const Eigen::VectorXd solved = a.householderQr().solve (b);
         for (int k = 0; k < columns; ++k)
-            node.c[at (k + 1)] = solved[k] / power (mean, power_x[at (k + 1)] + power_y[at (k + 1)]);
+            node.c[at (k + 1)] = solved[k] * term (k + 1, 1.0 / mean, 1.0 / mean);
     }
 }
 
@@ -271,35 +293,42 @@ SmoothBody::Value SmoothBody::valueAt (int triangle, const Vec3& p) const noexce
     return value;
 }
 
+/// Barycentric weights times a positive number, of the place of a triangle under x.
+std::array<double, 3> SmoothBody::weightsOn (int triangle, const Vec3& x) const noexcept
+{
+    const auto& own = corners[at (triangle)];
+    const Vec3 &a = nodes[at (own[0])].p, &b = nodes[at (own[1])].p, &c = nodes[at (own[2])].p;
+    const Vec3 n = (b - a).cross (c - a), over_area = n / n.squaredNorm();
+    return { (c - b).cross (x - b).dot (over_area), (a - c).cross (x - c).dot (over_area), (b - a).cross (x - a).dot (over_area) };
+}
+
 /// The triangle of the same face over which x is, walking from one of them. At a border, the last one before it.
 int SmoothBody::walked (int triangle, const Vec3& x) const noexcept
 {
     for (int step = 0; step < 100; ++step)
     {
-        const auto& own = corners[at (triangle)];
-        const Vec3 &a = nodes[at (own[0])].p, &b = nodes[at (own[1])].p, &c = nodes[at (own[2])].p;
-        const Vec3 n = (b - a).cross (c - a);
-        const std::array<double, 3> weights { (c - b).cross (x - b).dot (n), (a - c).cross (x - c).dot (n), (b - a).cross (x - a).dot (n) };
+        const auto weights = weightsOn (triangle, x);
         const auto lowest = std::ranges::min_element (weights) - weights.begin();
         const int next = beside[at (triangle)][at (lowest)];
-        if (weights[at (lowest)] >= -1e-9 * n.squaredNorm() || next < 0) break;
+        if (weights[at (lowest)] >= -1e-9 || next < 0) break;
         triangle = next;
     }
     return triangle;
 }
 
-SmoothBody::Foot SmoothBody::cornerOf (int triangle) const noexcept
+SmoothBody::Foot SmoothBody::footOn (int triangle, const Vec3& point) const noexcept
 {
     Foot foot;
     foot.triangles[0] = triangle;
     foot.faces = 1;
-    foot.point = nodes[at (corners[at (triangle)][0])].p;
+    foot.point = point;
     return foot;
 }
 
 /// Newton's method on x - p + sum_i l_i grad g_i (x) = 0, g_i (x) = 0, over the faces that hold the foot. The pulls are the l_i.
-bool SmoothBody::solve (Foot& foot, std::array<double, most>& pulls, const Vec3& p) const noexcept
+bool SmoothBody::solve (Foot& foot, const Vec3& p) const noexcept
 {
+    auto& pulls = foot.pulls;
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + most, 3 + most>;
     using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + most, 1>;
     const int m = foot.faces;
@@ -321,14 +350,14 @@ bool SmoothBody::solve (Foot& foot, std::array<double, most>& pulls, const Vec3&
             const Value& v = values[0];
             const double gg = v.slope.squaredNorm();
             foot.normal = v.slope / std::sqrt (gg);
-            pulls[0] = (p - foot.point).dot (v.slope) / gg;
+            pulls = { (p - foot.point).dot (v.slope) / gg, 0.0, 0.0 };
             const Vec3 a = foot.normal.unitOrthogonal(), b = foot.normal.cross (a), down = -v.g / gg * v.slope;
             const Mat3 k = Mat3::Identity() + pulls[0] * v.bend;
             const Vec3 r = p - foot.point - k * down;
             const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
-            foot.found = aa > 0.0 && det > 0.0;   // else the tool is beyond the centre of curvature
+            foot.found = aa > flattest && (aa - flattest) * (bb - flattest) > ab * ab;
             const double ra = r.dot (a), rb = r.dot (b);
-            move = foot.found ? Vec3 { down + (bb * ra - ab * rb) / det * a + (aa * rb - ab * ra) / det * b } : Vec3 { down + ra * a + rb * b };
+            move = aa > 0.0 && det > 0.0 ? Vec3 { down + (bb * ra - ab * rb) / det * a + (aa * rb - ab * ra) / det * b } : Vec3 { down + ra * a + rb * b };
         }
         else
         {
@@ -376,68 +405,171 @@ bool SmoothBody::solve (Foot& foot, std::array<double, most>& pulls, const Vec3&
     return false;
 }
 
+/// Takes away a face that would hold the tool back. True if there was one.
+bool SmoothBody::leave (Foot& foot, double slack) noexcept
+{
+    if (foot.faces < 2) return false;
+    int least = 0;
+    for (int i = 1; i < foot.faces; ++i)
+        if (foot.side * foot.pulls[at (i)] < foot.side * foot.pulls[at (least)]) least = i;
+    if (foot.side * foot.pulls[at (least)] >= -slack) return false;
+    std::shift_left (foot.triangles.begin() + least, foot.triangles.begin() + foot.faces, 1);
+    --foot.faces;
+    return true;
+}
+
+/// Adds a face that the foot has passed and that holds the tool, or notes one that does not. True if it added one.
+bool SmoothBody::cross (Foot& foot, bool inside, double slack) const noexcept
+{
+    int added = -1;
+    double farthest = slack;
+    for (int i = 0; i < foot.faces && foot.faces < most; ++i)
+    {
+        const int triangle = foot.triangles[at (i)];
+        for (int k = over.first[at (triangle)]; k < over.first[at (triangle) + 1]; ++k)
+        {
+            const int other = over.items[at (k)];
+            const bool holds =
+                std::any_of (foot.triangles.begin(), foot.triangles.begin() + foot.faces, [&] (int t) { return face[at (t)] == face[at (other)]; });
+            if (holds) continue;
+            const int there = walked (other, foot.point);
+            const Value v = valueAt (there, foot.point);
+            const double side = bulges[at (k)];
+            if (! v.known || side * v.g <= slack) continue;
+            if ((side < 0.0) != inside)
+                foot.beyond = there;
+            else if (side * v.g > farthest)
+            {
+                farthest = side * v.g;
+                added = there;
+                foot.side = side;
+            }
+        }
+    }
+    if (added < 0) return false;
+    foot.triangles[at (foot.faces++)] = added;
+    foot.beyond = -1;
+    return true;
+}
+
 SmoothBody::Foot SmoothBody::followed (const Foot& before, const Vec3& p) const noexcept
 {
     Foot foot = before;
-    foot.found = false;
+    foot.found = foot.left = false;
+    foot.beyond = -1;
     if (foot.faces == 0) return foot;
     const double slack = 1e-9 * nodes[at (corners[at (foot.triangles[0])][0])].radius;
-    for (int round = 0; round < 12; ++round)
+    Vec3 away = Vec3::Zero();
+    bool inside = false, settled = false;
+    for (int round = 0; round < 12 && ! settled; ++round)
     {
-        std::array<double, most> pulls {};
-        if (! solve (foot, pulls, p))
+        if (! solve (foot, p))
         {
             foot.found = false;
-            break;
+            return foot;
         }
-        if (foot.faces > 1)
-            if (const auto least = std::min_element (pulls.begin(), pulls.begin() + foot.faces); *least < -slack)   // a face that would hold the tool back
-            {
-                const auto i = least - pulls.begin();
-                std::shift_left (foot.triangles.begin() + i, foot.triangles.begin() + foot.faces, 1);
-                --foot.faces;
-                continue;
-            }
-        int added = -1;
-        double farthest = slack;
-        for (int i = 0; i < foot.faces && foot.faces < most; ++i)
-        {
-            const int triangle = foot.triangles[at (i)];
-            for (int k = over.first[at (triangle)]; k < over.first[at (triangle) + 1]; ++k)
-            {
-                const int other = over.items[at (k)];
-                const bool holds = std::any_of (foot.triangles.begin(), foot.triangles.begin() + foot.faces,
-                                                [&] (int t) { return face[at (t)] == face[at (other)]; });
-                if (holds) continue;
-                const int there = walked (other, foot.point);
-                if (const Value v = valueAt (there, foot.point); v.known && v.g > farthest)
-                {
-                    farthest = v.g;
-                    added = there;
-                }
-            }
-        }
-        if (added < 0) break;
-        foot.triangles[at (foot.faces++)] = added;
+        if (leave (foot, slack)) continue;
+        away = p - foot.point;
+        inside = foot.faces == 1 ? away.dot (foot.normal) < 0.0 : foot.side < 0.0;
+        settled = ! cross (foot, inside, slack);
     }
-    const Vec3 away = p - foot.point;
-    const double length = away.norm();
-    if (foot.faces == 1 && away.dot (foot.normal) < 0.0)
-        foot.distance = -length;
-    else
-        foot.distance = length;
-    if (length > slack) foot.normal = away / foot.distance;
+    foot.found = foot.found && settled;
+    foot.distance = (inside ? -1.0 : 1.0) * away.norm();
+    // Near the surface, the gradient of g is more exact than the difference of two near points.
+    const double least = foot.faces == 1 ? 1e5 * slack : slack;
+    if (std::abs (foot.distance) > least) foot.normal = away / foot.distance;
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        const int triangle = foot.triangles[at (i)];
+        const auto weights = weightsOn (triangle, foot.point);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            if (weights[k] < -1e-9 && rim[at (triangle)][k]) foot.left = true;
+            if (weights[k] < -0.5) foot.found = false;   // far beyond a crease, where the fits know nothing
+        }
+    }
     return foot;
 }
 
-Mat3 SmoothBody::moves (const Foot& foot, const Vec3& p) const noexcept
+std::array<double, SmoothBody::most> SmoothBody::partsOf (const Foot& foot) noexcept
 {
-    const Value v = valueAt (foot.triangles[0], foot.point);
-    const double gg = v.slope.squaredNorm(), pull = (p - foot.point).dot (v.slope) / gg;
-    const Vec3 n = v.slope / std::sqrt (gg), a = n.unitOrthogonal(), b = n.cross (a);
-    const Mat3 k = Mat3::Identity() + pull * v.bend;
-    const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
-    return (bb * a * a.transpose() - ab * (a * b.transpose() + b * a.transpose()) + aa * b * b.transpose()) / det;
+    std::array<double, most> parts { 1.0, 0.0, 0.0 };
+    if (foot.faces < 2) return parts;
+    double all = 0.0, sum = 0.0;
+    for (int i = 0; i < foot.faces; ++i)
+        all += foot.pulls[at (i)];
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        const double a = all != 0.0 ? std::clamp (foot.pulls[at (i)] / all, 0.0, 1.0) : 1.0 / foot.faces;
+        sum += parts[at (i)] = a * a * (3.0 - 2.0 * a);
+    }
+    for (auto& part : parts)
+        part /= sum;
+    return parts;
+}
+
+SmoothBody::Motion SmoothBody::motionOf (const Foot& foot, const Vec3& p) const noexcept
+{
+    Motion motion;
+    if (foot.faces == 1)
+    {
+        const Value v = valueAt (foot.triangles[0], foot.point);
+        const double gg = v.slope.squaredNorm(), pull = (p - foot.point).dot (v.slope) / gg;
+        const Vec3 n = v.slope / std::sqrt (gg), a = n.unitOrthogonal(), b = n.cross (a);
+        const Mat3 k = Mat3::Identity() + pull * v.bend;
+        const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
+        motion.foot = (bb * a * a.transpose() - ab * (a * b.transpose() + b * a.transpose()) + aa * b * b.transpose()) / det;
+        const Vec3 ba = v.bend * a, bb_ = v.bend * b;
+        const Mat3 turn = (a.dot (ba) * a * a.transpose() + a.dot (bb_) * (a * b.transpose() + b * a.transpose()) + b.dot (bb_) * b * b.transpose()) / std::sqrt (gg);
+        motion.normal = turn * motion.foot;
+        return motion;
+    }
+    Mat3 k = Mat3::Identity();
+    std::array<Vec3, most> slopes;
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        const Value v = valueAt (foot.triangles[at (i)], foot.point);
+        slopes[at (i)] = v.slope;
+        k += foot.pulls[at (i)] * v.bend;
+    }
+    if (foot.faces == 2)
+    {
+        const Vec3 t = direction (slopes[0].cross (slopes[1]));
+        motion.foot = t * t.transpose() / t.dot (k * t);
+    }
+    if (std::abs (foot.distance) > 0.0)
+        motion.normal = (Mat3::Identity() - foot.normal * foot.normal.transpose() - motion.foot) / foot.distance;
+
+    // How the pulls change: sum slopes_i dl_i = (1 - k motion.foot) dp.
+    using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most>;
+    Columns g (3, foot.faces);
+    for (int i = 0; i < foot.faces; ++i)
+        g.col (i) = slopes[at (i)];
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> squared = g.transpose() * g;
+    const Columns dual = g * squared.fullPivLu().inverse();
+    const Mat3 rest = Mat3::Identity() - k * motion.foot;
+    double all = 0.0, sum = 0.0;
+    Vec3 all_slope = Vec3::Zero(), sum_slope = Vec3::Zero();
+    std::array<Vec3, most> changes;
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        all += foot.pulls[at (i)];
+        changes[at (i)] = rest.transpose() * dual.col (i);
+        all_slope += changes[at (i)];
+    }
+    if (all == 0.0) return motion;
+    std::array<double, most> smooth {};
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        const double a = std::clamp (foot.pulls[at (i)] / all, 0.0, 1.0);
+        smooth[at (i)] = a * a * (3.0 - 2.0 * a);
+        motion.parts[at (i)] = 6.0 * a * (1.0 - a) / all * (changes[at (i)] - a * all_slope);
+        sum += smooth[at (i)];
+        sum_slope += motion.parts[at (i)];
+    }
+    for (int i = 0; i < foot.faces; ++i)
+        motion.parts[at (i)] = (motion.parts[at (i)] - smooth[at (i)] / sum * sum_slope) / sum;
+    return motion;
 }
 
 }   // namespace tactus

@@ -12,9 +12,16 @@
 namespace tactus
 {
 
+class MeshWalk;
+
+/// The face of each triangle, counted from 0. Triangles that meet at a larger angle than `crease` (rad) belong to two faces, unless there is a way
+/// around. [main thread]
+std::vector<int> facesOf (const Mesh&, const MeshWalk&, double crease);
+
 /// A body with a smooth surface through the nodes of a mesh. Never changes once built; all lengths in m.
 ///
-/// Each node i has a polynomial of degree 4, a height over its tangent plane, fitted to the nodes around. d_i (x) is the height of x over it.
+/// Each node i has a polynomial of degree 4, a height over its tangent plane, fitted to the nodes of three rings around. d_i (x) is the height of x
+/// over it. A small weight on all terms keeps those small that few nodes determine.
 /// The surface is where
 ///
 ///     g (x) = sum_i w_i d_i / sum_i w_i = 0,   w_i = (1 - r)^4 (4 r + 1),   r = |x - node i| / (1.6 times its longest edge), 0 for r > 1
@@ -46,38 +53,57 @@ public:
     static constexpr int most = 3;   ///< faces that hold a foot: 1 on a face, 2 on an edge, 3 at a corner
 
     /// The nearest point of the surface.
+    ///
+    /// A tool outside is held by the edges and corners where the body is convex, a tool inside by those where it is hollow. In the other two cases
+    /// the nearest point changes over from a face to the next at the crease, so the foot stays on its own face, and `beyond` says which face it
+    /// has passed.
     struct Foot
     {
         std::array<int, most> triangles { -1, -1, -1 };   ///< a triangle near the foot, of each face that holds it
+        std::array<double, most> pulls {};                ///< p - point is the sum of pull times the gradient of g, over these faces
         int faces = 0;                                    ///< how many faces hold it; 0: none
         Vec3 point = Vec3::Zero();
         Vec3 normal = Vec3::Zero();   ///< out of the body
+        double side = 1.0;            ///< 1 if an edge or corner where the body is convex holds it, -1 where it is hollow
         double distance = 0.0;        ///< of the tool from the surface, negative inside
-        bool found = false;           ///< false if there is no foot near the last one
+        bool found = false;           ///< false if there is no foot near the last one, or a tool deeper than 0.95 of the radius of curvature
+        bool left = false;            ///< beyond the rim of an open mesh
+        int beyond = -1;              ///< a triangle of the face that the foot has passed; -1: none
     };
 
-    /// A foot to begin with, on the corner of a triangle.
-    Foot cornerOf (int triangle) const noexcept;
+    /// A foot to begin with, on a triangle.
+    Foot footOn (int triangle, const Vec3& point) const noexcept;
 
     /// The foot of a tool at p, by Newton's method from the last foot. [any thread]
     Foot followed (const Foot&, const Vec3& p) const noexcept;
 
-    /// The derivative of a foot on a single face in the position of its tool. Symmetric; its pole is the centre of curvature. [any thread]
-    Mat3 moves (const Foot&, const Vec3& p) const noexcept;
+    /// The derivatives of a foot in the position of its tool. Their pole is the centre of curvature.
+    struct Motion
+    {
+        Mat3 foot = Mat3::Zero(), normal = Mat3::Zero();                             ///< symmetric
+        std::array<Vec3, most> parts { Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };   ///< of partsOf()
+    };
+    Motion motionOf (const Foot&, const Vec3& p) const noexcept;   // [any thread]
 
-    /// A node with its share in the mix at a point, and the gradient of the share. Shares are not negative and have a sum of 1.
+    /// The part of each face in what is mixed at a foot: 1 on a face. Around an edge, they change over smoothly with the direction of the tool.
+    static std::array<double, most> partsOf (const Foot&) noexcept;
+
+    /// A node with its share in the mix at a foot, and the gradient of the share in the position of the tool. Shares are not negative and have a
+    /// sum of 1. Several nodes may be the same point of the mesh.
     struct Share
     {
         int node = 0;   ///< point of the mesh
         double amount = 0.0;
-        Vec3 slope = Vec3::Zero();
+        Vec3 slope = Vec3::Zero();   ///< 0 if no motion is given
     };
 
-    /// Calls `use (share)` for each node with a share at x on the face of a triangle. [any thread]
+    /// Calls `use (share)` for each node with a share. [any thread]
     template <typename Use>
-    void mix (int triangle, const Vec3& x, const Use& use) const noexcept;
+    void mix (const Foot&, const Motion*, const Use& use) const noexcept;
 
     int size() const noexcept { return static_cast<int> (corners.size()); }   ///< number of triangles
+    bool hasCreases() const noexcept { return ! over.items.empty(); }
+    double reachAt (int triangle) const noexcept { return nodes[at (corners[at (triangle)][0])].radius; }   ///< of the nodes there, m
 
 private:
     static constexpr int terms = 15;   // 1 x y xx xy yy xxx xxy xyy yyy xxxx xxxy xxyy xyyy yyyy
@@ -105,14 +131,19 @@ private:
     static Weight weightOf (const Node&, double r2) noexcept;   // r2: squared distance over radius, below 1
 
     int walked (int triangle, const Vec3& x) const noexcept;
-    bool solve (Foot&, std::array<double, most>& pulls, const Vec3& p) const noexcept;
+    std::array<double, 3> weightsOn (int triangle, const Vec3& x) const noexcept;
+    bool solve (Foot&, const Vec3& p) const noexcept;
+    static bool leave (Foot&, double slack) noexcept;
+    bool cross (Foot&, bool inside, double slack) const noexcept;
     void fit (const std::vector<std::vector<int>>& ring);
     void pass();
 
     std::vector<Node> nodes;
     std::vector<std::array<int, 3>> corners, beside;   // by triangle: nodes; the triangle across the edge opposite a corner, -1 at a crease or a rim
+    std::vector<std::array<bool, 3>> rim;              // by triangle: whether the edge opposite a corner belongs to no other triangle
     std::vector<int> face;                             // by triangle
     Lists near, over;                                  // by triangle: nodes with a weight there; one triangle of each other face at its corners
+    std::vector<double> bulges;                        // as over: 1 if the body is convex there, -1 if it is hollow
 };
 
 //==============================================================================
@@ -125,26 +156,35 @@ inline SmoothBody::Weight SmoothBody::weightOf (const Node& node, double r2) noe
 }
 
 template <typename Use>
-void SmoothBody::mix (int triangle, const Vec3& x, const Use& use) const noexcept
+void SmoothBody::mix (const Foot& foot, const Motion* motion, const Use& use) const noexcept
 {
-    double sum = 0.0;
-    Vec3 slope = Vec3::Zero();
-    const auto each = [&] (const auto& visit) {
-        for (int k = near.first[at (triangle)]; k < near.first[at (triangle) + 1]; ++k)
-        {
-            const Node& node = nodes[at (near.items[at (k)])];
-            const Vec3 d = x - node.p;
-            if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) visit (node, weightOf (node, r2), d);
-        }
-    };
-    each ([&] (const Node&, const Weight& w, const Vec3& d) {
-        sum += w.w;
-        slope += w.first * d;
-    });
-    each ([&] (const Node& node, const Weight& w, const Vec3& d) {
-        const double amount = w.w / sum;
-        use (Share { node.point, amount, (w.first * d - amount * slope) / sum });
-    });
+    const auto parts = partsOf (foot);
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        const double part = parts[at (i)];
+        if (part == 0.0) continue;   // its slope is 0, too
+        const int triangle = foot.triangles[at (i)];
+        double sum = 0.0;
+        Vec3 slope = Vec3::Zero();
+        const auto each = [&] (const auto& visit) {
+            for (int k = near.first[at (triangle)]; k < near.first[at (triangle) + 1]; ++k)
+            {
+                const Node& node = nodes[at (near.items[at (k)])];
+                const Vec3 d = foot.point - node.p;
+                if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) visit (node, weightOf (node, r2), d);
+            }
+        };
+        each ([&] (const Node&, const Weight& w, const Vec3& d) {
+            sum += w.w;
+            slope += w.first * d;
+        });
+        each ([&] (const Node& node, const Weight& w, const Vec3& d) {
+            const double amount = w.w / sum;
+            Share share { node.point, part * amount };
+            if (motion) share.slope = part / sum * (motion->foot * (w.first * d - amount * slope)) + amount * motion->parts[at (i)];
+            use (share);
+        });
+    }
 }
 
 }   // namespace tactus

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
 #include "mesh_walk.hpp"
-#include "placed_surface.hpp"
-#include "surface_contact.hpp"
-
-#include <tactus/kit/math/math.hpp>
+#include "smooth_body.hpp"
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -204,114 +201,25 @@ std::string wrongSide (const Surface& s)
     return {};
 }
 
-namespace
+std::string sharpEdges (const Surface& s, double crease, const std::vector<double>& radii)
 {
-double degreesBetween (const Vec3& a, const Vec3& b) { return math::atan2 (a.cross (b).norm(), a.dot (b)) * 180.0 / std::numbers::pi; }
-
-/// By triangle: the angle between it and the neighbour that differs most, in degrees.
-std::vector<double> sharpestEdges (const Mesh& mesh)
-{
-    std::vector<double> sharpest (mesh.triangles.size());
-    std::map<std::pair<int, int>, std::vector<int>> users;
+    const Mesh& mesh = *s.mesh;
+    const MeshWalk walk (mesh);
+    const auto face = facesOf (mesh, walk, crease);
+    int edges = 0;
     for (int t = 0; t < mesh.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-            auto& others = users[std::minmax (mesh.triangles[at (t)][i], mesh.triangles[at (t)][(i + 1) % 3])];
-            for (const int other : others)
+        for (int i = 0; i < 3; ++i)
+            if (const int other = walk.beside (t, i); other > t && face[at (other)] != face[at (t)])
             {
-                const double angle = degreesBetween (areaNormal (cornersOf (mesh, t)), areaNormal (cornersOf (mesh, other)));
-                sharpest[at (t)] = std::max (sharpest[at (t)], angle);
-                sharpest[at (other)] = std::max (sharpest[at (other)], angle);
+                const Vec3 centre = (mesh.corner (t, 0) + mesh.corner (t, 1) + mesh.corner (t, 2)) / 3.0;
+                edges += areaNormal (cornersOf (mesh, other)).dot (centre - mesh.corner (other, 0)) < 0.0;
             }
-            others.push_back (t);
-        }
-    return sharpest;
-}
-
-/// The force of the law of a spot at a depth, in N: pressed along the frame of the spot until it is as deep.
-double lawAt (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, double depth)
-{
-    const Vec3 inwards = body.frameAt (spot, tool).row (2).transpose();
-    double pressed = depth;
-    PlacedSurface::ContactSample felt;
-    for (int i = 0; i < 20; ++i)
-    {
-        felt = body.feel (spot, spot.on.point + pressed * inwards, nullptr, tool);
-        if (std::abs (felt.d.z() - depth) < 1e-6 * depth) break;
-        pressed += depth - felt.d.z();
-    }
-    return felt.f.z();
-}
-}   // namespace
-
-std::string unevenForce (const std::shared_ptr<const Surface>& surface, double scale)
-{
-    constexpr double turned = 25.0, wrong = 0.25;   // degrees; of the force of the law
-    constexpr double crease = 35.0;                 // degrees; an edge that turns by less belongs to a body that is round
-    constexpr std::size_t most_presses = 50;        // triangles; a graph is judged at each edit
-    const PlacedSurface body (surface, scale, Vec3::Zero(), Vec3::Zero());
-    const auto& mesh = body.walk().mesh();
-    auto tool = body.noTool();
-    body.choose (0.0, { 0, { { 1.0, 0.0, 0.0 }, mesh.corner (0, 0) } }, tool);
-
-    std::vector<std::pair<double, int>> turns;   // of the frames of a triangle against its normal, degrees
-    Vec3 low = mesh.points[0], high = low;
-    for (int t = 0; t < mesh.size(); ++t)
-    {
-        const auto corners = cornersOf (mesh, t);
-        const Vec3 out = direction (areaNormal (corners));
-        double least = 1.0;
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-            std::array<double, 3> weights {};
-            weights[i] = 1.0;
-            least = std::min (least, -body.frameAt ({ t, { weights, corners[i] } }, tool).row (2).dot (out.transpose()));
-            low = low.cwiseMin (corners[i]);
-            high = high.cwiseMax (corners[i]);
-        }
-        const double degrees = math::atan2 (std::sqrt (std::max (0.0, 1.0 - least * least)), least) * 180.0 / std::numbers::pi;
-        if (degrees > turned) turns.emplace_back (degrees, t);
-    }
-    if (turns.empty()) return {};
-    const auto sharpest = sharpestEdges (*surface->mesh);
-    const auto isRound = [&] (const auto& turn) { return ! (sharpest[at (turn.second)] > crease); };
-    turns.erase (std::remove_if (turns.begin(), turns.end(), isRound), turns.end());
-    if (turns.empty()) return {};
-    const auto count = std::min (turns.size(), most_presses);
-    std::ranges::partial_sort (turns, turns.begin() + static_cast<std::ptrdiff_t> (count), std::greater {});
-    turns.resize (count);
-
-    const double deepest = 0.02 * (high - low).norm();
-    constexpr double of_size = 0.1;   // of a triangle: a body may be thin where its triangles are small
-    double least = 1.0, most = 1.0, depth_there = deepest;
-    int worst = -1;
-    for (const auto& [degrees, t] : turns)
-    {
-        const double depth = std::min (deepest, of_size * std::sqrt (areaNormal (cornersOf (mesh, t)).norm()));
-        for (const std::array<double, 3> weights : { std::array { 1.0 / 3, 1.0 / 3, 1.0 / 3 }, std::array { 0.6, 0.2, 0.2 }, std::array { 0.2, 0.6, 0.2 },
-                                                     std::array { 0.2, 0.2, 0.6 } })
-        {
-            const auto corners = cornersOf (mesh, t);
-            const Vec3 out = direction (areaNormal (corners)), on = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
-            const Vec3 p = on - depth * out;
-            const Spot spot { t, { weights, on } };
-            const double at_depth = lawAt (body, tool, spot, depth);
-            if (! (at_depth > 0.0)) continue;
-            const auto felt = begun (body, tool, spot, true, p);
-            const double share = felt.touch.foot.triangle < 0 ? 0.0 : forceOf (body, tool, felt, p).dot (out) / at_depth;
-            if (std::abs (share - 1.0) > std::max (most - 1.0, 1.0 - least))
-            {
-                worst = t;
-                depth_there = depth;
-            }
-            least = std::min (least, share);
-            most = std::max (most, share);
-        }
-    }
-    if (worst < 0 || std::max (most - 1.0, 1.0 - least) < wrong) return {};
-    return "the mesh is too coarse for its edges: its frames turn by " + short3 (turns.front().first) + " degrees within a flat face, so a press of "
-           + short3 (1e3 * depth_there) + " mm into it gives " + short3 (std::max (0.0, least)) + " to " + short3 (most)
-           + " times the force of its law, with the largest error at " + placeOf (*surface->mesh, worst) + "; refine the mesh near its edges, or round them";
+    if (edges == 0) return {};
+    const double least = radii.empty() ? 0.0 : *std::ranges::min_element (radii);
+    const std::string from = least > 0.0 ? "from a depth of " + roundedText (1e3 * least, 3) + " mm, the radius of the tool, a slide over them"
+                                         : "a slide over them at any depth";
+    return "the body has sharp edges (" + std::to_string (edges) + " in the mesh): " + from + " is felt as a step of the force; "
+           + (least > 0.0 ? "press less deep there, or give the tool a larger tool_radius" : "give the tool a tool_radius larger than the depth of a touch");
 }
 
 }   // namespace tactus

@@ -3,8 +3,8 @@
 
 #include "surface.hpp"
 
-#include <memory>
 #include <string>
+#include <vector>
 
 namespace tactus
 {
@@ -16,9 +16,8 @@ std::string problemOf (const Surface&);
 /// round than their neighbours, closed meshes that are inside out, and open ones that seem to be. Time: n log n.
 std::string wrongSide (const Surface&);
 
-/// A warning if the force on a flat face differs much from its law, because the frames at its corners turn; else empty. For example, a block of 8 points
-/// feels like a dome, because its frames are means over its edges. The warning gives the error of the force, from presses into the faces whose frames turn
-/// most. A body without an edge of more than 35 degrees counts as round. `scale` is the length of one unit of the mesh, in m.
-std::string unevenForce (const std::shared_ptr<const Surface>&, double scale);
+/// A warning that says from which depth an edge of the body is felt as a step: deeper than the radius of the tool, in m. Empty if no edge that bulges
+/// out is sharper than `crease` (rad).
+std::string sharpEdges (const Surface&, double crease, const std::vector<double>& radii);
 
 }   // namespace tactus

@@ -4,6 +4,8 @@
 #include "placed_surface.hpp"
 #include <tactus/kit/bristle.hpp>
 
+#include <optional>
+
 namespace tactus
 {
 
@@ -11,7 +13,7 @@ namespace tactus
 /// from.
 struct SurfaceTouch
 {
-    Spot foot {};   ///< no triangle while apart
+    PlacedSurface::Foot foot {};   ///< no face while apart
     Vec3 anchor = Vec3::Zero();
     bool frictionless = false;   ///< the anchor is the foot
     bool held = false;           ///< the tool has no foot near the last one, so the contact keeps the last one
@@ -23,6 +25,7 @@ struct SurfaceSample
     SurfaceTouch touch {};
     PlacedSurface::ContactSample felt {};
     bool left = false;   ///< the foot has passed the rim of an open mesh
+    int beyond = -1;     ///< a triangle of the face that the foot has passed; -1: none
 };
 
 /// A contact with its foot moved along while its tool goes from one point to another. The foot moves without a jump, or it is held. [any thread]
@@ -45,10 +48,19 @@ struct SurfaceStep
 /// 1, and its lengths are scaled by the bound. [any thread]
 SurfaceStep stepped (const PlacedSurface&, const PlacedSurface::Tool&, const SurfaceTouch&, const Bristle&, const Vec3& from, const Vec3& to) noexcept;
 
-/// A contact that begins where the tool enters the body. [any thread]
-SurfaceTouch touched (const PlacedSurface&, const PlacedSurface::Tool&, const Spot& entered, bool frictionless) noexcept;
+/// A contact at the moment when it begins.
+struct SurfaceEntry
+{
+    SurfaceTouch touch {};
+    Vec3 tool = Vec3::Zero();   ///< where the tool is then
+};
 
-/// A contact at the foot of a tool, without stretch. No triangle if there is no foot, or if the tool is outside. [any thread]
-SurfaceSample begun (const PlacedSurface&, const PlacedSurface::Tool&, const Spot& near, bool frictionless, const Vec3& p) noexcept;
+/// The place on the straight way of a tool where its depth over a foot goes from negative to positive. The search begins at a share of the way from
+/// 0 to 1. None if there is no such place near. [any thread]
+std::optional<SurfaceEntry> entryOf (const PlacedSurface&, const PlacedSurface::Tool&, const PlacedSurface::Foot&, double share, const Vec3& from,
+                                     const Vec3& to, bool frictionless) noexcept;
+
+/// A contact at the foot of a tool, without stretch. No face if there is no foot, or if the tool is outside. [any thread]
+SurfaceSample begun (const PlacedSurface&, const PlacedSurface::Tool&, const PlacedSurface::Foot& near, bool frictionless, const Vec3& p) noexcept;
 
 }   // namespace tactus

@@ -67,37 +67,6 @@ Mesh tube (int facets, int rows, double radius, double pitch)
     return mesh;
 }
 
-/// The point of the surface near a point of a triangle.
-Vec3 onto (const SmoothBody& body, int triangle, Vec3 x)
-{
-    for (int k = 0; k < 4; ++k)
-    {
-        const auto v = body.valueAt (triangle, x);
-        x -= v.g / v.slope.squaredNorm() * v.slope;
-    }
-    return x;
-}
-
-/// The smallest radius of curvature with its centre inside, over points of all triangles within `inner` of the origin.
-double smallestRadius (const SmoothBody& body, const Mesh& mesh, double inner)
-{
-    double most = 0.0;
-    for (int t = 0; t < mesh.size(); ++t)
-        for (int i = 0; i <= 6; ++i)
-            for (int j = 0; j <= 6 - i; ++j)
-            {
-                const double u = i / 6.0, v = j / 6.0;
-                const Vec3 x = (1.0 - u - v) * mesh.corner (t, 0) + u * mesh.corner (t, 1) + v * mesh.corner (t, 2);
-                if (x.norm() > inner) continue;
-                const auto value = body.valueAt (t, onto (body, t, x));
-                const double length = value.slope.norm();
-                const Vec3 n = value.slope / length, a = n.unitOrthogonal(), b = n.cross (a);
-                const double p = a.dot (value.bend * a) / length, q = a.dot (value.bend * b) / length, r = b.dot (value.bend * b) / length;
-                most = std::max (most, 0.5 * (p + r) + std::sqrt (0.25 * (p - r) * (p - r) + q * q));
-            }
-    return 1.0 / most;
-}
-
 struct Stroke
 {
     double sideways = 0.0;   // the largest part of the force
@@ -111,7 +80,7 @@ Stroke stroke (const Mesh& mesh, double radius)
     Dice dice (3);
     const double at = radius - 0.002;
     Vec3 p = at * mesh.corner (0, 0).normalized(), axis = Vec3::UnitX();
-    Foot foot = body.cornerOf (0);
+    Foot foot = body.footOn (0, mesh.corner (0, 0));
     std::vector<double> forces;
     Stroke felt;
     double mean = 0.0;
@@ -169,14 +138,14 @@ TEST_CASE ("smooth body: a tool in a round body feels no force sideways, and no 
         const auto felt = stroke (mesh, 0.02);
         CHECK (felt.sideways < 0.002);
         CHECK (felt.ripple < 1e-3);
-        CHECK (smallestRadius (SmoothBody (mesh, smooth), mesh, 1.0) > 0.95 * 0.02);
+        CHECK (tactus::test::smallestRadius (SmoothBody (mesh, smooth), mesh, 1.0) > 0.95 * 0.02);
     }
 
     const double radius = 6e-3, depth = 3.5e-3, pitch = 1.36e-3;
     const auto mesh = tube (24, 16, radius, pitch);
     const SmoothBody body (mesh, smooth);
-    CHECK (smallestRadius (body, mesh, radius + pitch) > 0.99 * radius);
-    Foot foot = body.cornerOf (mesh.size() / 2);
+    CHECK (tactus::test::smallestRadius (body, mesh, radius + pitch) > 0.99 * radius);
+    Foot foot = body.footOn (mesh.size() / 2, mesh.corner (mesh.size() / 2, 0));
     double sideways = 0.0;
     for (int k = 0; k < 20'000; ++k)
     {
@@ -212,7 +181,7 @@ TEST_CASE ("smooth body: the force changes by no more than nearest points do, fo
         for (auto& p : shifted.points)
             p -= middle;
         const SmoothBody body (shifted, smooth);
-        const double radius = smallestRadius (body, shifted, 1.15 * inner);
+        const double radius = tactus::test::smallestRadius (body, shifted, 1.15 * inner);
         Dice dice (2);
         for (const double step : { 1e-5, 1e-6, 1e-7, 1e-8 })
         {
@@ -226,8 +195,8 @@ TEST_CASE ("smooth body: the force changes by no more than nearest points do, fo
                     t = static_cast<int> (dice.uniform() * shifted.size());
                     x = (shifted.corner (t, 0) + shifted.corner (t, 1) + shifted.corner (t, 2)) / 3.0;
                 } while (x.norm() > inner);
-                Foot foot = body.cornerOf (t);
-                x = onto (body, t, x);
+                Foot foot = body.footOn (t, shifted.corner (t, 0));
+                x = tactus::test::onto (body, t, x);
                 const Vec3 n = body.valueAt (t, x).slope.normalized();
                 const double depth = 0.88 * radius * (run % 2 == 0 ? 1.0 : dice.uniform());
                 for (int k = 1; k <= 20; ++k)
@@ -273,7 +242,7 @@ TEST_CASE ("smooth body: a round tool feels the edges and corners of a block as 
             {
                 const int t = static_cast<int> (dice.uniform() * mesh.size());
                 const double u = run % 3 == 0 ? 0.0 : dice.uniform();
-                Foot foot = body.cornerOf (t);
+                Foot foot = body.footOn (t, mesh.corner (t, 0));
                 const Vec3 from = (1.0 - u) * mesh.corner (t, 0) + u * mesh.corner (t, 1);
                 Vec3 p = from + rho * Vec3 (2.0 * from.x(), 2.0 * from.y(), 40.0 * from.z()).normalized();   // out of a flat block
                 foot = body.followed (foot, p);
@@ -328,10 +297,10 @@ TEST_CASE ("smooth body: the move of a foot and the mix of the nodes are derivat
     std::vector<double> stiff;
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
         stiff.push_back (300.0 + 2700.0 * dice.uniform());
-    const auto mixed = [&] (const Foot& foot) {
+    const auto mixed = [&] (const Foot& foot, const SmoothBody::Motion* motion = nullptr) {
         double k = 0.0, all = 0.0;
         Vec3 slope = Vec3::Zero(), none = Vec3::Zero();
-        body.mix (foot.triangles[0], foot.point, [&] (const SmoothBody::Share& share) {
+        body.mix (foot, motion, [&] (const SmoothBody::Share& share) {
             k += share.amount * stiff[static_cast<std::size_t> (share.node)];
             slope += share.slope * stiff[static_cast<std::size_t> (share.node)];
             all += share.amount;
@@ -342,20 +311,21 @@ TEST_CASE ("smooth body: the move of a foot and the mix of the nodes are derivat
         CHECK (none.norm() < 1e-9);
         return std::pair { k, slope };
     };
-    Foot foot = body.cornerOf (0);
+    Foot foot = body.footOn (0, mesh.corner (0, 0));
     const Vec3 start = foot.point;
     for (int k = 0; k < 50; ++k)
     {
         const Vec3 p = (0.02 - 0.004 * dice.uniform()) * (start.normalized() + 0.02 * k * start.unitOrthogonal()).normalized();
         foot = body.followed (foot, p);
-        const Mat3 moves = body.moves (foot, p);
-        const auto [k_here, slope] = mixed (foot);
+        const auto motion = body.motionOf (foot, p);
+        const auto [k_here, slope] = mixed (foot, &motion);
         const double h = 1e-6, w = -foot.distance;
-        const Vec3 force = k_here * w * foot.normal - 0.5 * w * w * moves * slope;   // - dU/dp, U = k w^2 / 2
+        const Vec3 force = k_here * w * foot.normal - 0.5 * w * w * slope;   // - dU/dp, U = k w^2 / 2
         for (int axis = 0; axis < 3; ++axis)
         {
             const auto more = body.followed (foot, p + h * Vec3::Unit (axis)), less = body.followed (foot, p - h * Vec3::Unit (axis));
-            CHECK (((more.point - less.point) / (2.0 * h) - moves.col (axis)).norm() < 1e-5);
+            CHECK (((more.point - less.point) / (2.0 * h) - motion.foot.col (axis)).norm() < 1e-5);
+            CHECK (((more.normal - less.normal) / (2.0 * h) - motion.normal.col (axis)).norm() < 1e-5 / 0.02);
             const auto energy = [&] (const Foot& f) { return 0.5 * mixed (f).first * f.distance * f.distance; };
             CHECK (-(energy (more) - energy (less)) / (2.0 * h) == Approx (force[axis]).margin (1e-5 * force.norm()));
         }

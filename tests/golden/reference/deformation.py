@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Elastic deformation of a surface with contact: Hayward 2007, eq. (5) to (9), with two points.
 
-The foot r is the place under the tool: (p - r) . u^x = (p - r) . u^y = 0. The depth is
-w = (p - r) . u^z, the sideways stretch from the anchor c is s^nu = (r - c) . u^nu, and
+The foot r is the nearest point of the smooth body (foot.py), and w the distance below
+it. The sideways stretch from the anchor c is s^nu = (r - c) . u^nu, and
 U = sum n_i (F_i^z(w) + F_i^x(s^x) + F_i^y(s^y)). The force is -dU/dp with c fixed, here by
 differences: the foot is found again at each displaced p. c follows where |s| would pass
 mu_c w; without friction it is r. A touch begins where the way of the tool crosses the
-mesh from outside, and ends where w is not above 0, or where the foot passes the rim.
+body from outside, and ends where w is not above 0, or where the foot passes the rim.
 """
 
 import math
@@ -87,61 +87,22 @@ def tools(surface, tool):
     return [(low, 1.0 - share)] + ([(low + 1, share)] if share > 0.0 else [])
 
 
-def gradients(surface, triangle):
-    """grad n_i of a triangle: from an edge to its corner, over height squared."""
-    at = [surface["nodes"][i] for i in surface["triangles"][triangle]]
-    out = []
-    for i in range(3):
-        corner, b, c = at[i], at[(i + 1) % 3], at[(i + 2) % 3]
-        height = vec.across(vec.unit(vec.sub(c, b)), vec.sub(corner, b))
-        out.append(vec.scale(1.0 / vec.dot(height, height), height))
-    return out
-
-
 def apart(p, state):
     return {"force": ZERO, "resistance": 0.0, "depth": 0.0, "contact": p,
             "triangle": -1, "stored_energy": 0.0, "state": state,
-            "normal": ZERO, "edge": False, "shared": False}
-
-
-def area_normal(surface, corners):
-    a, b, c = (surface["nodes"][i] for i in corners)
-    return vec.cross(vec.sub(b, a), vec.sub(c, a))
-
-
-def entered(surface, start, end):
-    """The first triangle that the line from start to end crosses inwards, and where, or None."""
-    way, found = vec.sub(end, start), (1.0 + ON_EDGE, None)
-    for index, corners in enumerate(surface["triangles"]):
-        normal, at = area_normal(surface, corners), [surface["nodes"][i] for i in corners]
-        fall = -vec.dot(normal, way)
-        if fall <= 0.0:
-            continue
-        share = vec.dot(normal, vec.sub(start, at[0])) / fall
-        if not -ON_EDGE <= share < found[0]:
-            continue
-        there = vec.add(start, vec.scale(share, way))
-        inside = [vec.dot(g, vec.sub(there, at[(i + 1) % 3]))
-                  for i, g in enumerate(gradients(surface, index))]
-        if min(inside) >= -ON_EDGE:
-            found = share, index
-    return None if found[1] is None else (found[1], found[0])
+            "normal": ZERO, "shared": False}
 
 
 def felt(surface, contact, p):
     """Forces along the axes, their stored energy, and what they come from."""
-    triangle, l = contact["foot"]
-    n = foot.weights(surface, triangle, l)
-    axes = foot.frame(surface, triangle, n)
-    there = foot.place(surface, triangle, l)
-    anchor = there if contact["anchor"] is None else contact["anchor"]
-    pulled = vec.sub(there, anchor)
-    d = (vec.dot(pulled, axes[0]), vec.dot(pulled, axes[1]),
-         foot.depth(surface, triangle, l, axes[2], p))
+    there = contact["foot"]
+    n, axes = foot.shares(surface, there), foot.frame(surface, there)
+    pulled = vec.sub(there, there if contact["anchor"] is None else contact["anchor"])
+    d = (vec.dot(pulled, axes[0]), vec.dot(pulled, axes[1]), foot.depth(surface, there, p))
     forces, stored = [0.0, 0.0, 0.0], 0.0
     for tool, share in contact["tools"]:
-        for weight, node in zip(n, surface["triangles"][triangle]):
-            for axis, law in enumerate(surface["curves"][tool][node]):
+        for node, weight in enumerate(n):
+            for axis, law in enumerate(surface["curves"][tool][node] if weight > 0.0 else ()):
                 forces[axis] += share * weight * laws.odd(law, d[axis])
                 stored += share * weight * laws.energy(law, abs(d[axis]))
     return {"d": d, "forces": forces, "stored": stored, "axes": axes, "n": n,
@@ -149,16 +110,18 @@ def felt(surface, contact, p):
 
 
 def follow(surface, contact, p):
-    found = foot.find(surface, *contact["foot"], p)
-    return None if found is None else dict(contact, foot=found)
+    found, _ = foot.find(surface, contact["foot"], p)
+    return None if foot.past_rim(surface, found) else dict(contact, foot=found)
 
 
 def force(surface, contact, p):
     """-dU/dp with the anchor fixed, by differences of fourth order."""
+    _, tangents = foot.find(surface, contact["foot"], p)
+
     def stored(axis, change):
         q = tuple(x + change * (i == axis) for i, x in enumerate(p))
-        there = follow(surface, contact, q) or contact
-        return felt(surface, there, q)["stored"]
+        there, _ = foot.find(surface, contact["foot"], q, tangents)
+        return felt(surface, dict(contact, foot=there), q)["stored"]
 
     return tuple(-(8.0 * (stored(i, APART) - stored(i, -APART))
                    - (stored(i, 2.0 * APART) - stored(i, -2.0 * APART))) / (12.0 * APART)
@@ -167,9 +130,8 @@ def force(surface, contact, p):
 
 def bound(surface, contact, now):
     """mu_c w, with mu_c = sum n_i mu_i."""
-    nodes, w = surface["triangles"][contact["foot"][0]], now["d"][2]
-    mus = [surface["mu"][i] for i in nodes]
-    mus = [laws.force(mu, w) if isinstance(mu, dict) else mu for mu in mus]
+    w = now["d"][2]
+    mus = [laws.force(mu, w) if isinstance(mu, dict) else mu for mu in surface["mu"]]
     return w * sum(n * mu for n, mu in zip(now["n"], mus))
 
 
@@ -183,14 +145,6 @@ def slipped(surface, contact, now):
     return dict(contact, anchor=vec.sub(now["place"], vec.combine(d, now["axes"]))), True
 
 
-def on_edge(surface, contact, p):
-    """Whether the foot is so near an edge that the differences reach across it."""
-    triangle, l = contact["foot"]
-    at = foot.corners(surface, triangle)
-    size = vec.norm(foot.normal(at)) / max(vec.norm(vec.sub(a, b)) for a in at for b in at)
-    return min(l) * size < 10.0 * APART
-
-
 def pressed(surface, contact, p, slips):
     now = felt(surface, contact, p)
     point = now["place"] if contact["anchor"] is None else contact["anchor"]
@@ -199,7 +153,6 @@ def pressed(surface, contact, p, slips):
             "depth": now["d"][2], "contact": near[0][3], "triangle": near[0][1],
             "stored_energy": now["stored"], "state": 2 if slips else 1,
             "normal": vec.scale(-1.0, now["axes"][2]),
-            "edge": on_edge(surface, contact, p),
             "shared": len(near) > 1 and near[1][0] < near[0][0] + ON_EDGE}
 
 
@@ -208,18 +161,30 @@ def begun(surface, latched, found, p, frictionless):
     contact = follow(surface, {"foot": found, "anchor": None, "tools": latched}, p)
     if contact is None or frictionless:
         return contact
-    return dict(contact, anchor=foot.place(surface, *contact["foot"]))
+    return dict(contact, anchor=contact["foot"])
+
+
+def nearest(surface, p):
+    """The foot of p, also beyond the rim, and its depth."""
+    found, _ = foot.find(surface, projections(surface, p)[0][3], p)
+    return found, foot.depth(surface, found, p)
 
 
 def touch(surface, tool, last, p, frictionless):
     """The contact that begins on the way from the last sample to p, if any."""
-    crossed = entered(surface, last, p)
-    if crossed is None:
+    found, deep = nearest(surface, p)
+    if deep <= 0.0 or nearest(surface, last)[1] > 0.0:
         return None
-    triangle, share = crossed
-    at = vec.add(last, vec.scale(share, vec.sub(p, last)))
-    spot = triangle, nearest_weights(*foot.corners(surface, triangle), at)
-    return begun(surface, tools(surface, tool), spot, at, frictionless)
+    low, high, at = 0.0, 1.0, p
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        at = vec.add(last, vec.scale(middle, vec.sub(p, last)))
+        found, _ = foot.find(surface, found, at)
+        if foot.depth(surface, found, at) > 0.0:
+            high = middle
+        else:
+            low = middle
+    return begun(surface, tools(surface, tool), found, at, frictionless)
 
 
 def steps(settings, params, feed):

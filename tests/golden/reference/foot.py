@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""The place of a triangle mesh under a tool, and what its nodes say there.
+"""The smooth body through the nodes of a mesh, and the foot of a tool on it.
 
-The weights n_i of a place are those of Clough & Tocher 1965 with gradient 0 at the
-nodes and slope 0 across the edges. Between nodes that are not level, the body is
-rounded off: see place(). The foot of a tool at p is where p - place is along u^z.
+Each node has a polynomial of degree 4 over its tangent plane, fitted to the nodes of
+three rings. g is the mean of the heights over these polynomials, weighted with
+Wendland's functions. The body is where g = 0, and the foot is its nearest point.
 """
 
+import itertools
+import math
 
 import vec
 
-GENTLE, NARROW = 0.2, 0.4
+RINGS, REACH, DAMPING = 3, 1.6, 0.01
+POWERS = [(n - j, j) for n in range(1, 5) for j in range(n + 1)]
 STEP = 1e-6
 
 
@@ -21,156 +24,177 @@ def normal(at):
     return vec.cross(vec.sub(at[1], at[0]), vec.sub(at[2], at[0]))
 
 
-def neighbour(surface, triangle, corner):
-    """The triangle beyond the edge opposite a corner, or None at the rim."""
-    ends = set(surface["triangles"][triangle]) - {surface["triangles"][triangle][corner]}
-    for other, nodes in enumerate(surface["triangles"]):
-        if other != triangle and ends <= set(nodes):
-            return other
-    return None
+def solved(rows, right):
+    """The solution of a square system, by elimination with the largest pivots."""
+    rows, n = [list(r) + [b] for r, b in zip(rows, right)], len(rows)
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda k: abs(rows[k][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for k in range(i + 1, n):
+            f = rows[k][i] / rows[i][i]
+            if f:
+                rows[k] = [a - f * b for a, b in zip(rows[k], rows[i])]
+    out = [0.0] * n
+    for i in reversed(range(n)):
+        done = math.fsum(rows[i][k] * out[k] for k in range(i + 1, n))
+        out[i] = (rows[i][n] - done) / rows[i][i]
+    return out
 
 
-def de_casteljau(net, l):
-    """The value of a cubic with ordinates net[i, j, k], i + j + k = 3."""
-    for order in (2, 1, 0):
-        net = {(i, j, order - i - j): l[0] * net[i + 1, j, order - i - j]
-               + l[1] * net[i, j + 1, order - i - j] + l[2] * net[i, j, order + 1 - i - j]
-               for i in range(order + 1) for j in range(order + 1 - i)}
-    return net[0, 0, 0]
+def neighbours(surface):
+    out = [set() for _ in surface["nodes"]]
+    for t in surface["triangles"]:
+        for a, b in itertools.permutations(t, 2):
+            out[a].add(b)
+    return out
 
 
-def weights(surface, triangle, l):
-    """The smooth weights of the corners, from the barycentric ones."""
-    at = corners(surface, triangle)
-    centre = vec.scale(1.0 / 3.0, vec.add(vec.add(at[0], at[1]), at[2]))
+def term(power, x, y):
+    i, j = power
+    return math.sqrt(math.comb(i + j, i)) * x ** i * y ** j
+
+
+def fitted(surface, beside, node):
+    """Axes, radius and coefficients of the polynomial of a node."""
+    nodes, at = surface["nodes"], surface["nodes"][node]
+    z = (0.0, 0.0, 0.0)
+    for t in surface["triangles"]:
+        if node in t:
+            k = t.index(node)
+            a, b = (vec.sub(nodes[t[(k + i) % 3]], at) for i in (1, 2))
+            n = vec.cross(a, b)
+            z = vec.add(z, vec.scale(math.atan2(vec.norm(n), vec.dot(a, b)), vec.unit(n)))
+    z = vec.unit(z)
+    x = vec.unit(vec.across(z, min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+                                   key=lambda e: abs(vec.dot(e, z)))))
+    y = vec.cross(z, x)
+    edges = [vec.norm(vec.sub(nodes[i], at)) for i in sorted(beside[node])]
+    mean = math.fsum(edges) / len(edges)
+    near, front = {node}, {node}
+    for _ in range(RINGS):
+        front = {j for i in front for j in beside[i]} - near
+        near |= front
+    square = [[DAMPING ** 2 * (i == j) for j in range(len(POWERS))]
+              for i in range(len(POWERS))]
+    right = [0.0] * len(POWERS)
+    for i in sorted(near - {node}):
+        d = vec.sub(nodes[i], at)
+        weight = math.exp(-vec.dot(d, d) / mean ** 2)
+        row = [term(p, vec.dot(d, x) / mean, vec.dot(d, y) / mean) for p in POWERS]
+        for j, a in enumerate(row):
+            right[j] += weight * a * vec.dot(d, z)
+            for k, b in enumerate(row):
+                square[j][k] += weight * a * b
+    return {"at": at, "axes": (x, y, z), "radius": REACH * max(edges), "mean": mean,
+            "c": solved(square, right), "shift": 0.0}
+
+
+def wendland(fit, d):
+    """The weight of a node at a vector from it, and the gradient of the weight."""
+    r = vec.norm(d) / fit["radius"]
+    if r >= 1.0:
+        return 0.0, (0.0, 0.0, 0.0)
+    return ((1.0 - r) ** 4 * (4.0 * r + 1.0),
+            vec.scale(-20.0 * (1.0 - r) ** 3 / fit["radius"] ** 2, d))
+
+
+def height(fit, d):
+    """The height over a polynomial, and its gradient."""
+    mean, axes = fit["mean"], fit["axes"]
+    x, y, z = (vec.dot(d, axis) for axis in axes)
+    u, v = x / mean, y / mean
+    value, by_x, by_y = fit["shift"], 0.0, 0.0
+    for c, (i, j) in zip(fit["c"], POWERS):
+        c *= math.sqrt(math.comb(i + j, i))
+        value += c * u ** i * v ** j
+        by_x += c * i * u ** max(i - 1, 0) * v ** j / mean
+        by_y += c * j * u ** i * v ** max(j - 1, 0) / mean
+    return z - value, vec.sub(axes[2], vec.add(vec.scale(by_x, axes[0]),
+                                               vec.scale(by_y, axes[1])))
+
+
+def shares(surface, x):
+    """n_i: by node, the weights that mix what the nodes say."""
+    weights = [wendland(fit, vec.sub(x, fit["at"]))[0] for fit in surface["fits"]]
+    total = math.fsum(weights)
+    return [w / total for w in weights]
+
+
+def jet(surface, x):
+    """g, and its gradient."""
+    total, sum_, slope = 0.0, 0.0, (0.0, 0.0, 0.0)
+    falls = (0.0, 0.0, 0.0)
+    for fit in surface["fits"]:
+        d = vec.sub(x, fit["at"])
+        w, fall = wendland(fit, d)
+        if w > 0.0:
+            h, rise = height(fit, d)
+            total, sum_ = total + w, sum_ + w * h
+            slope = vec.add(slope, vec.add(vec.scale(w, rise), vec.scale(h, fall)))
+            falls = vec.add(falls, fall)
+    g = sum_ / total
+    return g, vec.scale(1.0 / total, vec.sub(slope, vec.scale(g, falls)))
+
+
+def bend(surface, x):
+    """The second derivatives of g, by differences of its gradient."""
     out = []
-    for own in range(3):
-        f = [float(i == own) for i in range(3)]
-        beside = []   # ordinate 111, by the corner opposite the edge
-        for i in range(3):
-            a, b = (i + 1) % 3, (i + 2) % 3
-            edge = vec.sub(at[b], at[a])
-            t = vec.dot(edge, vec.sub(centre, at[a])) / vec.dot(edge, edge)
-            t = min(max(t, 0.0), 1.0)
-            beside.append((1.0 - t) * f[a] + t * f[b])
-        inner = [(f[i] + beside[(i + 1) % 3] + beside[(i + 2) % 3]) / 3.0 for i in range(3)]
-        i = min(range(3), key=lambda k: l[k])
-        a, b = (i + 1) % 3, (i + 2) % 3
-        net = {(3, 0, 0): f[a], (2, 1, 0): f[a], (1, 2, 0): f[b], (0, 3, 0): f[b],
-               (2, 0, 1): f[a], (0, 2, 1): f[b], (1, 1, 1): beside[i],
-               (1, 0, 2): inner[a], (0, 1, 2): inner[b], (0, 0, 3): sum(inner) / 3.0}
-        out.append(de_casteljau(net, (l[a] - l[i], l[b] - l[i], 3.0 * l[i])))
-    return out
-
-
-def frame(surface, triangle, n):
-    """Eq. (5): weighted, z made a unit vector, x at right angles to it, y = z x x."""
-    given = [surface["frames"][i] for i in surface["triangles"][triangle]]
-    z = vec.unit(vec.combine(n, [f[2] for f in given]))
-    x = vec.unit(vec.across(z, vec.combine(n, [f[0] for f in given])))
-    return x, vec.cross(z, x), z
-
-
-def away(start, edge, point):
-    return vec.across(vec.unit(edge), vec.sub(point, start))
-
-
-def roundings(surface, triangle):
-    """By corner: how far the body rises beside the opposite edge, and over what width."""
-    at, out = corners(surface, triangle), []
     for i in range(3):
-        first, second = at[(i + 1) % 3], at[(i + 2) % 3]
-        edge, other = vec.sub(second, first), neighbour(surface, triangle, i)
-        if other is None:
-            out.append(None)
-            continue
-        mine = away(first, edge, at[i])
-        theirs = next(q for q in corners(surface, other) if q not in (first, second))
-        total = vec.add(vec.unit(mine), vec.unit(away(first, edge, theirs)))
-        slope = 0.5 * vec.norm(total)
-        width = min(max(GENTLE / max(slope, GENTLE), NARROW), 1.0)
-        rise = vec.scale(-0.5 * vec.norm(mine), total)
-        out.append((rise, width) if slope > 5e-10 else None)
+        more, less = (jet(surface, tuple(a + h * (k == i) for k, a in enumerate(x)))[1]
+                      for h in (STEP, -STEP))
+        out.append(vec.scale(0.5 / STEP, vec.sub(more, less)))
     return out
 
 
-def place(surface, triangle, l):
-    """The point of the rounded body: on the edges, that of the mesh; beside an edge, it
-    goes on in the direction between both triangles."""
-    point = vec.combine(l, corners(surface, triangle))
-    near = [(l[1] * l[2]) ** 2, (l[2] * l[0]) ** 2, (l[0] * l[1]) ** 2]
-    if sum(near) <= 0.0:
-        return point
-    for share, x, rounding in zip(near, l, surface["roundings"][triangle]):
-        if rounding and x < rounding[1]:
-            part = share / sum(near) * x * (1.0 - x / rounding[1]) ** 2
-            point = vec.add(point, vec.scale(part, rounding[0]))
-    return point
+def find(surface, x, p, tangents=None):
+    """The foot of p near x: x - p + l grad g = 0, g = 0. Newton's method, with the second
+    derivatives of the first step, or those given: (the foot, the second derivatives)."""
+    g, n = jet(surface, x)
+    pull = vec.dot(vec.sub(p, x), n) / vec.dot(n, n)
+    for step in range(60):
+        if tangents is None or (step > 0 and step % 6 == 0):
+            tangents = bend(surface, x)
+        rows = [[(i == j) + pull * tangents[i][j] for j in range(3)] + [n[i]]
+                for i in range(3)] + [list(n) + [0.0]]
+        rest = vec.add(vec.sub(x, p), vec.scale(pull, n))
+        *move, change = solved(rows, [-a for a in rest] + [-g])
+        x, pull = vec.add(x, tuple(move)), pull + change
+        g, n = jet(surface, x)
+        if vec.norm(move) < 1e-15:
+            break
+    return x, tangents
 
 
-def depth(surface, triangle, l, z, p):
-    """Depth below the rounded body, which fades out towards the triangle."""
-    at, there = corners(surface, triangle), place(surface, triangle, l)
-    deep = vec.dot(vec.sub(p, there), z)
-    n, point = normal(at), vec.combine(l, at)
-    facing = vec.dot(n, z)
-    if there == point or facing >= 0.0:
-        return deep
-    w = vec.dot(n, vec.sub(p, point)) / facing
-    b = deep - w
-    return w + b * w * w / (w * w + 4.0 * b * b)
+def past_rim(surface, x):
+    """Whether x is beyond all triangles, seen along their normals."""
+    for index in range(len(surface["triangles"])):
+        at = corners(surface, index)
+        n = normal(at)
+        inside = [vec.dot(vec.cross(vec.sub(at[(i + 2) % 3], at[(i + 1) % 3]),
+                                    vec.sub(x, at[(i + 1) % 3])), n) for i in range(3)]
+        if min(inside) >= -1e-9 * vec.dot(n, n):
+            return False
+    return True
 
 
-def off(surface, triangle, l, p):
-    x, y, _ = frame(surface, triangle, weights(surface, triangle, l))
-    aside = vec.sub(p, place(surface, triangle, l))
-    return vec.dot(aside, x), vec.dot(aside, y)
+def frame(surface, x):
+    """u^z into the body, u^x mixed from the nodes and put at right angles to it, u^y = u^z x u^x."""
+    z = vec.scale(-1.0, vec.unit(jet(surface, x)[1]))
+    u = vec.unit(vec.across(z, vec.combine(shares(surface, x),
+                                           [f[0] for f in surface["frames"]])))
+    return u, vec.cross(z, u), z
 
 
-def moved(l, k, change):
-    out = list(l)
-    out[k] += change
-    out[0] -= change
-    return out
-
-
-def across(surface, triangle, l, corner):
-    other = neighbour(surface, triangle, corner)
-    of = dict(zip(surface["triangles"][triangle], l))
-    return other, [of[i] if i in of and i != surface["triangles"][triangle][corner] else 0.0
-                   for i in surface["triangles"][other]]
-
-
-def find(surface, triangle, l, p):
-    """The foot of p, by Newton's method from a place near it. None if it is past the rim."""
-    l = list(l)
-    for _ in range(200):
-        here = off(surface, triangle, l, p)
-        (a, c), (b, d) = (
-            [(more - less) / (2.0 * STEP) for more, less in
-             zip(off(surface, triangle, moved(l, k, STEP), p),
-                 off(surface, triangle, moved(l, k, -STEP), p))] for k in (1, 2))
-        det = a * d - b * c
-        second, third = -(d * here[0] - b * here[1]) / det, -(a * here[1] - c * here[0]) / det
-        step = (-second - third, second, third)
-        if sum(map(abs, step)) <= 1e-13:
-            return triangle, l
-        share, edge = 1.0, None
-        for k in range(3):
-            if l[k] + share * step[k] < 0.0:
-                share, edge = max(0.0, l[k] / -step[k]), k
-        at_once = share <= 1e-12
-        l = [max(0.0, x + share * s) for x, s in zip(l, step)]
-        if edge is not None:
-            l[edge] = 0.0
-            if neighbour(surface, triangle, edge) is None:
-                if at_once:
-                    return None
-                continue
-            triangle, l = across(surface, triangle, l, edge)
-    return None
+def depth(surface, x, p):
+    away = vec.sub(p, x)
+    return -math.copysign(vec.norm(away), vec.dot(away, jet(surface, x)[1]))
 
 
 def prepared(surface):
-    surface["roundings"] = [roundings(surface, t) for t in range(len(surface["triangles"]))]
+    beside = neighbours(surface)
+    surface["fits"] = [fitted(surface, beside, i) for i in range(len(surface["nodes"]))]
+    nodes = surface["nodes"]
+    off = [jet(surface, x)[0] for x in nodes]
+    for fit, shift in zip(surface["fits"], solved([shares(surface, x) for x in nodes], off)):
+        fit["shift"] = shift
     return surface

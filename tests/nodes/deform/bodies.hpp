@@ -61,6 +61,37 @@ inline Mesh liverMesh()
     return mesh;
 }
 
+/// The point of the surface near a point of a triangle.
+inline Vec3 onto (const SmoothBody& body, int triangle, Vec3 x)
+{
+    for (int k = 0; k < 4; ++k)
+    {
+        const auto v = body.valueAt (triangle, x);
+        x -= v.g / v.slope.squaredNorm() * v.slope;
+    }
+    return x;
+}
+
+/// The smallest radius of curvature with its centre inside, over points of all triangles within `inner` of a middle.
+inline double smallestRadius (const SmoothBody& body, const Mesh& mesh, double inner, const Vec3& middle = Vec3::Zero())
+{
+    double most = 0.0;
+    for (int t = 0; t < mesh.size(); ++t)
+        for (int i = 0; i <= 6; ++i)
+            for (int j = 0; j <= 6 - i; ++j)
+            {
+                const double u = i / 6.0, v = j / 6.0;
+                const Vec3 x = (1.0 - u - v) * mesh.corner (t, 0) + u * mesh.corner (t, 1) + v * mesh.corner (t, 2);
+                if ((x - middle).norm() > inner) continue;
+                const auto value = body.valueAt (t, onto (body, t, x));
+                const double length = value.slope.norm();
+                const Vec3 n = value.slope / length, a = n.unitOrthogonal(), b = n.cross (a);
+                const double p = a.dot (value.bend * a) / length, q = a.dot (value.bend * b) / length, r = b.dot (value.bend * b) / length;
+                most = std::max (most, 0.5 * (p + r) + std::sqrt (0.25 * (p - r) * (p - r) + q * q));
+            }
+    return 1.0 / most;
+}
+
 struct Body
 {
     std::string name;

@@ -61,23 +61,21 @@ struct Balance
     int slips = 0, touches = 0;
 };
 
-PlacedSurface placedAt0 (const Body& body) { return { body.surface, 1.0, Vec3::Zero(), Vec3::Zero() }; }
+PlacedSurface placedAt0 (const Body& body) { return { body.surface, 1.0, Vec3::Zero(), Vec3::Zero(), std::numbers::pi / 6.0 }; }
 
-/// The work of the step in which a contact begins, computed from the place where the tool crosses the surface.
-double workOfEntry (const PlacedSurface& placed, const ElasticSurface& node, bool frictionless, const Vec3& from, const Vec3& to)
+/// The work of the step in which a contact begins, computed from the place where the tool enters the body.
+double workOfEntry (const PlacedSurface& placed, const ElasticSurface& node, const Vec3& to)
 {
-    const auto entered = placed.walk().entered (from, to);
     auto tool = placed.noTool();
-    placed.choose (0.0, entered, tool);
-    const Vec3& cross = entered.on.point;
+    placed.choose (0.0, Spot { 0, {} }, tool);
+    const auto& [touch, cross] = node.begunAt();
     const Vec3 between = node.movedAt() < 1.0 ? Vec3 { cross + node.movedAt() * (to - cross) } : to;
-    return followed (placed, tool, touched (placed, tool, entered, frictionless), cross, between).felt.energy + node.energyAt (to) - node.energyAt (between);
+    return followed (placed, tool, touch, cross, between).felt.energy + node.energyAt (to) - node.energyAt (between);
 }
 
 /// Moves the tool through a loop. The work of the step in which a contact begins is the energy at the point of entry.
 Balance handled (ElasticSurface node, const PlacedSurface& placed, const Loop& loop, int steps)
 {
-    const bool frictionless = node.params.friction == Frictions::frictionless || std::ranges::all_of (node.settings.surface->mu, &Ratio::isNone);
     Balance balance;
     double work = 0.0;
     Vec3 p = loop (0.0);
@@ -92,7 +90,7 @@ Balance handled (ElasticSurface node, const PlacedSurface& placed, const Loop& l
         const bool begins = before.state == 0.0 && (out.state > 0.0 || lost > 0.0);   // a contact may begin and end in one step
         if (begins)
         {
-            step = workOfEntry (placed, node, frictionless, p, next);
+            step = workOfEntry (placed, node, next);
             balance.begun = std::max (balance.begun, step);
         }
         work += step;

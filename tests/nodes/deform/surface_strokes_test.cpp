@@ -83,9 +83,6 @@ struct Stroke
 Stroke stroke (const std::shared_ptr<const Surface>& surface, Frictions friction, bool is_ball, double rate_hz, double way)
 {
     auto node = made (surface, friction, rate_hz);
-    const PlacedSurface placed (surface, 1.0, Vec3::Zero(), Vec3::Zero());
-    auto tool = placed.noTool();
-    placed.choose (0.0, Spot { 0, {} }, tool);
     Stroke done;
     const double step = 0.1 / rate_hz;
     Vec3 p = placeOn (is_ball, -0.018 * way, 0.001);

@@ -100,16 +100,13 @@ TEST_CASE ("mesh: inside out, closed or open, is noticed, and a bowl is not", "[
     CHECK (wrongSide (*bodyOf (*readers::readMesh (bowl.str(), "bowl.obj"))) == "");
 }
 
-TEST_CASE ("mesh: a block of 8 points says how wrong the force on its faces is, and a smooth body does not", "[mesh]")
+TEST_CASE ("mesh: a block says from which depth its edges are felt as steps, and a ball has no edges", "[mesh]")
 {
-    const auto warning = unevenForce (bodyOf (block (1)), 1.0);
-    INFO (warning);
-    CHECK (warning.starts_with ("the mesh is too coarse for its edges: its frames turn by 54.7 degrees within a flat face"));
-    auto large = block (1);   // the same in mm
-    for (auto& p : large.points)
-        p *= 1e3;
-    const auto until_place = warning.find ("with the largest error");
-    CHECK (unevenForce (bodyOf (std::move (large)), 1e-3).substr (0, until_place) == warning.substr (0, until_place));
+    constexpr double crease = std::numbers::pi / 6.0;
+    const auto body = bodyOf (block (1));
+    CHECK (sharpEdges (*body, crease, {}).starts_with ("the body has sharp edges (12 in the mesh): a slide over them at any depth is felt as a step"));
+    CHECK (sharpEdges (*body, crease, { 0.003, 0.002 }).find (": from a depth of 2 mm, the radius of the tool, ") != std::string::npos);
+    CHECK (sharpEdges (*body, std::numbers::pi, {}) == "");
 
     std::ostringstream ball;
     constexpr int rings = 24, sides = 48;
@@ -123,7 +120,7 @@ TEST_CASE ("mesh: a block of 8 points says how wrong the force on its faces is, 
         for (int k = 0; k < sides; ++k)
             ball << "f " << i * sides + k + 1 << ' ' << (i + 1) * sides + k + 1 << ' ' << (i + 1) * sides + (k + 1) % sides + 1 << ' '
                  << i * sides + (k + 1) % sides + 1 << '\n';
-    CHECK (unevenForce (bodyOf (*readers::readMesh (ball.str(), "ball.obj")), 1.0) == "");
+    CHECK (sharpEdges (*bodyOf (*readers::readMesh (ball.str(), "ball.obj")), crease, {}) == "");
 }
 
 TEST_CASE ("mesh: a concave face is cut as it is", "[mesh]")
