@@ -310,7 +310,7 @@ int SmoothBody::walked (int triangle, const Vec3& x) const noexcept
         const auto weights = weightsOn (triangle, x);
         const auto lowest = std::ranges::min_element (weights) - weights.begin();
         const int next = beside[at (triangle)][at (lowest)];
-        if (weights[at (lowest)] >= -1e-9 || next < 0) break;
+        if (weights[at (lowest)] >= -margin (1e-9) || next < 0) break;
         triangle = next;
     }
     return triangle;
@@ -458,7 +458,7 @@ SmoothBody::Foot SmoothBody::followed (const Foot& before, const Vec3& p) const 
     foot.found = foot.left = false;
     foot.beyond = -1;
     if (foot.faces == 0) return foot;
-    const double slack = 1e-9 * nodes[at (corners[at (foot.triangles[0])][0])].radius;
+    const double slack = margin (1e-9) * nodes[at (corners[at (foot.triangles[0])][0])].radius;
     Vec3 away = Vec3::Zero();
     bool inside = false, settled = false;
     for (int round = 0; round < 12 && ! settled; ++round)
@@ -476,7 +476,7 @@ SmoothBody::Foot SmoothBody::followed (const Foot& before, const Vec3& p) const 
     foot.found = foot.found && settled;
     foot.distance = (inside ? -1.0 : 1.0) * away.norm();
     // Near the surface, the gradient of g is more exact than the difference of two near points.
-    const double least = foot.faces == 1 ? 1e5 * slack : slack;
+    const double least = foot.faces == 1 ? 1e-4 * nodes[at (corners[at (foot.triangles[0])][0])].radius : slack;
     if (std::abs (foot.distance) > least) foot.normal = away / foot.distance;
     for (int i = 0; i < foot.faces; ++i)
     {
@@ -484,7 +484,7 @@ SmoothBody::Foot SmoothBody::followed (const Foot& before, const Vec3& p) const 
         const auto weights = weightsOn (triangle, foot.point);
         for (std::size_t k = 0; k < 3; ++k)
         {
-            if (weights[k] < -1e-9 && rim[at (triangle)][k]) foot.left = true;
+            if (weights[k] < -margin (1e-9) && rim[at (triangle)][k]) foot.left = true;
             if (weights[k] < -0.5) foot.found = false;   // far beyond a crease, where the fits know nothing
         }
     }

@@ -189,7 +189,7 @@ std::optional<SurfaceEntry> entryOf (const PlacedSurface& body, const PlacedSurf
         foot = body.smooth().followed (foot, p);
         if (! foot.found || foot.left || foot.beyond >= 0) return {};
         const double depth = tool.radius - foot.distance, fall = -foot.normal.dot (way);   // the depth grows by this along the whole way
-        const bool at_start = share == 0.0 && depth <= 0.0, there = std::abs (depth) <= 1e-11 * (1.0 + p.norm());
+        const bool at_start = share == 0.0 && depth <= 0.0, there = std::abs (depth) <= margin (1e-11) * (1.0 + p.norm());
         if (there && fall > 0.0)
             return SurfaceEntry { { .foot = foot, .anchor = PlacedSurface::placeOf (foot, tool), .frictionless = frictionless }, p };
         if (! (fall > 0.0) && (at_start || depth > 0.0)) return {};
