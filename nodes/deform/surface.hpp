@@ -415,7 +415,8 @@ private:
         }
         if (outside) clear = { p, 0 };
         if (! crossed) return {};
-        if (followed (*body, tool, crossed->touch, crossed->tool, p).touch.held) return {};   // too far in, or through and out again
+        const auto first = followed (*body, tool, crossed->touch, crossed->tool, p);
+        if (first.touch.held || outside) return {};   // too far in, or through and out again
         begin (*crossed, entered);
         return move (entry.tool, p);
     }

@@ -36,12 +36,12 @@ PlacedSurface::ContactSample PlacedSurface::feel (const Foot& foot, const Vec3* 
 {
     ContactSample felt;
     const Vec3 z = -foot.normal;
-    smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) { felt.mixed += share.amount * acrossAt (share.node, tool); });
+    felt.place = placeOf (foot, tool);
+    felt.d.z() = tool.radius - foot.distance;
+    if (anchor) smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) { felt.mixed += share.amount * acrossAt (share.node, tool); });
     Vec3 x = direction (felt.mixed - felt.mixed.dot (z) * z);
     if (x.isZero (0.0)) x = z.unitOrthogonal();
     felt.frame << x.transpose(), z.cross (x).transpose(), z.transpose();
-    felt.place = placeOf (foot, tool);
-    felt.d.z() = tool.radius - foot.distance;
     if (anchor)
     {
         const Vec3 pulled = felt.frame * (felt.place - *anchor);
@@ -54,14 +54,13 @@ PlacedSurface::ContactSample PlacedSurface::feel (const Foot& foot, const Vec3* 
         felt.energy += amount * response.energy;
     };
     for (int i = 0; i < tool.count; ++i)
-    {
-        const auto& [shape, amount] = tool.shares[at (i)];
-        const auto& curves = surface->curves[at (shape)];
-        if (curves.size() == 1)
-            add (curves[0], amount);
-        else
-            smooth_body.mix (foot, nullptr, [&, part = amount] (const SmoothBody::Share& share) { add (curves[at (share.node)], part * share.amount); });
-    }
+        if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() == 1) add (surface->curves[at (shape)][0], amount);
+    if (! alike)
+        smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
+            for (int i = 0; i < tool.count; ++i)
+                if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() > 1)
+                    add (surface->curves[at (shape)][at (share.node)], amount * share.amount);
+        });
     return felt;
 }
 

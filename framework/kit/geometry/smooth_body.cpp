@@ -399,7 +399,8 @@ bool SmoothBody::solve (Foot& foot, const Vec3& p) const noexcept
             length = 0.5 * size;
         }
         foot.point += move;
-        if (length < 1e-5 * size || (step > 3 && length > 0.5 * last)) return foot.found;   // the next move is of the order of its square
+        const bool stuck = step > 3 && length > 0.5 * last && length < 1e-4 * size;   // by rounding
+        if (length < 1e-6 * size || stuck) return foot.found;                         // the next move is of the order of its square
         last = length;
     }
     return false;

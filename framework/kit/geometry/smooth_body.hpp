@@ -164,21 +164,27 @@ void SmoothBody::mix (const Foot& foot, const Motion* motion, const Use& use) co
         const double part = parts[at (i)];
         if (part == 0.0) continue;   // its slope is 0, too
         const int triangle = foot.triangles[at (i)];
+        constexpr int most_kept = 64;   // those beyond are computed again
+        std::array<Weight, most_kept> kept;
         double sum = 0.0;
         Vec3 slope = Vec3::Zero();
         const auto each = [&] (const auto& visit) {
+            int count = 0;
             for (int k = near.first[at (triangle)]; k < near.first[at (triangle) + 1]; ++k)
             {
                 const Node& node = nodes[at (near.items[at (k)])];
                 const Vec3 d = foot.point - node.p;
-                if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) visit (node, weightOf (node, r2), d);
+                if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) visit (node, r2, d, count++);
             }
         };
-        each ([&] (const Node&, const Weight& w, const Vec3& d) {
+        each ([&] (const Node& node, double r2, const Vec3& d, int count) {
+            const Weight w = weightOf (node, r2);
+            if (count < most_kept) kept[at (count)] = w;
             sum += w.w;
             slope += w.first * d;
         });
-        each ([&] (const Node& node, const Weight& w, const Vec3& d) {
+        each ([&] (const Node& node, double r2, const Vec3& d, int count) {
+            const Weight w = count < most_kept ? kept[at (count)] : weightOf (node, r2);
             const double amount = w.w / sum;
             Share share { node.point, part * amount };
             if (motion) share.slope = part / sum * (motion->foot * (w.first * d - amount * slope)) + amount * motion->parts[at (i)];

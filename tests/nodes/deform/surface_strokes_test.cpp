@@ -26,35 +26,20 @@ double stiffnessAt (double distance, double ratio)
     return soft * (1.0 + (ratio - 1.0) * x * x * (3.0 - 2.0 * x));
 }
 
-/// A flat disc: a node in the middle and rings of nodes around it.
-Mesh disc()
+/// A flat pad around the origin, with seven cells over the rise of the stiffness: three take a tenth off its slope, five a fourteenth.
+Mesh pad()
 {
-    constexpr int sectors = 24;
-    constexpr double rings[] { 0.004, 0.009, 0.030 };
-    Mesh mesh { { Vec3::Zero() }, {} };
-    for (const double r : rings)
-        for (int k = 0; k < sectors; ++k)
-        {
-            const double a = 2.0 * std::numbers::pi * k / sectors;
-            mesh.points.push_back (r * Vec3 (std::cos (a), std::sin (a), 0.0));
-        }
-    for (int k = 0; k < sectors; ++k)
-    {
-        int a = 1 + k, b = 1 + (k + 1) % sectors;
-        mesh.triangles.push_back ({ 0, a, b });
-        for (std::size_t ring = 1; ring < std::size (rings); ++ring, a += sectors, b += sectors)
-        {
-            mesh.triangles.push_back ({ a, a + sectors, b + sectors });
-            mesh.triangles.push_back ({ a, b + sectors, b });
-        }
-    }
+    constexpr double length = 0.06;
+    Mesh mesh = flat (80, length);
+    for (auto& p : mesh.points)
+        p -= Vec3 (0.5 * length, 0.5 * length, 0.0);
     return mesh;
 }
 
 /// A pad, or a ball, with a nodule at the origin or at its top.
 std::shared_ptr<const Surface> nodule (bool is_ball, double ratio)
 {
-    auto mesh = is_ball ? ball (radius, 5) : disc();
+    auto mesh = is_ball ? ball (radius, 5) : pad();
     std::vector<Surface::Curves> nodes;
     for (const auto& p : mesh.points)
     {
