@@ -13,29 +13,33 @@ Json* objectAt (Json& object, std::string_view key)
     return value.is_object() ? &value : nullptr;
 }
 
-void sayLoad (Json& node)
+/// Writes a member into an object of a node, such as its params, if the node is of a type and does not have the member.
+void say (Json& node, std::string_view type, const char* object, std::string_view key, const Json& value)
 {
     if (! node.is_object() || ! node.contains ("type")) return;
-    if (const auto& type = node.at ("type"); ! type.is_string() || type.asString() != "friction.elasto_plastic") return;
+    if (const auto& its = node.at ("type"); ! its.is_string() || its.asString() != type) return;
 
-    if (! node.contains ("params")) node["params"] = Json::object();
-    if (auto* params = objectAt (node, "params"); params && ! params->contains ("load")) (*params)["load"] = "passive";
+    if (! node.contains (object)) node[object] = Json::object();
+    if (auto* members = objectAt (node, object); members && ! members->contains (key)) (*members)[key] = value;
 }
 
-void sayLoads (Json& patch)
+void sayDefaults (Json& patch)
 {
     if (auto* nodes = objectAt (patch, "nodes"))
         for (auto& [id, node] : nodes->asObject())
-            sayLoad (node);
+        {
+            say (node, "friction.elasto_plastic", "params", "load", "passive");
+            say (node, "deform.surface", "settings", "crease", 180);
+        }
 }
 }   // namespace
 
-void sayLoadOfFriction (Json& file)
+void sayDefaultsOfVersion1 (Json& file)
 {
-    sayLoads (file);
+    sayDefaults (file);
     if (auto* graphs = objectAt (file, "graphs"))
         for (auto& [name, patch] : graphs->asObject())
-            sayLoads (patch);
+            sayDefaults (patch);
 }
 
 }   // namespace tactus

@@ -25,11 +25,11 @@ struct FileFormat
     std::span<const Migration> steps;
 };
 
-/// Version 2: the default of the param `load` of friction is `bound`. In version 1 it was `passive`, so the step writes that into the
-/// file.
-void sayLoadOfFriction (Json& file);
+/// Version 2: the default of the param `load` of friction is `bound`; in version 1 it was `passive`. `deform.surface` has a setting `crease`, 30 degrees; in
+/// version 1, all edges were round, as with 180. So the step writes these defaults of version 1 into the file.
+void sayDefaultsOfVersion1 (Json& file);
 
-inline constexpr Migration graph_steps[] { { 1, &sayLoadOfFriction } };
+inline constexpr Migration graph_steps[] { { 1, &sayDefaultsOfVersion1 } };
 
 /// The format that this Tactus reads and writes.
 inline constexpr FileFormat graph_format { 2, graph_steps };

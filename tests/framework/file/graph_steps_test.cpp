@@ -25,6 +25,21 @@ std::string loadOf (const graph::Patch& patch, const std::string& node)
     return params.contains ("load") ? params["load"].asString() : std::string();
 }
 
+/// The `crease` of a node, in degrees; 0 if the file does not give it.
+double creaseOf (const graph::Patch& patch, const std::string& node)
+{
+    const auto& settings = patch.find (node)->settings;
+    return settings.contains ("crease") ? settings["crease"].get<double>() : 0.0;
+}
+
+const std::string bodies = R"("nodes": {
+    "silent": { "type": "deform.surface", "settings": { "scale": "1 mm" } },
+    "bare": { "type": "deform.surface" },
+    "printed": { "type": "deform.surface", "settings": { "crease": 20 } },
+    "plane": { "type": "deform.plane" },
+    "part": { "type": "graph:part" } },
+  "graphs": { "part": { "nodes": { "silent": { "type": "deform.surface" } }, "wires": [] } })";
+
 const std::string contacts = R"("nodes": {
     "silent": { "type": "friction.elasto_plastic", "params": { "mu": 0.3 } },
     "bare": { "type": "friction.elasto_plastic" },
@@ -59,6 +74,30 @@ TEST_CASE ("friction without load in a file of version 2 is not changed, and use
     CHECK (load->choices[static_cast<std::size_t> (load->initial[0])] == "bound");
 }
 
+TEST_CASE ("a surface without crease in a file of version 1 keeps round edges, in subgraphs too")
+{
+    const auto loaded = readGraph (file (1, bodies));
+    CHECK (loaded.messages.empty());
+    const auto& g = loaded.graph;
+    CHECK (creaseOf (g.root, "silent") == 180.0);
+    CHECK (creaseOf (g.root, "bare") == 180.0);
+    CHECK (creaseOf (g.root, "printed") == 20.0);
+    CHECK (! g.root.find ("plane")->settings.contains ("crease"));
+    CHECK (creaseOf (*g.find ("part"), "silent") == 180.0);
+    CHECK (g.root.find ("silent")->settings.contains ("scale"));
+}
+
+TEST_CASE ("a surface without crease in a file of version 2 is not changed, and has sharp edges above 30 degrees")
+{
+    const auto loaded = readGraph (file (2, bodies));
+    CHECK (loaded.messages.empty());
+    for (const auto* node : { "silent", "bare" })
+        CHECK (creaseOf (loaded.graph.root, node) == 0.0);
+
+    const auto& settings = catalogue().find ("deform.surface")->settings;
+    CHECK (std::get<double> (std::ranges::find (settings, "crease", &SettingSheet::id)->initial) == 30.0);
+}
+
 TEST_CASE ("a file of version 1 is saved as version 2, and then stays the same byte for byte")
 {
     const auto saved = writeGraph (readGraph (file (1, contacts)).graph);
@@ -85,7 +124,7 @@ TEST_CASE ("each included file is migrated by its own version")
 TEST_CASE ("parts of version 1 that have the wrong shape are reported by the reader, not by the migration")
 {
     for (const auto* members : { R"("nodes": 3)", R"("nodes": { "a": 3 })", R"("nodes": { "a": { "type": 3 } })", R"("graphs": { "g": [] })",
-                                 R"("nodes": { "a": { "type": "friction.elasto_plastic", "params": [] } })" })
+                                 R"("nodes": { "a": { "type": "friction.elasto_plastic", "params": [] } })", R"("nodes": { "a": { "type": "deform.surface", "settings": 3 } })" })
     {
         const auto messages = readGraph (file (1, members)).messages;
         INFO (members);
