@@ -65,6 +65,8 @@ namespace tactus::nodes
 ///    node, they are interpolated at the point where the contact began.
 ///  - The barycentric weights n_i are replaced by those of the smooth body. They mix more than three nodes: on a regular mesh, a node has a
 ///    share of 0.43 of its own curve. So a stiffness that changes over fewer than three cells is smoothed.
+///  - A slip also moves c along the normal, towards the depth of the tool, which does not change U. So the drag of a slide is that of a flat body on
+///    a curved one, too, and does not step where a round tool rolls onto an edge.
 ///  - A move of c costs the energy that it lowers: energy can come only from a move of c at fixed p that raises U. No move does, so the
 ///    node is passive for every mesh, frame, curve and mu. dissipated_energy is the fall of U, and never falls. The fall is computed with
 ///    the tool where it is in the middle of the move of c.
@@ -79,7 +81,7 @@ namespace tactus::nodes
 ///    steepest slope of the curve, R the smallest radius of curvature, up to w = 0.9 R. A tool with a radius feels a sharp edge like this with R = rho.
 ///  - An edge is sharp where triangles meet at more than `crease` degrees, if it parts the body into faces. The centre of a tool that is inside,
 ///    deeper than rho, keeps the face that it is on, and feels a step where it passes the edge of that face. The difference of U is
-///    dissipated. `crease` 180 makes all edges round.
+///    dissipated. `crease` 180 makes all edges round, as in files of version 1; a mesh with few nodes is a poor surface then.
 ///  - Deeper than 0.95 of the radius of curvature there is no foot. The contact then keeps the last one, with its force along the normal only,
 ///    until the tool has a foot again at which U is not higher, or leaves. A step of the force there is bounded by the energy, not by a pole.
 ///  - A tool in a hollow edge or in a slot touches only one of both sides from outside.

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <span>
+
 namespace tactus
 {
 
@@ -52,6 +54,12 @@ public:
 
     /// The triangle on the other side of the edge opposite a corner, 0 to 2; negative at the rim of an open mesh. [any thread]
     int beside (int triangle, int corner) const noexcept { return neighbours[at (triangle)][at (corner)]; }
+
+    /// The triangles that have a point. [any thread]
+    std::span<const int> around (int point) const noexcept
+    {
+        return { sharing.data() + first[at (point)], static_cast<std::size_t> (first[at (point + 1)] - first[at (point)]) };
+    }
 
     /// The same spot, given on the triangle on the other side of the edge opposite a corner, which must have one. [any thread]
     Spot across (const Spot&, int corner) const noexcept;

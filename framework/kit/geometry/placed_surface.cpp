@@ -18,10 +18,41 @@ Mesh placed (const Mesh& mesh, double scale, const Vec3& origin, const Mat3& tur
 
 /// The u^x for this u^z that results from turning x and -z by the shortest rotation, so that neighbours get similar frames.
 Vec3 acrossFor (const Vec3& z) { return z.isZero (0.0) ? Vec3::UnitX() : Vec3 { shortestRotation (-Vec3::UnitZ(), z) * Vec3::UnitX() }; }
+
+using Sample = PlacedSurface::ContactSample;
+
+/// Sets the stretch from an anchor.
+void pull (Sample& felt, const Vec3& anchor) noexcept
+{
+    const Vec3 pulled = felt.frame * (felt.place - anchor);
+    felt.d.head<2>() = pulled.head<2>();
+    felt.height = pulled.z();
+}
+
+/// Adds the response of the curves along x and y. Eq. (6), of one node.
+void stretch (Sample& felt, const Surface::Curves& curves, double amount) noexcept
+{
+    for (int axis = 0; axis < 2; ++axis)
+    {
+        if (felt.d[axis] == 0.0) continue;
+        const auto [force, stored] = curves[at (axis)].at (std::abs (felt.d[axis]));
+        felt.f[axis] += amount * (felt.d[axis] < 0.0 ? -force : force);
+        felt.energy += amount * stored;
+    }
+}
+
+/// The energy of the springs of one node.
+double energyOf (const Surface::Curves& curves, const Vec3& d) noexcept
+{
+    double energy = curves[2].energy (d.z());
+    for (int axis = 0; axis < 2; ++axis)
+        if (d[axis] != 0.0) energy += curves[at (axis)].energy (std::abs (d[axis]));
+    return energy;
+}
 }   // namespace
 
 PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation, double crease, std::vector<double> r)
-    : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), smooth_body (mesh_walk.mesh(), crease),
+    : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), smooth_body (mesh_walk, crease),
       radii (std::move (r)), alike (std::ranges::all_of (surface->curves, [] (const auto& nodes) { return nodes.size() == 1; }))
 {
     across.reserve (std::max (mesh_walk.mesh().points.size(), surface->frames.size()));
@@ -42,25 +73,25 @@ PlacedSurface::ContactSample PlacedSurface::feel (const Foot& foot, const Vec3* 
     Vec3 x = direction (felt.mixed - felt.mixed.dot (z) * z);
     if (x.isZero (0.0)) x = z.unitOrthogonal();
     felt.frame << x.transpose(), z.cross (x).transpose(), z.transpose();
-    if (anchor)
-    {
-        const Vec3 pulled = felt.frame * (felt.place - *anchor);
-        felt.d.head<2>() = pulled.head<2>();
-        felt.height = pulled.z();
-    }
-    const auto add = [&] (const Surface::Curves& curves, double amount) {
-        const Response response = respond (curves, felt.d);
-        felt.f += amount * response.f;
-        felt.energy += amount * response.energy;
-    };
-    for (int i = 0; i < tool.count; ++i)
-        if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() == 1) add (surface->curves[at (shape)][0], amount);
-    if (! alike)
-        smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
-            for (int i = 0; i < tool.count; ++i)
-                if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() > 1)
-                    add (surface->curves[at (shape)][at (share.node)], amount * share.amount);
-        });
+    if (anchor) pull (felt, *anchor);
+    mixCurves (foot, tool, [&] (const Surface::Curves& curves, double amount) {
+        const auto [force, stored] = curves[2].at (felt.d.z());
+        felt.f.z() += amount * force;
+        felt.pressed += amount * stored;
+        stretch (felt, curves, amount);
+    });
+    felt.energy += felt.pressed;
+    return felt;
+}
+
+PlacedSurface::ContactSample PlacedSurface::stretched (const ContactSample& before, const Foot& foot, const Vec3& anchor, const Tool& tool) const noexcept
+{
+    ContactSample felt = before;
+    pull (felt, anchor);
+    felt.f.head<2>().setZero();
+    felt.energy = 0.0;
+    mixCurves (foot, tool, [&] (const Surface::Curves& curves, double amount) { stretch (felt, curves, amount); });
+    felt.energy += felt.pressed;
     return felt;
 }
 
@@ -85,7 +116,7 @@ Vec3 PlacedSurface::forceOf (const Foot& foot, const ContactSample& felt, const 
         if (! alike)
             for (int i = 0; i < tool.count; ++i)
                 if (const auto& curves = surface->curves[at (tool.shares[at (i)].shape)]; curves.size() > 1)
-                    change += tool.shares[at (i)].amount * respond (curves[at (share.node)], felt.d).energy;
+                    change += tool.shares[at (i)].amount * energyOf (curves[at (share.node)], felt.d);
         force -= change * share.slope;
     });
     return force;

@@ -46,7 +46,8 @@ public:
         double height = 0.0;             ///< of the place above the anchor, along u^z, m
         Vec3 d = Vec3::Zero();           ///< sideways stretch along u^x and u^y, and depth, m
         Vec3 f = Vec3::Zero();           ///< force along these axes, N
-        double energy = 0.0;             ///< stored energy, J
+        double pressed = 0.0;            ///< stored energy of the springs along the normal, J
+        double energy = 0.0;             ///< all stored energy, J
     };
 
     const MeshWalk& walk() const noexcept { return mesh_walk; }
@@ -66,6 +67,9 @@ public:
     /// The response that a tool feels with this foot, stretched from an anchor; null: not stretched. [any thread]
     ContactSample feel (const Foot&, const Vec3* anchor, const Tool&) const noexcept;
 
+    /// The response with the same foot and another anchor. [any thread]
+    ContactSample stretched (const ContactSample&, const Foot&, const Vec3& anchor, const Tool&) const noexcept;
+
     /// The force on a tool at p: minus the gradient of the stored energy in p, with the anchor fixed. [any thread]
     Vec3 forceOf (const Foot&, const ContactSample&, const Vec3& p, const Tool&) const noexcept;
 
@@ -76,12 +80,9 @@ private:
     double radiusOf (int tool) const noexcept { return radii.empty() ? 0.0 : radii[radii.size() == 1 ? 0 : at (tool)]; }
     Vec3 acrossAt (int node, const Tool&) const noexcept;
 
-    struct Response
-    {
-        Vec3 f = Vec3::Zero();
-        double energy = 0.0;
-    };
-    Response respond (const Surface::Curves&, const Vec3& d) const noexcept;
+    /// Calls `use (curves, amount)` for each set of curves that is mixed at a foot.
+    template <typename Use>
+    void mixCurves (const Foot&, const Tool&, const Use& use) const noexcept;
 
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
@@ -136,18 +137,17 @@ inline Vec3 PlacedSurface::acrossAt (int node, const Tool& tool) const noexcept
     return sum;
 }
 
-/// Eq. (6), of one node.
-inline PlacedSurface::Response PlacedSurface::respond (const Surface::Curves& curves, const Vec3& d) const noexcept
+template <typename Use>
+void PlacedSurface::mixCurves (const Foot& foot, const Tool& tool, const Use& use) const noexcept
 {
-    Response response;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        if (axis < 2 && d[axis] == 0.0) continue;
-        const auto [force, stored] = curves[at (axis)].at (axis < 2 ? std::abs (d[axis]) : d[axis]);
-        response.f[axis] = d[axis] < 0.0 ? -force : force;
-        response.energy += stored;
-    }
-    return response;
+    for (int i = 0; i < tool.count; ++i)
+        if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() == 1) use (surface->curves[at (shape)][0], amount);
+    if (! alike)
+        smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
+            for (int i = 0; i < tool.count; ++i)
+                if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() > 1)
+                    use (surface->curves[at (shape)][at (share.node)], amount * share.amount);
+        });
 }
 
 }   // namespace tactus

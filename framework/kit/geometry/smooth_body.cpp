@@ -4,14 +4,10 @@
 #include <tactus/kit/math/math.hpp>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SparseLU>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace tactus
@@ -33,6 +29,61 @@ double power (double a, int n)
     for (; n > 0; --n)
         result *= a;
     return result;
+}
+
+/// Least squares with a small weight on all unknowns. Rows are added one by one, by Givens' rotations, so no row is kept.
+template <int n>
+class LeastSquares
+{
+public:
+    using Row = std::array<double, n + 1>;   ///< factors of the unknowns, and the value that they should add up to
+
+    explicit LeastSquares (double weight)
+    {
+        for (int k = 0; k < n; ++k)
+            rows[at (k)][at (k)] = weight;
+    }
+
+    void add (Row row)
+    {
+        for (int k = 0; k < n; ++k)
+        {
+            Row& own = rows[at (k)];
+            const double length = std::sqrt (own[at (k)] * own[at (k)] + row[at (k)] * row[at (k)]), c = own[at (k)] / length, s = row[at (k)] / length;
+            for (std::size_t j = at (k); j < row.size(); ++j)
+            {
+                const double before = own[j];
+                own[j] = c * before + s * row[j];
+                row[j] = c * row[j] - s * before;
+            }
+        }
+    }
+
+    std::array<double, n> solved() const
+    {
+        std::array<double, n> x {};
+        for (int k = n - 1; k >= 0; --k)
+        {
+            double rest = rows[at (k)][n];
+            for (int j = k + 1; j < n; ++j)
+                rest -= rows[at (k)][at (j)] * x[at (j)];
+            x[at (k)] = rest / rows[at (k)][at (k)];
+        }
+        return x;
+    }
+
+private:
+    std::array<Row, n> rows {};   // the upper triangle
+};
+
+using Numbers = std::vector<double>;
+
+double dot (const Numbers& a, const Numbers& b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+    return sum;
 }
 }   // namespace
 
@@ -65,169 +116,242 @@ std::vector<int> facesOf (const Mesh& mesh, const MeshWalk& walk, double crease)
     return face;
 }
 
-SmoothBody::SmoothBody (const Mesh& mesh, double crease)
-    : corners (mesh.triangles.size()), beside (mesh.triangles.size(), { -1, -1, -1 }), rim (mesh.triangles.size(), { false, false, false })
+SmoothBody::SmoothBody (const Mesh& mesh, double crease) : SmoothBody (MeshWalk (mesh), crease) {}
+
+// Exported code runs this on boards without a heap, so it takes few vectors, and each only once.
+SmoothBody::SmoothBody (const MeshWalk& walk, double crease)
+    : corners (walk.mesh().triangles.size()), beside (corners.size(), { -1, -1, -1 }), rim (corners.size(), { false, false, false }),
+      face (facesOf (walk.mesh(), walk, crease))
 {
-    const MeshWalk walk (mesh);
-    const auto normal = [&] (int t) { return direction (areaNormal (cornersOf (mesh, t))); };
-    face = facesOf (mesh, walk, crease);
-    std::map<std::pair<int, int>, int> known;   // by point and face
-    std::vector<std::vector<int>> around (mesh.points.size());
-    for (int t = 0; t < mesh.size(); ++t)
-        for (int i = 0; i < 3; ++i)
-        {
-            const int point = mesh.triangles[at (t)][at (i)], other = walk.beside (t, i);
-            const auto [found, fresh] = known.try_emplace ({ point, face[at (t)] }, static_cast<int> (nodes.size()));
-            if (fresh) nodes.push_back ({ .point = point, .p = mesh.points[at (point)], .z = Vec3::Zero() });
-            corners[at (t)][at (i)] = found->second;
-            around[at (point)].push_back (t);
-            rim[at (t)][at (i)] = other < 0;
-            if (other >= 0 && face[at (other)] == face[at (t)]) beside[at (t)][at (i)] = other;
-        }
-    std::vector<std::vector<int>> ring (nodes.size());
-    for (int t = 0; t < mesh.size(); ++t)
-        for (int i = 0; i < 3; ++i)
-        {
-            const auto& own = corners[at (t)];
-            const int node = own[at (i)], next = own[at ((i + 1) % 3)], last = own[at ((i + 2) % 3)];
-            ring[at (node)].insert (ring[at (node)].end(), { next, last });
-            const Vec3 a = nodes[at (next)].p - nodes[at (node)].p, b = nodes[at (last)].p - nodes[at (node)].p, n = a.cross (b);
-            nodes[at (node)].z += direction (n) * math::atan2 (n.norm(), a.dot (b));
-        }
-    for (auto& neighbours : ring)
-    {
-        std::ranges::sort (neighbours);
-        neighbours.erase (std::unique (neighbours.begin(), neighbours.end()), neighbours.end());
-    }
-    fit (ring);
-
-    double widest = 0.0;
-    for (const auto& node : nodes)
-        widest = std::max (widest, node.radius);
-    for (int t = 0; t < mesh.size(); ++t)
-    {
-        const auto& own = corners[at (t)];
-        const Vec3 centre = (nodes[at (own[0])].p + nodes[at (own[1])].p + nodes[at (own[2])].p) / 3.0;
-        double size = 0.0;
-        for (const int node : own)
-            size = std::max (size, (nodes[at (node)].p - centre).norm());
-        std::set<int> seen (own.begin(), own.end());
-        std::vector<int> front (seen.begin(), seen.end());
-        while (! front.empty())   // all nodes around whose weights may reach the triangle, so that the next triangle has the same sums
-        {
-            const int a = front.back();
-            front.pop_back();
-            if ((nodes[at (a)].p - centre).norm() > widest + 1.15 * size) continue;
-            for (const int b : ring[at (a)])
-                if (seen.insert (b).second) front.push_back (b);
-        }
-        for (const int node : seen)
-            if ((nodes[at (node)].p - centre).norm() < nodes[at (node)].radius + 1.15 * size) near.items.push_back (node);
-        near.first.push_back (static_cast<int> (near.items.size()));
-
-        std::map<int, std::pair<int, double>> others;   // by face
-        for (int i = 0; i < 3; ++i)
-            if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] != face[at (t)])
-                others[face[at (other)]] = { other, normal (other).dot (centre - mesh.corner (other, 0)) > 0.0 ? -1.0 : 1.0 };
-        for (const int point : mesh.triangles[at (t)])
-            for (const int other : around[at (point)])
-                if (face[at (other)] != face[at (t)] && normal (other).dot (centre - mesh.corner (other, 0)) <= 0.0)
-                    others.try_emplace (face[at (other)], std::pair { other, 1.0 });
-        for (const auto& [its, other] : others)
-        {
-            over.items.push_back (other.first);
-            bulges.push_back (other.second);
-        }
-        over.first.push_back (static_cast<int> (over.items.size()));
-    }
+    placeNodes (walk);
+    fit (walk);
+    findNear (walk);
+    findOver (walk);
     pass();
 }
 
-/// Fits the polynomials, by least squares with weights that fall with the distance.
-void SmoothBody::fit (const std::vector<std::vector<int>>& ring)
+/// Gives each point a node for each of its faces.
+void SmoothBody::placeNodes (const MeshWalk& walk)
 {
-    for (std::size_t v = 0; v < nodes.size(); ++v)
+    const Mesh& mesh = walk.mesh();
+    const auto eachNode = [&] (const auto& use) {   // use (point, a triangle of the node)
+        for (int point = 0; point < static_cast<int> (mesh.points.size()); ++point)
+        {
+            const auto around = walk.around (point);
+            for (auto t = around.begin(); t != around.end(); ++t)
+                if (std::none_of (around.begin(), t, [&] (int earlier) { return face[at (earlier)] == face[at (*t)]; })) use (point, *t);
+        }
+    };
+    std::size_t count = 0;
+    eachNode ([&] (int, int) { ++count; });
+    nodes.reserve (count);
+    eachNode ([&] (int point, int triangle) {
+        for (const int t : walk.around (point))
+            for (std::size_t i = 0; i < 3; ++i)
+                if (face[at (t)] == face[at (triangle)] && mesh.triangles[at (t)][i] == point) corners[at (t)][i] = static_cast<int> (nodes.size());
+        nodes.push_back ({ .point = point, .p = mesh.points[at (point)], .z = Vec3::Zero() });
+    });
+    for (int t = 0; t < size(); ++t)
+        for (int i = 0; i < 3; ++i)
+        {
+            const int other = walk.beside (t, i);
+            rim[at (t)][at (i)] = other < 0;
+            if (other >= 0 && face[at (other)] == face[at (t)]) beside[at (t)][at (i)] = other;
+
+            const auto& own = corners[at (t)];
+            const Vec3& p = nodes[at (own[at (i)])].p;
+            const Vec3 a = nodes[at (own[at ((i + 1) % 3)])].p - p, b = nodes[at (own[at ((i + 2) % 3)])].p - p, n = a.cross (b);
+            nodes[at (own[at (i)])].z += direction (n) * math::atan2 (n.norm(), a.dot (b));
+        }
+}
+
+/// Calls `use (node)` for the nodes that share a triangle with a node, for most of them twice.
+template <typename Use>
+void SmoothBody::neighbours (const MeshWalk& walk, int node, const Use& use) const
+{
+    for (const int t : walk.around (nodes[at (node)].point))
+        if (const auto& own = corners[at (t)]; own[0] == node || own[1] == node || own[2] == node)
+            for (const int other : own)
+                if (other != node) use (other);
+}
+
+/// Fits the polynomials, by least squares with weights that fall with the distance.
+void SmoothBody::fit (const MeshWalk& walk)
+{
+    std::vector<int> seen (nodes.size(), -1), use;
+    for (int v = 0; v < static_cast<int> (nodes.size()); ++v)
     {
-        Node& node = nodes[v];
+        Node& node = nodes[at (v)];
         node.z = direction (node.z);
         node.x = node.z.unitOrthogonal();
         node.y = node.z.cross (node.x);
+        use.clear();
+        use.push_back (v);
+        seen[at (v)] = v;
         double mean = 0.0, longest = 0.0;
-        for (const int a : ring[v])
+        std::size_t from = 0;
+        for (int ring = 0; ring < fitted_rings; ++ring)
         {
-            const double edge = (nodes[at (a)].p - node.p).norm();
-            mean += edge / static_cast<double> (ring[v].size());
-            longest = std::max (longest, edge);
+            for (const std::size_t to = use.size(); from < to; ++from)
+                neighbours (walk, use[from], [&] (int other) {
+                    if (std::exchange (seen[at (other)], v) != v) use.push_back (other);
+                });
+            if (ring > 0) continue;
+            for (std::size_t i = 1; i < use.size(); ++i)
+            {
+                const double edge = (nodes[at (use[i])].p - node.p).norm();
+                mean += edge / static_cast<double> (use.size() - 1);
+                longest = std::max (longest, edge);
+            }
         }
         node.radius = weight_reach * longest;
         node.over = 1.0 / (node.radius * node.radius);
 
-        std::set<int> seen { static_cast<int> (v) };
-        std::vector<int> front { static_cast<int> (v) }, use;
-        for (int k = 0; k < fitted_rings; ++k)
-        {
-            std::vector<int> next;
-            for (const int a : front)
-                for (const int b : ring[at (a)])
-                    if (seen.insert (b).second) next.push_back (b);
-            use.insert (use.end(), next.begin(), next.end());
-            front = next;
-        }
-        // Least squares with a small weight on all terms, so that a term that the nodes say little about stays small. The factors of the terms make
-        // this the same for all directions of x and y.
-        const int rows = static_cast<int> (use.size()), columns = terms - 1;
-        Eigen::MatrixXd a = Eigen::MatrixXd::Zero (rows + columns, columns);
-        Eigen::VectorXd b = Eigen::VectorXd::Zero (rows + columns);
+        // The small weight keeps a term small that the nodes say little about. The factors of the terms make this the same for all directions of
+        // x and y.
         const auto term = [] (int k, double x, double y) { return std::sqrt (choices[at (k)]) * power (x, power_x[at (k)]) * power (y, power_y[at (k)]); };
-        for (int row = 0; row < rows; ++row)
+        LeastSquares<terms - 1> sums (damping);
+        for (std::size_t i = 1; i < use.size(); ++i)
         {
-            const Vec3 d = nodes[at (use[at (row)])].p - node.p;
+            const Vec3 d = nodes[at (use[i])].p - node.p;
             const double weight = math::exp (-0.5 * d.squaredNorm() / (mean * mean));
-            for (int k = 0; k < columns; ++k)
-                a (row, k) = weight * term (k + 1, d.dot (node.x) / mean, d.dot (node.y) / mean);
-            b[row] = weight * d.dot (node.z);
+            std::array<double, terms> row {};
+            for (int k = 1; k < terms; ++k)
+                row[at (k - 1)] = weight * term (k, d.dot (node.x) / mean, d.dot (node.y) / mean);
+            row[terms - 1] = weight * d.dot (node.z);
+            sums.add (row);
         }
-        a.bottomRows (columns).diagonal().setConstant (damping);
-        const Eigen::VectorXd solved = a.householderQr().solve (b);
-        for (int k = 0; k < columns; ++k)
-            node.c[at (k + 1)] = solved[k] * term (k + 1, 1.0 / mean, 1.0 / mean);
+        const auto solved = sums.solved();
+        for (int k = 1; k < terms; ++k)
+            node.c[at (k)] = solved[at (k - 1)] * term (k, 1.0 / mean, 1.0 / mean);
     }
 }
 
-/// Shifts the polynomials so that the surface passes through all nodes.
+/// Lists the nodes whose weights may reach a triangle or the places beside it, so that the next triangle has the same sums.
+void SmoothBody::findNear (const MeshWalk& walk)
+{
+    double widest = 0.0;
+    for (const auto& node : nodes)
+        widest = std::max (widest, node.radius);
+    near.first.reserve (corners.size() + 1);
+    std::vector<int> seen, found;
+    found.reserve (nodes.size());
+    for (const bool lists : { false, true })   // counts first
+    {
+        seen.assign (nodes.size(), -1);
+        near.first.assign (1, 0);
+        int count = 0;
+        for (int t = 0; t < size(); ++t)
+        {
+            const auto& own = corners[at (t)];
+            const Vec3 centre = (nodes[at (own[0])].p + nodes[at (own[1])].p + nodes[at (own[2])].p) / 3.0;
+            double size = 0.0;
+            found.clear();
+            for (const int node : own)
+            {
+                size = std::max (size, (nodes[at (node)].p - centre).norm());
+                seen[at (node)] = t;
+                found.push_back (node);
+            }
+            for (std::size_t i = 0; i < found.size(); ++i)
+            {
+                const Node& node = nodes[at (found[i])];
+                const double far = (node.p - centre).norm();
+                if (far < node.radius + 1.15 * size)
+                {
+                    ++count;
+                    if (lists) near.items.push_back (found[i]);
+                }
+                if (far > widest + 1.15 * size) continue;
+                neighbours (walk, found[i], [&] (int other) {
+                    if (std::exchange (seen[at (other)], t) != t) found.push_back (other);
+                });
+            }
+            near.first.push_back (count);
+            if (lists) std::sort (near.items.end() - (near.first[at (t + 1)] - near.first[at (t)]), near.items.end());
+        }
+        if (! lists) near.items.reserve (at (count));
+    }
+}
+
+/// Lists the faces that a foot on a triangle may pass over to.
+void SmoothBody::findOver (const MeshWalk& walk)
+{
+    const Mesh& mesh = walk.mesh();
+    over.first.reserve (corners.size() + 1);
+    over.first.push_back (0);
+    for (int t = 0; t < size(); ++t)
+    {
+        const Vec3 centre = (mesh.corner (t, 0) + mesh.corner (t, 1) + mesh.corner (t, 2)) / 3.0;
+        const auto above = [&] (int other) { return areaNormal (cornersOf (mesh, other)).dot (centre - mesh.corner (other, 0)) > 0.0; };
+        const auto add = [&] (int other, double bulges) {
+            const auto known = std::find_if (over.items.begin() + over.first.back(), over.items.end(),
+                                             [&] (const Other& o) { return face[at (o.triangle)] == face[at (other)]; });
+            if (known == over.items.end()) over.items.push_back ({ other, bulges });
+        };
+        for (int i = 0; i < 3; ++i)
+            if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] != face[at (t)]) add (other, above (other) ? -1.0 : 1.0);
+        for (const int point : mesh.triangles[at (t)])
+            for (const int other : walk.around (point))
+                if (face[at (other)] != face[at (t)] && ! above (other)) add (other, 1.0);
+        std::sort (over.items.begin() + over.first.back(), over.items.end(),
+                   [&] (const Other& a, const Other& b) { return face[at (a.triangle)] < face[at (b.triangle)]; });
+        over.first.push_back (static_cast<int> (over.items.size()));
+    }
+}
+
+/// Shifts the polynomials so that the surface passes through all nodes: the mixes of the shifts at the nodes must be the distances there. The
+/// equations are solved by the stabilised method of biconjugate gradients (van der Vorst 1992).
 void SmoothBody::pass()
 {
-    std::vector<int> home (nodes.size(), -1);
+    std::vector<int> home (nodes.size(), 0);
     for (int t = 0; t < size(); ++t)
         for (const int node : corners[at (t)])
             home[at (node)] = t;
-    const auto n = static_cast<int> (nodes.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd off (n);
-    for (int v = 0; v < n; ++v)
-    {
-        const Vec3& p = nodes[at (v)].p;
-        off[v] = valueAt (home[at (v)], p).g;
-        const auto from = entries.size();
-        double sum = 0.0;
-        for (int k = near.first[at (home[at (v)])]; k < near.first[at (home[at (v)]) + 1]; ++k)
+    const auto mix = [&] (const Numbers& x, Numbers& mixed) {
+        for (std::size_t v = 0; v < nodes.size(); ++v)
         {
-            const int other = near.items[at (k)];
-            const double r2 = (p - nodes[at (other)].p).squaredNorm() * nodes[at (other)].over;
-            if (r2 >= 1.0) continue;
-            entries.emplace_back (v, other, weightOf (nodes[at (other)], r2).w);
-            sum += entries.back().value();
+            double sum = 0.0, all = 0.0;
+            for (int k = near.first[at (home[v])]; k < near.first[at (home[v] + 1)]; ++k)
+            {
+                const auto other = at (near.items[at (k)]);
+                const double r2 = (nodes[v].p - nodes[other].p).squaredNorm() * nodes[other].over;
+                if (r2 >= 1.0) continue;
+                const double w = weightOf (nodes[other], r2).w;
+                sum += w;
+                all += w * x[other];
+            }
+            mixed[v] = all / sum;
         }
-        for (auto i = from; i < entries.size(); ++i)
-            entries[i] = { entries[i].row(), entries[i].col(), entries[i].value() / sum };
+    };
+    const std::size_t n = nodes.size();
+    Numbers shift (n), rest (n), way (n), step (n), turned (n), first (n);
+    for (std::size_t v = 0; v < n; ++v)
+        rest[v] = first[v] = way[v] = valueAt (home[v], nodes[v].p).g;
+    const double start = dot (rest, rest), wanted = margin (1e-12) * margin (1e-12) * start;
+    double rho = start;
+    for (int k = 0; k < 500 && dot (rest, rest) > wanted; ++k)
+    {
+        mix (way, step);
+        const double a = rho / dot (first, step);
+        for (std::size_t v = 0; v < n; ++v)
+            rest[v] -= a * step[v];
+        mix (rest, turned);
+        const double length = dot (turned, turned), b = length > 0.0 ? dot (turned, rest) / length : 0.0;
+        for (std::size_t v = 0; v < n; ++v)
+        {
+            shift[v] += a * way[v] + b * rest[v];
+            rest[v] -= b * turned[v];
+        }
+        const double next = dot (first, rest), c = next / rho * (a / b);
+        rho = next;
+        if (! isFinite (c)) break;
+        for (std::size_t v = 0; v < n; ++v)
+            way[v] = rest[v] + c * (way[v] - b * step[v]);
     }
-    Eigen::SparseMatrix<double> shares (n, n);
-    shares.setFromTriplets (entries.begin(), entries.end());
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> solver (shares);
-    if (solver.info() != Eigen::Success) return;   // then the surface is near the nodes only
-    const Eigen::VectorXd shift = solver.solve (off);
-    for (int v = 0; v < n; ++v)
-        nodes[at (v)].c[0] = shift[v];
+    if (! (dot (rest, rest) < start)) return;   // then the surface is near the nodes only
+    for (std::size_t v = 0; v < n; ++v)
+        nodes[v].c[0] = shift[v];
 }
 
 SmoothBody::Value SmoothBody::valueAt (int triangle, const Vec3& p) const noexcept
@@ -236,7 +360,7 @@ SmoothBody::Value SmoothBody::valueAt (int triangle, const Vec3& p) const noexce
     double W = 0.0, A = 0.0;
     std::array<double, 3> dW {}, dA {};
     std::array<double, 6> hW {}, hA {};
-    for (int item = near.first[at (triangle)]; item < near.first[at (triangle) + 1]; ++item)
+    for (int item = near.first[at (triangle)]; item < near.first[at (triangle + 1)]; ++item)
     {
         const Node& q = nodes[at (near.items[at (item)])];
         const std::array<double, 3> d { p.x() - q.p.x(), p.y() - q.p.y(), p.z() - q.p.z() };
@@ -333,6 +457,7 @@ bool SmoothBody::solve (Foot& foot, const Vec3& p) const noexcept
     using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + most, 1>;
     const int m = foot.faces;
     double last = std::numeric_limits<double>::infinity();
+    const Value first = std::exchange (foot.value, {});
     for (int step = 0; step < 40; ++step)
     {
         std::array<Value, most> values;
@@ -340,7 +465,7 @@ bool SmoothBody::solve (Foot& foot, const Vec3& p) const noexcept
         {
             auto& triangle = foot.triangles[at (i)];
             triangle = walked (triangle, foot.point);
-            values[at (i)] = valueAt (triangle, foot.point);
+            values[at (i)] = step == 0 && m == 1 && first.known ? first : valueAt (triangle, foot.point);
             if (! values[at (i)].known) return false;
         }
         Vec3 move;
@@ -399,6 +524,12 @@ bool SmoothBody::solve (Foot& foot, const Vec3& p) const noexcept
             length = 0.5 * size;
         }
         foot.point += move;
+        if (m == 1 && length < 1e-8 * size)   // so near that what changes within the move is known
+        {
+            Value& v = foot.value = values[0];
+            v.g += v.slope.dot (move) + 0.5 * move.dot (v.bend * move);
+            v.slope += v.bend * move;
+        }
         const bool stuck = step > 3 && length > 0.5 * last && length < 1e-4 * size;   // by rounding
         if (length < 1e-6 * size || stuck) return foot.found;                         // the next move is of the order of its square
         last = length;
@@ -427,15 +558,15 @@ bool SmoothBody::cross (Foot& foot, bool inside, double slack) const noexcept
     for (int i = 0; i < foot.faces && foot.faces < most; ++i)
     {
         const int triangle = foot.triangles[at (i)];
-        for (int k = over.first[at (triangle)]; k < over.first[at (triangle) + 1]; ++k)
+        for (int k = over.first[at (triangle)]; k < over.first[at (triangle + 1)]; ++k)
         {
-            const int other = over.items[at (k)];
+            const int other = over.items[at (k)].triangle;
             const bool holds =
                 std::any_of (foot.triangles.begin(), foot.triangles.begin() + foot.faces, [&] (int t) { return face[at (t)] == face[at (other)]; });
             if (holds) continue;
             const int there = walked (other, foot.point);
             const Value v = valueAt (there, foot.point);
-            const double side = bulges[at (k)];
+            const double side = over.items[at (k)].bulges;
             if (! v.known || side * v.g <= slack) continue;
             if ((side < 0.0) != inside)
                 foot.beyond = there;
@@ -514,7 +645,7 @@ SmoothBody::Motion SmoothBody::motionOf (const Foot& foot, const Vec3& p) const 
     Motion motion;
     if (foot.faces == 1)
     {
-        const Value v = valueAt (foot.triangles[0], foot.point);
+        const Value v = foot.value.known ? foot.value : valueAt (foot.triangles[0], foot.point);
         const double gg = v.slope.squaredNorm(), pull = (p - foot.point).dot (v.slope) / gg;
         const Vec3 n = v.slope / std::sqrt (gg), a = n.unitOrthogonal(), b = n.cross (a);
         const Mat3 k = Mat3::Identity() + pull * v.bend;

@@ -38,6 +38,7 @@ class SmoothBody
 public:
     /// Triangles that meet at a larger angle than `crease` (rad) meet at a crease. A crease that does not cut the mesh into faces is smooth. All
     /// indices of the triangles must be valid. [main thread]
+    SmoothBody (const MeshWalk&, double crease);
     SmoothBody (const Mesh&, double crease);
 
     /// g of a face with its gradient and second derivatives. [any thread]
@@ -67,6 +68,7 @@ public:
         double side = 1.0;            ///< 1 if an edge or corner where the body is convex holds it, -1 where it is hollow
         double distance = 0.0;        ///< of the tool from the surface, negative inside
         bool found = false;           ///< false if there is no foot near the last one, or a tool deeper than 0.95 of the radius of curvature
+        Value value {};               ///< g at the point, if known: see know()
         bool left = false;            ///< beyond the rim of an open mesh
         int beyond = -1;              ///< a triangle of the face that the foot has passed; -1: none
     };
@@ -76,6 +78,12 @@ public:
 
     /// The foot of a tool at p, by Newton's method from the last foot. [any thread]
     Foot followed (const Foot&, const Vec3& p) const noexcept;
+
+    /// Computes g at a foot on a face, if it is not known yet. The next search from there and motionOf() then need not. [any thread]
+    void know (Foot& foot) const noexcept
+    {
+        if (foot.faces == 1 && ! foot.value.known) foot.value = valueAt (foot.triangles[0], foot.point);
+    }
 
     /// The derivatives of a foot in the position of its tool. Their pole is the centre of curvature.
     struct Motion
@@ -119,9 +127,18 @@ private:
     };
 
     /// A list of lists: list i goes from first[i] to just before first[i + 1].
+    template <typename T>
     struct Lists
     {
-        std::vector<int> first { 0 }, items {};
+        std::vector<int> first;
+        std::vector<T> items;
+    };
+
+    /// A triangle of another face at a crease.
+    struct Other
+    {
+        int triangle = 0;
+        double bulges = 1.0;   // 1 if the body is convex there, -1 if it is hollow
     };
 
     struct Weight
@@ -135,15 +152,20 @@ private:
     bool solve (Foot&, const Vec3& p) const noexcept;
     static bool leave (Foot&, double slack) noexcept;
     bool cross (Foot&, bool inside, double slack) const noexcept;
-    void fit (const std::vector<std::vector<int>>& ring);
+    void placeNodes (const MeshWalk&);
+    void fit (const MeshWalk&);
+    void findNear (const MeshWalk&);
+    void findOver (const MeshWalk&);
     void pass();
+    template <typename Use>
+    void neighbours (const MeshWalk&, int node, const Use& use) const;
 
     std::vector<Node> nodes;
     std::vector<std::array<int, 3>> corners, beside;   // by triangle: nodes; the triangle across the edge opposite a corner, -1 at a crease or a rim
     std::vector<std::array<bool, 3>> rim;              // by triangle: whether the edge opposite a corner belongs to no other triangle
     std::vector<int> face;                             // by triangle
-    Lists near, over;                                  // by triangle: nodes with a weight there; one triangle of each other face at its corners
-    std::vector<double> bulges;                        // as over: 1 if the body is convex there, -1 if it is hollow
+    Lists<int> near;                                   // by triangle: nodes with a weight there
+    Lists<Other> over;                                 // by triangle: one triangle of each other face at its corners
 };
 
 //==============================================================================

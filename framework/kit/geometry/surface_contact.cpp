@@ -16,13 +16,15 @@ using Vec2 = Eigen::Vector2d;
 
 const Vec3* anchorOf (const SurfaceTouch& touch) noexcept { return touch.frictionless ? nullptr : &touch.anchor; }
 
-/// Puts the anchor where the stretch from the foot is s, along u^x and u^y. Its height falls in the same ratio, so that a short slip changes
-/// little: an anchor that has stuck on a curved body is above or below the plane of the foot.
-void stretch (SurfaceSample& sample, const Vec2& s) noexcept
+/// Puts the anchor where the stretch from the foot is s, along u^x and u^y. An anchor as deep as the tool lets the stretch grow as fast as the tool
+/// moves, whatever the curvature: so the drag is that of a flat body, and does not step where the tool rolls onto an edge. So the anchor follows the
+/// tool by `deeper`, the rise of its depth in this step, and the rest of its height falls in the same ratio as the stretch: a short slip changes
+/// little.
+void stretch (SurfaceSample& sample, const Vec2& s, double deeper) noexcept
 {
     const Vec3 before = sample.felt.frame * (sample.felt.place - sample.touch.anchor);
-    const double length = before.head<2>().norm(), height = length > 0.0 ? before.z() * std::min (1.0, s.norm() / length) : 0.0;
-    sample.touch.anchor = sample.felt.place - sample.felt.frame.transpose() * Vec3 (s.x(), s.y(), height);
+    const double length = before.head<2>().norm(), ratio = length > 0.0 ? std::min (1.0, s.norm() / length) : 0.0, depth = sample.felt.d.z();
+    sample.touch.anchor = sample.felt.place - sample.felt.frame.transpose() * Vec3 (s.x(), s.y(), (before.z() + depth - deeper) * ratio - depth);
 }
 
 SurfaceSample sampled (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& touch) noexcept
@@ -69,7 +71,8 @@ public:
     /// the springs are stretched too far, by half of the move, so the loss would grow with the length of the ticks.
     void lose (SurfaceStep& step, const SurfaceTouch& start, const SurfaceSample& pulled) const noexcept
     {
-        const Vec3 dc = step.after.touch.anchor - start.anchor, dr = pulled.felt.place - PlacedSurface::placeOf (start.foot, tool);
+        const auto sideways = pulled.felt.frame.topRows<2>();
+        const Vec2 dc = sideways * (step.after.touch.anchor - start.anchor), dr = sideways * (to - from);
         const double forward = dc.dot (dr), back = forward > 0.0 ? std::min (1.0, 0.5 * dc.squaredNorm() / forward) : 0.0;
         for (const double less : { 1e-9, 1e-4, 1e-2, 0.1, 1.0 })   // nearer to the end if need be
         {
@@ -117,6 +120,7 @@ SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool,
     const Way way (body, tool, from, to);
     SurfaceStep step { .after = way.follow (start, 1.0), .slips = start.frictionless };
     if (to == from) return step;
+    body.smooth().know (step.after.touch.foot);
     if (step.after.left)   // over the rim
     {
         step.share = 0.0;
@@ -134,8 +138,8 @@ SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool,
         {
             SurfaceSample there = sampled (body, tool, { .foot = foot, .frictionless = start.frictionless });
             const Vec3 d = step.after.felt.d;   // the stretch is carried along
-            there.touch.anchor = there.felt.place - there.felt.frame.transpose() * Vec3 (d.x(), d.y(), 0.0);
-            there.felt = sampled (body, tool, there.touch).felt;
+            there.touch.anchor = there.felt.place - there.felt.frame.transpose() * Vec3 (d.x(), d.y(), -there.felt.d.z());
+            if (! start.frictionless) there.felt = body.stretched (there.felt, foot, there.touch.anchor, tool);
             if (! (there.felt.d.z() > 0.0)) there.felt.energy = 0.0;
             if (there.felt.energy <= step.after.felt.energy)
             {
@@ -159,15 +163,17 @@ SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool,
     auto s = slipped (body, tool, pulled, start.foot, unit);
     if (! s) return step;
     step.slips = true;
+    const double deeper = jumped ? 0.0 : pulled.felt.d.z() - (tool.radius - start.foot.distance);
     const auto slip = [&] {
-        stretch (step.after, *s);
-        step.after.felt = sampled (body, tool, step.after.touch).felt;
+        stretch (step.after, *s, deeper);
+        step.after.felt = body.stretched (pulled.felt, pulled.touch.foot, step.after.touch.anchor, tool);
     };
     slip();
     const double kept = pulled.felt.d.head<2>().norm();
     if (step.after.felt.energy > pulled.felt.energy && kept > 0.0)
     {
         s = pulled.felt.d.head<2>() * std::min (1.0, s->norm() / kept);   // a law that yields on the way back may leave more than there is
+        step.after.touch.anchor = pulled.touch.anchor;
         slip();
     }
     if (jumped)
@@ -204,7 +210,7 @@ SurfaceSample begun (const PlacedSurface& body, const PlacedSurface::Tool& tool,
 {
     const Foot foot = body.smooth().followed (near, p);
     if (! foot.found || foot.left || foot.beyond >= 0) return {};
-    const SurfaceSample there = sampled (body, tool, { .foot = foot, .anchor = PlacedSurface::placeOf (foot, tool), .frictionless = frictionless });
+    const SurfaceSample there = sampled (body, tool, { .foot = foot, .anchor = p, .frictionless = frictionless });
     return there.felt.d.z() > 0.0 ? there : SurfaceSample {};
 }
 

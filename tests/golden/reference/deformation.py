@@ -5,7 +5,7 @@ The foot r is the nearest point of the smooth body (foot.py), and w the distance
 it. The sideways stretch from the anchor c is s^nu = (r - c) . u^nu, and
 U = sum n_i (F_i^z(w) + F_i^x(s^x) + F_i^y(s^y)). The force is -dU/dp with c fixed, here by
 differences: the foot is found again at each displaced p. c follows where |s| would pass
-mu_c w; without friction it is r. A touch begins where the way of the tool crosses the
+mu_c w, and comes as deep as the tool; without friction it is r. A touch begins where the way of the tool crosses the
 body from outside, and ends where w is not above 0, or where the foot passes the rim.
 """
 
@@ -140,8 +140,9 @@ def slipped(surface, contact, now):
     most, reach = bound(surface, contact, now), math.hypot(*now["d"][:2])
     if contact["anchor"] is None or reach <= most * (1.0 + EPS_SLIP):
         return contact, contact["anchor"] is None
-    share = most / reach
-    d = (share * now["d"][0], share * now["d"][1], share * now["height"])
+    share, deep = most / reach, now["d"][2]
+    height = share * (now["height"] + contact["deep"]) - deep
+    d = (share * now["d"][0], share * now["d"][1], height)
     return dict(contact, anchor=vec.sub(now["place"], vec.combine(d, now["axes"]))), True
 
 
@@ -161,7 +162,7 @@ def begun(surface, latched, found, p, frictionless):
     contact = follow(surface, {"foot": found, "anchor": None, "tools": latched}, p)
     if contact is None or frictionless:
         return contact
-    return dict(contact, anchor=contact["foot"])
+    return dict(contact, anchor=p, deep=foot.depth(surface, contact["foot"], p))
 
 
 def nearest(surface, p):
@@ -213,6 +214,7 @@ def steps(settings, params, feed):
             if contact is not None:
                 now = felt(surface, contact, p)
                 contact, slips = slipped(surface, contact, now)
+                contact = dict(contact, deep=now["d"][2])
                 if now["d"][2] <= 0.0:
                     contact = None
         last = p

@@ -85,7 +85,8 @@ Stroke stroke (const std::shared_ptr<const Surface>& surface, Frictions friction
         done.peak = std::max (done.peak, out.stored_energy);
         done.fall = std::max (done.fall, -lost);
         done.steepest = std::max (done.steepest, (out.force - before.force).norm() / (next - p).norm());
-        if (out.state > 0.0) done.lag = std::max (done.lag, node.lag() / (mu_c * out.depth));
+        // Just before the tool lifts off, the bound can be a nanometre, and the anchor is a place in space, so it is rounded to 2e-17 m.
+        if (out.state > 0.0) done.lag = std::max (done.lag, (node.lag() - 2e-17) / (mu_c * out.depth));
         const Vec3 along = (placeOn (is_ball, x + 1e-6, z) - placeOn (is_ball, x - 1e-6, z)).normalized();
         if (std::abs (x) < nearest)
         {
