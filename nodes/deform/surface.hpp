@@ -240,10 +240,15 @@ struct ElasticSurface
     {
         const auto& surface = *settings.surface;
         auto all = wrongSide (surface);
-        if (all.empty()) all = sharpEdges (surface, creaseAngle(), settings.tool_radius);
+        const auto add = [&] (const std::string& more) { all += (all.empty() || more.empty() ? "" : "; ") + more; };
+        if (all.empty())
+        {
+            add (coarseFaces (surface, creaseAngle()));
+            add (sharpEdges (surface, creaseAngle(), settings.tool_radius));
+        }
+        add (abruptStiffness (surface));
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
-            all += (all.empty() ? "" : "; ") + std::to_string (triangles)
-                   + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
+            add (std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks");
         return all;
     }
 

@@ -2,12 +2,12 @@
 #include "surface_check.hpp"
 #include "mesh_walk.hpp"
 #include "smooth_body.hpp"
+#include <tactus/kit/math/math.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -220,6 +220,93 @@ std::string sharpEdges (const Surface& s, double crease, const std::vector<doubl
                                          : "a slide over them at any depth";
     return "the body has sharp edges (" + std::to_string (edges) + " in the mesh): " + from + " is felt as a step of the force; "
            + (least > 0.0 ? "press less deep there, or give the tool a larger tool_radius" : "give the tool a tool_radius larger than the depth of a touch");
+}
+
+namespace
+{
+double degreesBetween (const Vec3& a, const Vec3& b) { return math::atan2 (a.cross (b).norm(), a.dot (b)) * 180.0 / std::numbers::pi; }
+}   // namespace
+
+std::string coarseFaces (const Surface& s, double crease)
+{
+    constexpr double doubtful = 45.0, wrong = 45.0;   // degrees
+    constexpr std::size_t most = 50;                  // triangles; a graph is judged at each edit
+    const Mesh& mesh = *s.mesh;
+    const MeshWalk walk (mesh);
+    const auto face = facesOf (mesh, walk, crease);
+    const auto normal = [&] (int t) { return areaNormal (cornersOf (mesh, t)); };
+    std::vector<int> bent;
+    double sharpest = 0.0;
+    for (int t = 0; t < mesh.size(); ++t)
+    {
+        double angle = 0.0;
+        for (int i = 0; i < 3; ++i)
+            if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] == face[at (t)])
+                angle = std::max (angle, degreesBetween (normal (t), normal (other)));
+        if (angle > doubtful) bent.push_back (t);
+        sharpest = std::max (sharpest, angle);
+    }
+    if (bent.empty()) return {};
+    const SmoothBody body (walk, crease);
+    double worst = 0.0;
+    int there = -1;
+    for (std::size_t i = 0; i < bent.size(); i += 1 + bent.size() / most)
+    {
+        const Vec3 middle = (mesh.corner (bent[i], 0) + mesh.corner (bent[i], 1) + mesh.corner (bent[i], 2)) / 3.0;
+        const auto foot = body.followed (body.footOn (bent[i], middle), middle);
+        const double leans = foot.found ? degreesBetween (foot.normal, normal (bent[i])) : 180.0;
+        if (leans <= std::max (worst, wrong)) continue;
+        worst = leans;
+        there = bent[i];
+    }
+    if (there < 0) return {};
+    const std::string how = worst < 180.0 ? "leans by " + roundedText (worst, 2) + " degrees from the mesh" : "is lost";
+    return "the mesh is too coarse for round edges: the smooth surface through its points " + how + " at " + placeOf (mesh, there) + "; set crease below "
+           + roundedText (sharpest, 3) + " degrees, the sharpest of these edges, or refine the mesh near its edges";
+}
+
+std::string abruptStiffness (const Surface& s)
+{
+    constexpr double pressed = 1e-3, steep = 0.5 * (1.0 - 1e-9), little = 0.1;   // m; of the change around; of the force
+    const Mesh& mesh = *s.mesh;
+    const auto eachEdge = [&] (const auto& use) {
+        for (const auto& corners : mesh.triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                use (at (corners[i]), at (corners[(i + 1) % 3]));
+    };
+    double worst = 0.0;
+    std::size_t from = 0, to = 0;
+    for (const auto& nodes : s.curves)
+    {
+        if (nodes.size() == 1) continue;
+        std::vector<double> force;
+        force.reserve (nodes.size());
+        for (const auto& curves : nodes)
+            force.push_back (curves[2](pressed));
+        auto low = force, high = force;   // of the points up to two edges away
+        for (int ring = 0; ring < 2; ++ring)
+        {
+            const auto low_before = low, high_before = high;
+            eachEdge ([&] (std::size_t a, std::size_t b) {
+                low[a] = std::min (low[a], low_before[b]);
+                low[b] = std::min (low[b], low_before[a]);
+                high[a] = std::max (high[a], high_before[b]);
+                high[b] = std::max (high[b], high_before[a]);
+            });
+        }
+        eachEdge ([&] (std::size_t a, std::size_t b) {
+            const double most = std::max (high[a], high[b]), range = most - std::min (low[a], low[b]), change = std::abs (force[a] - force[b]);
+            if (range <= little * most || change < steep * range || change / most <= worst) return;
+            worst = change / most;
+            from = force[a] < force[b] ? a : b;
+            to = force[a] < force[b] ? b : a;
+        });
+    }
+    if (worst == 0.0) return {};
+    const Vec3& p = mesh.points[to];
+    return "the stiffness changes over fewer than three cells of the mesh, so it is felt to change more slowly: between the points " + std::to_string (from)
+           + " and " + std::to_string (to) + ", at (" + short3 (p.x()) + ", " + short3 (p.y()) + ", " + short3 (p.z())
+           + ") of the file; refine the mesh there, or let the stiffness change over more cells";
 }
 
 }   // namespace tactus

@@ -20,4 +20,12 @@ std::string wrongSide (const Surface&);
 /// out is sharper than `crease` (rad).
 std::string sharpEdges (const Surface&, double crease, const std::vector<double>& radii);
 
+/// A warning if the mesh is too coarse for the edges that `crease` (rad) calls round: the smooth surface through its nodes leans far from its triangles
+/// there. Empty if not. It builds the surface only if triangles of one face meet at more than 45 degrees.
+std::string coarseFaces (const Surface&, double crease);
+
+/// A warning if the force along the normal, at a depth of 1 mm, changes over fewer than three cells of the mesh, so that the tool feels a slower change;
+/// else empty.
+std::string abruptStiffness (const Surface&);
+
 }   // namespace tactus

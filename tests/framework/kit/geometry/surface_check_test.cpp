@@ -152,3 +152,72 @@ TEST_CASE ("mesh: a concave face is cut as it is", "[mesh]")
         RC_ASSERT (std::abs (cut - wanted) < 1e-4);   // the file has six digits
     });
 }
+
+TEST_CASE ("mesh: round edges of a mesh that is too coarse for them are found, and those of a coarse ball are not", "[mesh]")
+{
+    const auto old = coarseFaces (*bodyOf (block (1)), std::numbers::pi);
+    INFO (old);
+    CHECK (old.starts_with ("the mesh is too coarse for round edges: "));
+    CHECK (old.find ("set crease below 90 degrees") != std::string::npos);
+    CHECK (coarseFaces (*bodyOf (block (1)), std::numbers::pi / 6.0) == "");   // its edges are sharp
+
+    Mesh ball;   // an octahedron with its faces divided once
+    ball.points = { Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ() };
+    for (int side = 0; side < 4; ++side)
+        for (const int pole : { 4, 5 })
+        {
+            const int a = pole, b = pole == 4 ? side : (side + 1) % 4, c = pole == 4 ? (side + 1) % 4 : side;
+            const auto between = [&] (int i, int k) {
+                const Vec3 p = (ball.points[static_cast<std::size_t> (i)] + ball.points[static_cast<std::size_t> (k)]).normalized();
+                const auto known = std::ranges::find (ball.points, p) - ball.points.begin();
+                if (known == std::ssize (ball.points)) ball.points.push_back (p);
+                return static_cast<int> (known);
+            };
+            const int ab = between (a, b), bc = between (b, c), ca = between (c, a);
+            for (const auto& triangle : { std::array { a, ab, ca }, std::array { ab, b, bc }, std::array { ca, bc, c }, std::array { ab, bc, ca } })
+                ball.triangles.push_back (triangle);
+        }
+    CHECK (wrongSide (*bodyOf (ball)) == "");
+    CHECK (coarseFaces (*bodyOf (ball), std::numbers::pi) == "");
+}
+
+TEST_CASE ("mesh: a stiffness that changes over fewer than three cells is found, whatever the laws are", "[mesh]")
+{
+    Mesh strip;
+    constexpr int n = 12;
+    for (int i = 0; i <= n; ++i)
+        for (int k = 0; k < 3; ++k)
+            strip.points.emplace_back (0.001 * i, 0.001 * k, 0.0);
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 2; ++k)
+        {
+            const int a = 3 * i + k, b = a + 3;
+            strip.triangles.push_back ({ a, b, b + 1 });
+            strip.triangles.push_back ({ a, b + 1, a + 1 });
+        }
+    const auto warningFor = [&] (int cells, double ratio, Law::Kind kind) {
+        auto surface = bodyOf (strip);
+        const Law spring { .kind = Law::Kind::power, .a = 500.0, .b = 1.0 };
+        std::vector<Surface::Curves> nodes;
+        for (int i = 0; i <= n; ++i)
+            for (int k = 0; k < 3; ++k)
+            {
+                const double x = std::clamp ((i - 4.0) / cells, 0.0, 1.0), a = 300.0 * (1.0 + (ratio - 1.0) * x);
+                nodes.push_back ({ spring, spring, { .kind = kind, .a = kind == Law::Kind::power ? a : a / 400.0, .b = kind == Law::Kind::power ? 1.0 : 400.0 } });
+            }
+        surface->curves = { nodes };
+        return abruptStiffness (*surface);
+    };
+    for (const auto kind : { Law::Kind::power, Law::Kind::exponential })
+    {
+        for (const double ratio : { 0.2, 1.5, 5.0 })
+        {
+            CHECK (warningFor (1, ratio, kind).find ("between the points ") != std::string::npos);
+            CHECK (warningFor (2, ratio, kind) != "");
+            CHECK (warningFor (3, ratio, kind) == "");
+            CHECK (warningFor (6, ratio, kind) == "");
+        }
+        CHECK (warningFor (1, 1.05, kind) == "");
+    }
+    CHECK (abruptStiffness (*bodyOf (strip)) == "");
+}
