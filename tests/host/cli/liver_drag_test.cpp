@@ -19,12 +19,12 @@ TEST_CASE ("the liver drags with a tenth of the push, at its edges with a third 
     auto feed = TableWriter::create (scratch.path ("feed.csv"), names);
     REQUIRE (feed);
     int tick = 0;
-    for (const double tool : { 0.0, 0.5, 1.0 })
+    for (const double tool : { 0.0, 0.5, 1.0 })   // their radii: 8, 5 and 2 mm
         for (const double depth : { 0.0002, 0.001, 0.002, 0.004, 0.006, deepest })
             for (int k = -200; k < 1000; ++k)   // down, and then 2 cm to the side
             {
                 const double down = std::min (1.0, (k + 200) / 200.0);
-                REQUIRE (feed->row (std::vector { tick++ / rate, 2e-5 * std::max (0, k), 0.0, 0.002 - (depth + 0.002) * down, tool }));
+                REQUIRE (feed->row (std::vector { tick++ / rate, 2e-5 * std::max (0, k), 0.0, 0.002 - (depth + 0.002) * down + 0.008 - 0.006 * tool, tool }));
             }
     REQUIRE (feed->commit());
 
