@@ -65,8 +65,8 @@ namespace tactus::nodes
 ///    node, they are interpolated at the point where the contact began.
 ///  - The barycentric weights n_i are replaced by those of the smooth body. They mix more than three nodes: on a regular mesh, a node has a
 ///    share of 0.43 of its own curve. So a stiffness that changes over fewer than three cells is smoothed.
-///  - A slip also moves c along the normal, towards the depth of the tool, which does not change U. So the drag of a slide is that of a flat body on
-///    a curved one, too, and does not step where a round tool rolls onto an edge.
+///  - A slip also moves c along the normal, towards the depth of the tool, which does not change U. So after a slide by a few times mu_c w, the drag
+///    on a curved body is that of a flat one, and it does not step where a round tool rolls onto an edge.
 ///  - A move of c costs the energy that it lowers: energy can come only from a move of c at fixed p that raises U. No move does, so the
 ///    node is passive for every mesh, frame, curve and mu. dissipated_energy is the fall of U, and never falls. The fall is computed with
 ///    the tool where it is in the middle of the move of c.
@@ -423,7 +423,7 @@ private:
         if (outside) clear = { p, 0 };
         if (! crossed) return {};
         const auto first = followed (*body, tool, crossed->touch, crossed->tool, p);
-        if (first.touch.held || outside) return {};   // too far in, or through and out again
+        if (first.touch.held) return {};   // too far in, or through and out again
         begin (*crossed, entered);
         return move (entry.tool, p);
     }

@@ -98,6 +98,25 @@ TEST_CASE ("surface: on a ball and on a cylinder, the force has no part sideways
     }
 }
 
+TEST_CASE ("surface: on a ball, a slide has the drag of a flat body, however deep", "[nodes][deform]")
+{
+    const auto gum = std::vector<std::vector<Surface::Curves>> { { curves (500.0, 1000.0) } };
+    const auto circle = [] (double angle) { return Vec3 { std::cos (angle), 0.6 * std::sin (angle), 0.8 * std::sin (angle) }; };
+    for (const double depth : { 0.0005, 0.002, 0.008 })
+    {
+        auto node = made (body (ball (0.02, 3), gum, { { .number = 0.1 } }));
+        node.tick ({ .position = 0.021 * circle (0.0) });
+        for (int k = 0; k <= 8000; ++k)
+        {
+            const double angle = 2.0 * pi * k / 8000.0;
+            const auto out = node.tick ({ .position = (0.02 - depth) * circle (angle) });
+            if (k < 2000) continue;   // until the anchor is as deep as the tool
+            const Vec3 drag = out.force - out.force.dot (out.normal) * out.normal;
+            REQUIRE (drag.norm() / out.resistance == Approx (0.1 * 500.0 / 1000.0).epsilon (0.02));   // with an anchor at the surface, up to 0.083
+        }
+    }
+}
+
 TEST_CASE ("surface: no tick changes the force on a hand by more than stiffness and curvature say, at 4 kHz and 0.1 m/s", "[nodes][deform]")
 {
     // A hand of 50 g on a spring of 300 N/m that goes around the body in circles, well damped.
