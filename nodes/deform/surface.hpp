@@ -182,7 +182,8 @@ struct ElasticSurface
         setting (&Settings::rotation, "rotation", unit::radian, "rotation of the mesh: axis times angle"),
         setting (&Settings::search_ticks, "search_ticks", unit::count, "ticks that the search for the nearest patch takes; 0: within the tick",
                  { .hard = { 0, 1000 }, .usual = { 0, 40 } }),
-        setting (&Settings::crease, "crease", unit::count, "in degrees: triangles that meet at a larger angle meet at a sharp edge; others are parts of one smooth face",
+        setting (&Settings::crease, "crease", unit::count,
+                 "in degrees: triangles that meet at a larger angle meet at a sharp edge; others are parts of one smooth face",
                  { .hard = { 0, 180 }, .usual = { 10, 180 } }),
         setting (&Settings::tool_radius, "tool_radius", unit::metre, "radius of a round tool, one for each tool or one for all; 0: a point"),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max as a curve over |d| / d_max; only for adhesion curve"),
@@ -399,7 +400,8 @@ private:
         const auto& foot = apart;
         if (std::exchange (resumes, false))
         {
-            const SurfaceSample there = begun (*body, tool, before.triangle < 0 ? foot : body->smooth().footOn (before.triangle, before.on.point), isFrictionless(), p);
+            const auto from = before.triangle < 0 ? foot : body->smooth().footOn (before.triangle, before.on.point);
+            const SurfaceSample there = begun (*body, tool, from, isFrictionless(), p);
             if (there.touch.foot.faces > 0) begin ({ there.touch, p }, before.triangle < 0 ? near : before);
             return there;
         }

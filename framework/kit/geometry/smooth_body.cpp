@@ -652,7 +652,8 @@ SmoothBody::Motion SmoothBody::motionOf (const Foot& foot, const Vec3& p) const 
         const double aa = a.dot (k * a), ab = a.dot (k * b), bb = b.dot (k * b), det = aa * bb - ab * ab;
         motion.foot = (bb * a * a.transpose() - ab * (a * b.transpose() + b * a.transpose()) + aa * b * b.transpose()) / det;
         const Vec3 ba = v.bend * a, bb_ = v.bend * b;
-        const Mat3 turn = (a.dot (ba) * a * a.transpose() + a.dot (bb_) * (a * b.transpose() + b * a.transpose()) + b.dot (bb_) * b * b.transpose()) / std::sqrt (gg);
+        const Mat3 mixed = a * b.transpose() + b * a.transpose();
+        const Mat3 turn = (a.dot (ba) * a * a.transpose() + a.dot (bb_) * mixed + b.dot (bb_) * b * b.transpose()) / std::sqrt (gg);
         motion.normal = turn * motion.foot;
         return motion;
     }
@@ -672,7 +673,7 @@ SmoothBody::Motion SmoothBody::motionOf (const Foot& foot, const Vec3& p) const 
     if (std::abs (foot.distance) > 0.0)
         motion.normal = (Mat3::Identity() - foot.normal * foot.normal.transpose() - motion.foot) / foot.distance;
 
-    // How the pulls change: sum slopes_i dl_i = (1 - k motion.foot) dp.
+    // The change of the pulls: sum slopes_i dl_i = (1 - k motion.foot) dp.
     using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most>;
     Columns g (3, foot.faces);
     for (int i = 0; i < foot.faces; ++i)

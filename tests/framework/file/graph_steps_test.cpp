@@ -124,7 +124,8 @@ TEST_CASE ("each included file is migrated by its own version")
 TEST_CASE ("parts of version 1 that have the wrong shape are reported by the reader, not by the migration")
 {
     for (const auto* members : { R"("nodes": 3)", R"("nodes": { "a": 3 })", R"("nodes": { "a": { "type": 3 } })", R"("graphs": { "g": [] })",
-                                 R"("nodes": { "a": { "type": "friction.elasto_plastic", "params": [] } })", R"("nodes": { "a": { "type": "deform.surface", "settings": 3 } })" })
+                                 R"("nodes": { "a": { "type": "friction.elasto_plastic", "params": [] } })",
+                                 R"("nodes": { "a": { "type": "deform.surface", "settings": 3 } })" })
     {
         const auto messages = readGraph (file (1, members)).messages;
         INFO (members);

@@ -174,7 +174,8 @@ TEST_CASE ("smooth body: the force changes by no more than nearest points do, fo
         Vec3 middle;
         double inner;
     };
-    for (const auto& [mesh, middle, inner] : { Case { tactus::test::ball (0.02, 2), Vec3::Zero(), 1.0 }, Case { moved (tactus::test::ball (0.02, 3), 0.02, 0.15), Vec3::Zero(), 1.0 },
+    for (const auto& [mesh, middle, inner] : { Case { tactus::test::ball (0.02, 2), Vec3::Zero(), 1.0 },
+                                               Case { moved (tactus::test::ball (0.02, 3), 0.02, 0.15), Vec3::Zero(), 1.0 },
                                                Case { bumps, Vec3 { 0.028, 0.028, 0.0 }, 0.018 } })
     {
         Mesh shifted = mesh;

@@ -146,7 +146,8 @@ TEST_CASE ("surface: no tick changes the force on a hand by more than stiffness 
                 const double t = k / rate, way = speed * t;
                 const double down = std::min (1.0, 4.0 * t), size = (sharp ? 0.96 : 0.8) * std::min (b.reach.x(), b.reach.y());   // over the edges
                 const Vec3 aim = b.centre
-                                 + Vec3 (size * std::cos (way / size), size * std::sin (way / size), 0.03 * (1.0 - down) - down * 0.002 * (1.0 + std::sin (40.0 * way)));
+                                 + Vec3 (size * std::cos (way / size), size * std::sin (way / size),
+                                         0.03 * (1.0 - down) - down * 0.002 * (1.0 + std::sin (40.0 * way)));
                 const Vec3 force = before.force + spring * (aim - p) - damper * v;
                 v += force / mass / rate;
                 p += v / rate;
