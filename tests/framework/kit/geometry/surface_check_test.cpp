@@ -203,10 +203,8 @@ TEST_CASE ("mesh: a stiffness that changes over fewer than three cells is found,
             for (int k = 0; k < 3; ++k)
             {
                 const double x = std::clamp ((i - 4.0) / cells, 0.0, 1.0), a = 300.0 * (1.0 + (ratio - 1.0) * x);
-                {
-                    const bool is_power = kind == Law::Kind::power;
-                    nodes.push_back ({ spring, spring, { .kind = kind, .a = is_power ? a : a / 400.0, .b = is_power ? 1.0 : 400.0 } });
-                }
+                const bool is_power = kind == Law::Kind::power;
+                nodes.push_back ({ spring, spring, { .kind = kind, .a = is_power ? a : a / 400.0, .b = is_power ? 1.0 : 400.0 } });
             }
         surface->curves = { nodes };
         return abruptStiffness (*surface);
