@@ -93,7 +93,10 @@ TEST_CASE ("mesh: inside out, closed or open, is noticed, and a bowl is not", "[
     constexpr int n = 9;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < n; ++k)
-            bowl << "v " << i - n / 2 << ' ' << k - n / 2 << ' ' << 0.1 * ((i - n / 2) * (i - n / 2) + (k - n / 2) * (k - n / 2)) << '\n';
+        {
+            const int x = i - n / 2, y = k - n / 2;
+            bowl << "v " << x << ' ' << y << ' ' << 0.1 * (x * x + y * y) << '\n';
+        }
     for (int i = 0; i + 1 < n; ++i)
         for (int k = 0; k + 1 < n; ++k)
             bowl << "f " << i * n + k + 1 << ' ' << (i + 1) * n + k + 1 << ' ' << (i + 1) * n + k + 2 << ' ' << i * n + k + 2 << '\n';
