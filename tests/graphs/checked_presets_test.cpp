@@ -104,5 +104,6 @@ TEST_CASE ("what the check says of the loop of a preset is what a simulation sho
                                   trial.swings ? own::Grip { trial.hand.mass, trial.hand.damping, trial.hand.stiffness } : own::Grip {}, how);
         INFO (nameOf (row->verdict) << ": " << row->text << "\nat " << t_s << " s: " << how);
         CHECK ((row->verdict == check::Verdict::unstable) == does);
+        CHECK (row->verdict != check::Verdict::unstable);
     }
 }
