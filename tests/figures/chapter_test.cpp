@@ -71,7 +71,11 @@ TEST_CASE ("the commands in the walk through the chapter record what they plot",
         const auto ran = test::runTactus (arguments);
         INFO (ran.err);
         CHECK (ran.status == 0);
-        CHECK (ran.err.empty());
+        // Fig. 9 has four nodes, as in the chapter, and the page says that they are too few.
+        if (part[1].str().ends_with ("/patch.json"))
+            CHECK (ran.err.find ("the stiffness changes over fewer than three cells") != std::string::npos);
+        else
+            CHECK (ran.err.empty());
 
         const auto header = test::textOf (scratch.path ("out.csv")).substr (0, 1000);
         if (part[5].matched) CHECK (header.find (part[5].str()) != std::string::npos);
