@@ -3,6 +3,7 @@
 #include "framework/check/own_loop.hpp"
 #include "support/rounds.hpp"
 #include "support/sketch.hpp"
+#include "unstable_presets.hpp"
 
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/check/hands.hpp>
@@ -104,6 +105,6 @@ TEST_CASE ("what the check says of the loop of a preset is what a simulation sho
                                   trial.swings ? own::Grip { trial.hand.mass, trial.hand.damping, trial.hand.stiffness } : own::Grip {}, how);
         INFO (nameOf (row->verdict) << ": " << row->text << "\nat " << t_s << " s: " << how);
         CHECK ((row->verdict == check::Verdict::unstable) == does);
-        CHECK (row->verdict != check::Verdict::unstable);
+        CHECK ((row->verdict == check::Verdict::unstable) == test::unstable_presets.contains (file.stem().string()));
     }
 }
