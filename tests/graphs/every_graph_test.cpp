@@ -141,7 +141,8 @@ std::string readme()
             controls += (controls.empty() ? "" : ", ") + c.name;
         for (const auto& t : g.tags)
             tags += (tags.empty() ? "" : ", ") + t;
-        const std::string cells[] { "[" + g.name + "](" + path.filename().string() + ")", g.about, controls, needs, devicesFor (path.stem().string(), g, profiles), tags };
+        const auto link = "[" + g.name + "](" + path.filename().string() + ")", devices = devicesFor (path.stem().string(), g, profiles);
+        const std::string cells[] { link, g.about, controls, needs, devices, tags };
         for (const auto& cell : cells)
             text += "| " + cell + " ";
         text += "|\n";

@@ -166,7 +166,7 @@ std::string tryGuardian()
         if (const int file = armed[i].file.load(); file >= 0)
         {
             auto reports = armed[i].reports;
-            reports.due = shared.load()->beats[i] == SharedState::taken ? 1 : 0;   // nobody knows whether the last guardian could write them
+            reports.due = shared.load()->beats[i] == SharedState::taken ? 1 : 0;   // the killed guardian may not have written them
             guardian::send (to_guardian, reports, file);
         }
     return {};

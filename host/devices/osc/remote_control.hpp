@@ -95,7 +95,7 @@ public:
 /// The roles in the status of a run.
 std::vector<RemoteTarget::Role> rolesOf (const RunStatus&);
 
-/// Twelve random digits and letters. Wrong ones cost a stranger nothing, so that nobody can keep the owner of the right one waiting.
+/// Twelve random digits and letters. There is no delay after a wrong token, because other users could use it to lock out the owner of the right one.
 std::string randomToken();
 
 /// Handles the messages at an OSC port and answers them: docs/osc.md. [main thread]

@@ -59,7 +59,8 @@ std::string whyNot (const std::string& format)
         code = numberAt (format, 24);
     }
     const int channels = numberAt (format, 2), bits = numberAt (format, 14), bytes = numberAt (format, 12);
-    static constexpr std::pair<int, std::string_view> compressed[] { { 2, "ADPCM" }, { 6, "A-law" }, { 7, "mu-law" }, { 17, "IMA ADPCM" }, { 49, "GSM" }, { 80, "MPEG" }, { 85, "MP3" } };
+    using Named = std::pair<int, std::string_view>;
+    static constexpr Named compressed[] { { 2, "ADPCM" }, { 6, "A-law" }, { 7, "mu-law" }, { 17, "IMA ADPCM" }, { 49, "GSM" }, { 80, "MPEG" }, { 85, "MP3" } };
     for (const auto& [known, name] : compressed)
         if (code == known) return "its samples are compressed, as " + std::string (name);
     if (code != 1 && code != 3) return "its samples have a format that is not read, of the number " + std::to_string (code);

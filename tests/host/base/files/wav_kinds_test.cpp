@@ -84,7 +84,7 @@ Written written (Random& random)
         for (auto& channel : made.channels)
             channel.push_back (sample (random, is_float, bits, data));
 
-    // What is wrong with it, if anything.
+    // The number of its defect; the largest numbers stand for none.
     const int defect = random.below (12);
     int code = is_float ? 3 : 1, written_bits = bits, written_channels = channels;
     std::uint32_t written_hertz = hertz;

@@ -166,7 +166,8 @@ TEST_CASE ("one thread of a play handles the emergency signals, and where real-t
 TEST_CASE ("an emergency stop by a key is ended by a key, and by no message, even with the token", "[cli][osc][safety]")
 {
     const Scratch scratch;
-    const auto graph = R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "nodes": { "motor": { "type": "device.force", "role": "tip" } }, "wires": [] })";
+    const auto graph = R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "wires": [],
+                            "nodes": { "motor": { "type": "device.force", "role": "tip" } } })";
     test::OnTerminal play { { "play", scratch.write ("g.json", graph), "--device", "tip=sim", "--osc", "0", "--duration", "600" }, true };
     REQUIRE (test::eventually ([&] { return play.err().find ("Ctrl-C ends the run") != std::string::npos; }));
     const auto said = play.err();

@@ -287,7 +287,7 @@ TEST_CASE ("a stop over OSC is not dropped, however many messages wait", "[osc][
     CHECK (stage.puppet.emergency);
 }
 
-TEST_CASE ("a stranger who guesses tokens keeps nobody with the right one waiting", "[osc][safety]")
+TEST_CASE ("wrong tokens from a stranger do not delay messages with the right one", "[osc][safety]")
 {
     Stage stage;
     stage.puppet.drives_device = true;

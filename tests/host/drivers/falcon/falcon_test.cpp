@@ -454,7 +454,7 @@ TEST_CASE ("a stop of a Falcon waits for no answer", "[falcon][safety]")
         return device->read (50ms, reading, stamp, why) == TACTUS_DEVICE_OK && falcon.pushes > 5;
     }));
 
-    // Nobody reads any more: whatever the device gets from now on does not come from an answer.
+    // From now on the answers are not read, so a packet that the device gets is not triggered by one.
     falcon.fault = Fault::silent;
     REQUIRE (eventually ([&] {   // the last packet has a force, and its answer never comes
         write (1.0);
