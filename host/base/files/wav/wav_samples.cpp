@@ -240,7 +240,8 @@ void setNumber (std::string& format, std::size_t at, std::uint32_t value, std::s
 std::unique_ptr<juce::InputStream> rounded (Chunks chunks, juce::InputStream& wav, juce::int64 bytes)
 {
     const auto claimed = chunks.data_bytes.value_or (0) / 2;
-    const auto count = static_cast<double> (bytes / 8) > budgets().numbers ? 0 : bytes / 8;
+    const auto in_file = bytes / 8;
+    const auto count = static_cast<double> (in_file) > budgets().numbers ? 0 : in_file;
     auto& format = chunks.format;
     const auto rate = static_cast<std::uint32_t> (numberAt (format, 4)) | static_cast<std::uint32_t> (numberAt (format, 6)) << 16u;
     const auto frame = static_cast<std::uint32_t> (numberAt (format, 12)) / 2;
@@ -267,7 +268,11 @@ WavSamples samplesOnly (std::unique_ptr<juce::InputStream> wav)
     if (! none.why.empty()) return none;
     const auto in_file = std::max (juce::int64 { 0 }, wav->getTotalLength() - chunks->data_start);
     const auto bytes = std::clamp (chunks->data_bytes.value_or (0), juce::int64 { 0 }, in_file);
-    if (hasDoubles (chunks->format)) return { rounded (*chunks, *wav, bytes), bytes / 2, {} };
+    if (hasDoubles (chunks->format))
+    {
+        auto floats = rounded (*chunks, *wav, bytes);
+        return { std::move (floats), bytes / 2, {} };
+    }
     return { std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes), bytes, {} };
 }
 
