@@ -35,7 +35,8 @@ Json simulationOf (const hid::Profile& profile, const Json* before)
 }
 
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles,
-                                           std::span<const hid::ConnectedDevice> without_profile, std::span<const ConnectedEvents> events)
+                                           std::span<const hid::ConnectedDevice> without_profile, std::span<const ConnectedEvents> events,
+                                           std::span<const OfferedDevice> offered)
 {
     std::vector<BindingChoice> all { { TRANS ("as in the graph").toStdString(), Json() },
                                      { TRANS ("simulated tool").toStdString(), defaultDevice() },
@@ -67,6 +68,13 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         const auto& port = is_alone ? d.name : d.path;
         const auto label = filled (TRANS ("%1, through the kernel"), is_alone ? d.name : d.name + " (" + d.path + ")");
         all.push_back ({ label.toStdString(), { { "driver", event_driver }, { "port", port } } });
+    }
+    for (const auto& d : offered)
+    {
+        const auto port = d.description.at ("port").asString();
+        auto label = filled (d.is_sure ? TRANS ("%1 at %2") : TRANS ("%2 as %1"), d.name, port);
+        if (! d.may_open) label = filled (TRANS ("%1 (this user may not open it)"), label);
+        all.push_back ({ label.toStdString(), d.description });
     }
     for (const auto& p : profiles.profiles)
         if (hid::isNumbersOnly (*p))

@@ -5,6 +5,7 @@
 #include <host/app/text/filled.hpp>
 #include <host/devices/hid/profile_reader.hpp>
 #include <host/devices/hid_link/transport.hpp>
+#include <host/devices/sessions/offered_devices.hpp>
 #include <tactus/text/json.hpp>
 
 #include <span>
@@ -29,10 +30,11 @@ struct BindingChoice
 };
 
 /// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, each of
-/// `without_profile`, which have force feedback, each event device, by its name if that is its own, a simulation of each device that is known only by
+/// `without_profile`, which have force feedback, each event device, by its name if that is its own, each offered device, a simulation of each device that is known only by
 /// its numbers, the gestures, and what the role is bound to now if that is none of these.
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&,
-                                           std::span<const hid::ConnectedDevice> without_profile = {}, std::span<const ConnectedEvents> = {});
+                                           std::span<const hid::ConnectedDevice> without_profile = {}, std::span<const ConnectedEvents> = {},
+                                           std::span<const OfferedDevice> = {});
 
 /// The device of a binding, without its workspace and guard, and, if its driver is one of Tactus, without its channels, calibration and rate.
 Json deviceOfBinding (Json binding);

@@ -12,14 +12,30 @@
 namespace tactus::host
 {
 
-/// A step that can be undone. What undo leaves is what redo brings back: a limit that was changed in between stays.
 void DevicesPanel::bind (const std::string& role, const std::string& label)
 {
-    const auto* choice = choiceOf (role, label);
-    if (choice == nullptr) return;
-    const auto profile = choice->numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice->numbers);
+    if (const auto* choice = choiceOf (role, label)) bindTo (role, BindingChoice (*choice));   // a copy, because the choices are made anew
+}
+
+void DevicesPanel::bindAddress (const std::string& role, const juce::String& address)
+{
+    refused_addresses.erase (role);
+    const auto text = address.trim();
+    if (text.isEmpty()) return;
+    auto device = readAddress (text.toStdString(), setup.profiles());
+    const auto wrong = device ? checkBinding (*device, setup.session().file.parent_path(), setup.profiles()) : Messages { device.error() };
+    if (complain (wrong))
+        refused_addresses[role] = text;
+    else
+        bindTo (role, { text.toStdString(), *std::move (device) });
+}
+
+/// A step that can be undone. What undo leaves is what redo brings back: a limit that was changed in between stays.
+void DevicesPanel::bindTo (const std::string& role, const BindingChoice& choice)
+{
+    const auto profile = choice.numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice.numbers);
     const auto before = boundNow (role);
-    edit ([role, to = choice->description, profile] (DeviceSession& s) {
+    edit ([role, to = choice.description, profile] (DeviceSession& s) {
         const auto* now = s.binding (role);
         if (to.is_null())
             s.unbind (role);

@@ -236,6 +236,7 @@ void DevicesPanel::update()
 {
     const auto connected = setup.connected(), without_profile = setup.withoutProfile();
     const auto events = setup.events();
+    const auto offered = setup.offered();
     fits = fitsOf (run.needs(), document.graph(), setup.session(), setup.profiles(), connected);
     Shape now;
     for (const auto& fit : fits)
@@ -243,7 +244,7 @@ void DevicesPanel::update()
         now.roles.push_back (fit.role);
         const auto* binding = bindingOf (fit.role);
         now.drivers.push_back (binding != nullptr ? driverOf (*binding) : std::string());
-        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles(), without_profile, events));
+        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles(), without_profile, events, offered));
     }
     now.routes = routes().size();
     if (columns.empty() || now != shape)
@@ -308,6 +309,13 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
         return choice != nullptr ? choice->label : std::string(); },
         [this, role] (const std::string& to) { bind (role, to); },
         TRANS ("The device for this role, in every graph")));
+    card->add (textRow (
+        TRANS ("address"), [this, role] {
+        const auto refused = refused_addresses.find (role);
+        return refused != refused_addresses.end() ? refused->second : juce::String(); },
+        [this, role] (const juce::String& text) { bindAddress (role, text); },
+        TRANS ("Binds the role to a device that the list does not show: serial:PROFILE@PORT, udp:PROFILE@ADDRESS:PORT, hid:PROFILE, or DRIVER:PORT for "
+               "a driver in a plugin, such as haply:localhost:10001")));
     card->add (remark ([this, role] { return fitRemark (role); }));
     card->add (remark ([this, role] { return statusRemark (role); }));
     card->add (buttonRow (

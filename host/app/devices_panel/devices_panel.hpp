@@ -9,6 +9,8 @@
 #include <host/devices/audio/card.hpp>
 #include <host/devices/sessions/role_fits.hpp>
 
+#include <map>
+
 namespace tactus::host
 {
 
@@ -95,6 +97,7 @@ private:
     std::vector<RoleFit> fits;
     std::vector<audio::ListedCard> sound_cards;
     bool has_listed = false;
+    std::map<std::string, juce::String> refused_addresses;   // by role
     Shape shape;
     std::vector<std::unique_ptr<Column>> columns, retired;   // retired: kept alive, because a row may rebuild the card that contains it
     juce::Viewport scroll;

@@ -12,7 +12,10 @@
 namespace tactus::host
 {
 
-DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p, ListEvents list) : devices (s), known (p), list_events (list) {}
+DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p, ListEvents events, ListOffered offered)
+    : devices (s), known (p), list_events (events), list_offered (offered)
+{
+}
 
 DeviceSetup::~DeviceSetup()
 {
@@ -74,6 +77,12 @@ std::vector<ConnectedEvents> DeviceSetup::events() const
     return found_events;
 }
 
+std::vector<OfferedDevice> DeviceSetup::offered() const
+{
+    const std::lock_guard lock (mutex);
+    return found_offered;
+}
+
 void DeviceSetup::scanLoop()
 {
     using namespace std::chrono_literals;
@@ -88,10 +97,10 @@ void DeviceSetup::scanLoop()
             auto without_profile = connected_now;
             std::erase_if (without_profile,
                            [&] (const auto& d) { return ! hid::matching (known.profiles, d).empty() || ! hid::hasForceFeedback (devices, d); });
-            return std::tuple { std::move (connected_now), std::move (without_profile), list_events() };
+            return std::tuple { std::move (connected_now), std::move (without_profile), list_events(), list_offered (known) };
         });
         lock.lock();
-        if (look) std::tie (found, found_without_profile, found_events) = std::move (*look);   // else it looks again a second later
+        if (look) std::tie (found, found_without_profile, found_events, found_offered) = std::move (*look);   // else it looks again a second later
         changed.wait_for (lock, 1s, [this] { return ends; });
     }
 }

@@ -5,12 +5,18 @@
 #include "device_profiles.hpp"
 
 #include <host/devices/hid_link/open_device.hpp>
+#include <host/devices/sessions/offered_devices.hpp>
 #include <host/devices/sessions/session_file.hpp>
 #include <tactus/text/result.hpp>
 
 #include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 namespace tactus::host
 {
@@ -20,8 +26,10 @@ class DeviceSetup
 {
 public:
     using ListEvents = std::vector<ConnectedEvents> (*)();
+    using ListOffered = std::vector<OfferedDevice> (*) (const hid::LoadedProfiles&);
 
-    explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles(), ListEvents = connectedEvents);
+    explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles(), ListEvents = connectedEvents,
+                          ListOffered = offeredDevices);
     ~DeviceSetup();
 
     /// Reads the user's session. Before that, the session is empty and is not saved.
@@ -31,7 +39,7 @@ public:
     hid::HidSystem& system() const noexcept { return devices; }
     const hid::LoadedProfiles& profiles() const noexcept { return known; }
 
-    /// Changes the session and its file, or neither.
+    /// Changes the session and its file, or neither. What another program has changed in the file is noticed before.
     Result<> edit (const std::function<void (DeviceSession&)>&);
 
     std::function<void()> onChange;   ///< called when the session has changed
@@ -41,6 +49,7 @@ public:
     std::vector<hid::ConnectedDevice> connected() const;        ///< as of the last scan
     std::vector<hid::ConnectedDevice> withoutProfile() const;   ///< of these, the devices with force feedback that no profile fits
     std::vector<ConnectedEvents> events() const;                ///< event devices, as of the last scan
+    std::vector<OfferedDevice> offered() const;                 ///< devices at serial ports and of other drivers, as of the last scan
 
 private:
     void scanLoop();
@@ -48,6 +57,7 @@ private:
     hid::HidSystem& devices;
     const hid::LoadedProfiles& known;
     const ListEvents list_events;
+    const ListOffered list_offered;
     LoadedSession now;
     bool is_saved = false;
 
@@ -56,6 +66,7 @@ private:
     bool scans = false, ends = false;
     std::vector<hid::ConnectedDevice> found, found_without_profile;
     std::vector<ConnectedEvents> found_events;
+    std::vector<OfferedDevice> found_offered;
     std::jthread scanner;   // declared last: it uses the members above
 };
 

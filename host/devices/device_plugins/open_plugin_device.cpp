@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 namespace tactus::host
@@ -53,6 +54,18 @@ std::optional<fs::path> findDriver (std::string_view name, const std::vector<fs:
 }
 
 std::optional<fs::path> findDriver (std::string_view name) { return findDriver (name, usedPluginFolders()); }
+
+std::vector<std::string> installedDrivers()
+{
+    std::set<std::string> names;
+    for (const auto& folder : usedPluginFolders())
+    {
+        std::error_code failed;
+        for (fs::directory_iterator it (folder, failed), end; ! failed && it != end; it.increment (failed))
+            if (auto name = it->path().stem().string(); it->path().extension() == DeviceDriver::suffix && findDriver (name)) names.insert (std::move (name));
+    }
+    return { names.begin(), names.end() };
+}
 
 Json parsePluginDevice (std::string_view text)
 {

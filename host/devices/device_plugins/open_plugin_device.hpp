@@ -24,6 +24,9 @@ std::optional<std::filesystem::path> findDriver (std::string_view name, const st
 /// The same in the folders of this program.
 std::optional<std::filesystem::path> findDriver (std::string_view name);
 
+/// The names of all drivers in the folders of this program, sorted. Loads nothing. [main thread]
+std::vector<std::string> installedDrivers();
+
 /// The description for an option NAME or NAME:PORT: {"driver": "NAME", "port": "PORT"}. Null if there is no such driver. [main thread]
 Json parsePluginDevice (std::string_view);
 
