@@ -287,7 +287,7 @@ std::unique_ptr<Column> DevicesPanel::clockCard()
     if (std::ranges::count (choices, chosen()) == 0) choices.push_back (chosen());
     card->add (choiceRow (
         TRANS ("source"), choices, chosen,
-        [this] (const std::string& to) { edit ([&] (DeviceSession& s) { s.setClock (clockLabelled (to)); }); },
+        [this] (const std::string& to) { chooseClock (to); },
         TRANS ("What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph")));
     card->add (remark ([this] { return clockRemark(); }));
     const auto saved_in = setup.session().file.string();
@@ -435,6 +435,35 @@ std::unique_ptr<Block> DevicesPanel::cardRow (const char* pointer, const char* l
     return choiceRow (
         juce::translate (label), choices, now, [this, at, any] (const std::string& to) { setCard (at, to == any ? juce::String() : fromUtf8 (to)); },
         juce::translate (about));
+}
+
+/// True if the card that the session names, or any, is among those that were found.
+bool DevicesPanel::hasSoundCard() const
+{
+    const auto* sound = setup.session().session.audio();
+    const auto wanted = [sound] (const char* key) {
+        const auto value = sound != nullptr ? sound->value (key, Json()) : Json();
+        return value.is_string() ? value.asString() : std::string();
+    };
+    const auto type = wanted ("type"), output = wanted ("output");
+    return std::ranges::any_of (sound_cards, [&] (const audio::ListedCard& c) {
+        return c.trouble.empty() && ! c.outputs.empty() && (type.empty() || c.type == type) && c.name.find (output) != std::string::npos;
+    });
+}
+
+void DevicesPanel::chooseClock (const std::string& label)
+{
+    const auto clock = clockLabelled (label);
+    if (clock == "audio")
+    {
+        listSoundCards();
+        if (! hasSoundCard())
+        {
+            if (onHint) onHint (TRANS ("The sound card cannot be the clock, because none was found that fits the settings under Sound card."));
+            return update();
+        }
+    }
+    edit ([&] (DeviceSession& s) { s.setClock (clock); });
 }
 
 void DevicesPanel::listSoundCards()

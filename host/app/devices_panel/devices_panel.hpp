@@ -37,6 +37,9 @@ public:
     Column& card (std::size_t i) { return *columns[i]; }
 
     void bind (const std::string& role, const std::string& label);   ///< binds the role to the choice with this label
+    /// Binds the role to the device at this address, as readAddress() reads it. An address that names none is refused with a hint, and stays in its field.
+    void bindAddress (const std::string& role, const juce::String& address);
+    void chooseClock (const std::string& label);   ///< a sound card that is missing is refused with a hint
     /// The labels of what each role can be bound to.
     std::vector<std::pair<std::string, std::vector<std::string>>> choices();
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
@@ -72,6 +75,8 @@ private:
         const auto* now = bindingOf (role);
         return now != nullptr ? *now : Json();
     }
+    void bindTo (const std::string& role, const BindingChoice&);
+    bool hasSoundCard() const;
     Json putDevice (const std::string& role, Json binding);
     void putWorkspace (const std::string& role, const Json& workspace);
     void update();

@@ -118,6 +118,7 @@ Remark DevicesPanel::tickRemark() const
     if (by_card) return { filled (TRANS ("Ticked by the sound card, at %1 Hz."), rate), false };
     if (! role.empty()) return { filled (TRANS ("Ticked by %1, at %2 Hz."), role, rate), false };
     if (wanted.empty() || wanted == "timer") return { filled (TRANS ("Ticked by a timer, at %1 Hz."), rate), false };
+    if (wanted == "audio") return { filled (TRANS ("Ticked by a timer, at %1 Hz: the sound card is missing."), rate), true };
     const auto why = fitOf (wanted) == nullptr ? TRANS ("Ticked by a timer, at %1 Hz: this graph has no role %2.")
                                                : TRANS ("Ticked by a timer, at %1 Hz: the device of %2 cannot tick the run at the moment.");
     return { filled (why, rate, wanted), false };

@@ -30,6 +30,7 @@ void DeviceSetup::open (const std::filesystem::path& home)
 {
     now = loadDefaultSession (home);
     is_saved = ! home.empty();
+    seen = stampOfFile();
     if (onChange) onChange();
 }
 
@@ -37,14 +38,40 @@ Result<> DeviceSetup::edit (const std::function<void (DeviceSession&)>& change)
 {
     if (is_saved)
     {
+        readAgain();
         auto edited = editSession (now, change);
         if (! edited.isGood()) return *std::ranges::find (edited.messages, Message::Severity::error, &Message::severity);
         now = std::move (edited);
+        seen = stampOfFile();
     }
     else
         change (now.session);
     if (onChange) onChange();
     return {};
+}
+
+DeviceSetup::Stamp DeviceSetup::stampOfFile() const
+{
+    std::error_code failed;
+    const auto written = std::filesystem::last_write_time (now.file, failed);
+    const auto size = failed ? 0 : std::filesystem::file_size (now.file, failed);
+    return failed ? Stamp() : Stamp ({ written, size });
+}
+
+void DeviceSetup::follow()
+{
+    if (is_saved && stampOfFile() != seen) readAgain();
+}
+
+/// A file that cannot be read, such as one that is still being written, changes nothing.
+void DeviceSetup::readAgain()
+{
+    seen = stampOfFile();
+    auto read = rereadSession (now.file);
+    if (std::ranges::count (read.messages, "session/foreign", &Message::id) > 0) now.messages = read.messages;   // edit() refuses from now on
+    if (! read.isGood() || read.session == now.session) return;
+    const auto before = std::exchange (now, std::move (read));
+    if (onChangedElsewhere) onChangedElsewhere (before.session);
 }
 
 void DeviceSetup::scan (bool on)

@@ -42,7 +42,14 @@ public:
     /// Changes the session and its file, or neither. What another program has changed in the file is noticed before.
     Result<> edit (const std::function<void (DeviceSession&)>&);
 
-    std::function<void()> onChange;   ///< called when the session has changed
+    /// Notices that another program, such as `tactus session`, has changed the file of the session. Call a few times a second: a look at an unchanged
+    /// file costs one system call or two.
+    void follow();
+
+    std::function<void()> onChange;   ///< called when edit() or open() has changed the session
+
+    /// Called when another program has changed the session, with what it was before. The new one must not drive a device before a person starts.
+    std::function<void (const DeviceSession& before)> onChangedElsewhere;
 
     /// Turns the scan for connected devices on or off. It runs once a second, on its own thread.
     void scan (bool on);
@@ -52,7 +59,11 @@ public:
     std::vector<OfferedDevice> offered() const;                 ///< devices at serial ports and of other drivers, as of the last scan
 
 private:
+    using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;   // empty: there is no file
+
     void scanLoop();
+    Stamp stampOfFile() const;
+    void readAgain();
 
     hid::HidSystem& devices;
     const hid::LoadedProfiles& known;
@@ -60,6 +71,7 @@ private:
     const ListOffered list_offered;
     LoadedSession now;
     bool is_saved = false;
+    Stamp seen;   // of the file, when it was last read or written
 
     mutable std::mutex mutex;   // guards the members below
     std::condition_variable changed;

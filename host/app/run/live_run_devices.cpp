@@ -119,6 +119,16 @@ bool LiveRun::holdWorkspace (bool is_held)
     return device != nullptr;
 }
 
+bool LiveRun::wouldGetOtherDevices() const
+{
+    if (setup == nullptr) return false;
+    const auto &before = run_session, &now = setup->session().session;
+    const auto differs = [] (const Json* a, const Json* b) { return (a == nullptr) != (b == nullptr) || (a != nullptr && *a != *b); };
+    return now.clock() != before.clock() || differs (before.audio(), now.audio()) || std::ranges::any_of (needed, [&] (const RoleNeeds& r) {
+               return ! isMovedOtherwise (r.role) && differs (before.binding (r.role), now.binding (r.role));
+           });
+}
+
 /// Moves the devices whose offset is all that differs between the session of the run and this one. False if more differs, so that the run has to begin
 /// again. Also false if the run has other roles: their nodes may see the position of this tool jump, and only the guard of the moved role knows.
 bool LiveRun::moveWorkspaces (const DeviceSession& now)

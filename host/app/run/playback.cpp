@@ -52,6 +52,13 @@ void Playback::stop (By who) noexcept
     current().stop (who);
 }
 
+bool Playback::sessionChanged() noexcept
+{
+    const bool stops = (live_run.isWanted() || resumes) && live_run.wouldGetOtherDevices();
+    if (stops) stop();
+    return stops;
+}
+
 void Playback::emergencyStop (By who) noexcept
 {
     resumes = false;

@@ -28,6 +28,10 @@ public:
     void stop (By = By::person) noexcept;   ///< stops the document's run or the preview, whichever is current
     void emergencyStop (By = By::person) noexcept;
 
+    /// Another program has changed the session. Stops what would get other devices by it, as a person does: only a person starts them. Returns true if
+    /// it has stopped.
+    bool sessionChanged() noexcept;
+
     /// Stops the document, and runs another graph with its own gesture until endPreview().
     void preview (graph::Graph);
     void endPreview();   ///< runs the document again if it ran before

@@ -229,6 +229,7 @@ void MainView::timerCallback()
         wake();
     else if (awake_for == 0 || --awake_for == 0)
         rest();
+    device_setup.follow();
     playback.poll();
     if (std::exchange (was_trying, playback.isTrying()) && ! was_trying) status.hint ({});   // what the test of a device said
     attendClutch();

@@ -101,6 +101,7 @@ public:
     Tour& guidedTour() noexcept { return tour; }
     void beginTour();   ///< if nothing is open, with a preset to feel
     Inspector& inspected() noexcept { return inspector; }
+    DevicesPanel& devicesPanel() noexcept { return devices; }
     juce::String statusText() const { return status.text(); }
     bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while: it polls and paints less often
     void report (const Message&);                               ///< an error that belongs to no part of the window, in the status line

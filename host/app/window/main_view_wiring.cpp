@@ -2,6 +2,7 @@
 // Which panel of the window calls what. All connections between panels are here.
 #include "main_view.hpp"
 
+#include <host/app/devices_panel/session_change.hpp>
 #include <host/app/look/focus.hpp>
 
 namespace tactus::host
@@ -120,6 +121,13 @@ void MainView::connectRun()
     };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
 
+    device_setup.onChangedElsewhere = [this] (const DeviceSession& before) {
+        const bool has_stopped = playback.sessionChanged();
+        const auto what = changeText (before, device_setup.session().session);
+        status.refuse (filled (has_stopped ? TRANS ("Another program has changed your devices: %1. The run has stopped, and START uses them.")
+                                           : TRANS ("Another program has changed your devices: %1."),
+                               what));
+    };
     devices.onHint = patching.onHint;
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
     devices.onBind = [this] (const std::string& role) -> std::function<void()> {

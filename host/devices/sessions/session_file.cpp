@@ -78,6 +78,13 @@ LoadedSession loadSession (const fs::path& file)
     return { std::move (read.session), file, std::move (read.messages), std::move (read.positions) };
 }
 
+LoadedSession rereadSession (const fs::path& file)
+{
+    if (! isThere (file)) return { {}, file, {} };
+    if (auto who = whoElseCanChange (file); ! who.empty()) return { {}, file, { foreign (file, std::move (who)) } };
+    return loadSession (file);
+}
+
 LoadedSession loadDefaultSession (const fs::path& home)
 {
     const auto file = defaultSessionFile (home);

@@ -31,6 +31,10 @@ std::filesystem::path defaultSessionFile (const std::filesystem::path& home);
 /// Loads a named file, which must exist. Ids: session/unreadable, and those of readSession. [main thread]
 LoadedSession loadSession (const std::filesystem::path& file);
 
+/// Loads a session file that may be missing, and that another program may be writing: it stays in place, whatever is in it. One that another user can
+/// change is not read. Ids: those of loadSession, session/foreign. [main thread]
+LoadedSession rereadSession (const std::filesystem::path& file);
+
 /// Loads the default session file, which may be missing. A damaged file is renamed to session.json.broken (or .broken-2 …)
 /// with a warning, and the session is empty. A file with errors that the user can fix stays in place, and one that another user can
 /// change is not read. Ids: those of loadSession, session/set_aside, session/foreign.
