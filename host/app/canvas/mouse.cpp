@@ -177,7 +177,7 @@ void Canvas::showMenu (juce::Point<float> at, const juce::PopupMenu::Options& pl
         of_param.addSubMenu (TRANS ("Node"), menu);
         menu = of_param;
     }
-    menu.showMenuAsync (place.withParentComponent (getTopLevelComponent()));
+    menu.showMenuAsync (place.withParentComponent (this));
 }
 
 void Canvas::mouseDoubleClick (const juce::MouseEvent& e)

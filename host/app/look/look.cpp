@@ -140,11 +140,30 @@ void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int hei
 
 juce::Component* Look::getParentComponentForMenuOptions (const juce::PopupMenu::Options& options)
 {
-    if (auto* parent = options.getParentComponent()) return parent;
+    const auto areaAround = [] (juce::Component* part) -> juce::Component* {
+        for (auto* c = part; c != nullptr; c = c->getParentComponent())
+            if (auto* area = c->findChildWithID (menu_area)) return area;
+        return nullptr;
+    };
+    if (auto* parent = options.getParentComponent())
+    {
+        auto* area = areaAround (parent);
+        return area != nullptr ? area : parent;
+    }
     const auto mouse = juce::Desktop::getInstance().getMainMouseSource();
     for (auto* near : { options.getTargetComponent(), juce::Component::getCurrentlyFocusedComponent(), mouse.getComponentUnderMouse() })
-        if (near != nullptr) return near->getTopLevelComponent();
+        if (near != nullptr)
+        {
+            auto* area = areaAround (near);
+            return area != nullptr ? area : near->getTopLevelComponent();
+        }
     return nullptr;
+}
+
+void Look::preparePopupMenuWindow (juce::Component& menu)
+{
+    for (auto* c = menu.getParentComponent(); c != nullptr; c = c->getParentComponent())
+        if (auto* listens = dynamic_cast<juce::KeyListener*> (c)) return menu.addKeyListener (listens);
 }
 
 Look& lookOf (const juce::Component& c) { return dynamic_cast<Look&> (c.getLookAndFeel()); }

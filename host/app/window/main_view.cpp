@@ -71,6 +71,7 @@ void MainView::addPanels()
         addAndMakeVisible (*edge);
     for (auto* over : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour, &fitting, &question, &shade })
         addChildComponent (over);
+    addAndMakeVisible (menus);
     resized();
 }
 

@@ -48,7 +48,7 @@ class MainView final : public juce::Component,
                        private Document::Listener,
                        private juce::Timer,
                        private juce::FocusChangeListener,
-                       private juce::KeyListener
+                       public juce::KeyListener
 {
 public:
     explicit MainView (const Catalogue&);
@@ -281,6 +281,7 @@ private:
     FitPanel fitting;
     Tour tour;
     Shade shade;
+    juce::Component menus;                          // where menus open: below the strip, so that STOP stays within reach
     std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen

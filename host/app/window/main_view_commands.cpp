@@ -86,8 +86,14 @@ bool MainView::isAnythingOpen() const
            || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
 }
 
-/// Esc closes what is open before it stops, unless there are motors: then you should not have to look first.
-bool MainView::escStops() { return playback.current().drivesDevice() || ! isAnythingOpen(); }
+/// Esc closes a page, a dialog or a field before it stops, unless there are motors: then you should not have to look first. It never closes the palette
+/// or a menu before it stops: they open in passing, over the graph that runs.
+bool MainView::escStops()
+{
+    const auto* modal = juce::Component::getCurrentlyModalComponent();
+    const bool is_menu_open = modal != nullptr && menus.isParentOf (modal);
+    return playback.current().drivesDevice() || is_menu_open || palette.isVisible() || ! isAnythingOpen();
+}
 
 /// A stop must work whichever component has the focus: a text field or a menu would swallow the key.
 void MainView::globalFocusChanged (juce::Component* now)

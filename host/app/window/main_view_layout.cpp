@@ -23,6 +23,9 @@ void MainView::addPages()
 {
     pages.setTitle (TRANS ("Pages"));
     palette.getProperties().set ("space above", SafetyStrip::height);   // STOP stays within reach
+    menus.setComponentID (Look::menu_area);
+    menus.setInterceptsMouseClicks (false, true);
+    menus.setAlwaysOnTop (true);
     for (const auto& [name, part] : pageParts())
         pages.add<juce::Component> (juce::translate (name));
     pages.onShow = [this] {
@@ -106,8 +109,9 @@ void MainView::resized()
     help.setArea (area.withRight (getWidth()).withBottom (isSmall() ? area.getBottom() : hand.getBottom()).reduced (isSmall() ? 4 : 16));
     fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
     tour.setBounds (getLocalBounds());
-    tour.resized();                                                               // what it frames may have moved
-    question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
+    tour.resized();   // what it frames may have moved
+    for (auto* over : std::initializer_list<juce::Component*> { &question, &menus })
+        over->setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
     shade.setBounds (question.getBounds());
 }
 

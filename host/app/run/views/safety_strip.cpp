@@ -155,8 +155,8 @@ void SafetyStrip::refresh()
     auto now = stateOf (playback.current());
     if (now == shown) return;
     button->show (now.running ? TRANS ("STOP") : TRANS ("START"), now.running);
-    button->setTooltip (now.running ? TRANS ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph "
-                                             "keeps running.")
+    button->setTooltip (now.running ? TRANS ("Ramps all forces to zero. So does Esc, unless it closes a page, a dialog or a field, and always while a device "
+                                             "runs. With Shift+Esc, the graph keeps running.")
                                     : TRANS ("Runs the graph. So does F5. The forces rise slowly."));
     rearm->setVisible (now.stopped_for_good);
     shown = std::move (now);
