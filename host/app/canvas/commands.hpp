@@ -45,6 +45,10 @@ public:
     /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);
 
+    /// As perform(). The new nodes and notes with these ids have places. If they would cover others there, they go together to the next free place above
+    /// or below.
+    bool performBeside (graph::Command, const Selection& made);
+
     /// As perform(). New nodes without a position get a free place where their wires are short, and come into view. Returns their ids; none if the
     /// edit is refused.
     Selection performPlaced (graph::Command);

@@ -111,6 +111,42 @@ Selection CanvasCommands::performPlaced (graph::Command command)
     return made;
 }
 
+bool CanvasCommands::performBeside (graph::Command command, const Selection& made)
+{
+    auto then = graphWithPlaces();
+    graph::Batch all { graph::nameOf (command), { command } };
+    if (graph::apply (then, command))
+    {
+        const auto scene = canvas.sceneOf (then);
+        std::vector<juce::Rectangle<float>> added, others;
+        juce::Rectangle<float> block;
+        const auto add = [&] (graph::Id id, juce::Rectangle<float> box) {
+            (made.contains (id) ? added : others).push_back (box);
+            if (made.contains (id)) block = block.isEmpty() ? box : block.getUnion (box);
+        };
+        auto notes = scene->notes();
+        for (const auto& n : scene->nodes())
+            add (n.id, n.bounds());
+        for (std::size_t i = 0; i < notes.size(); ++i)
+            if (! notes[i].isRegion()) add (noteId (i), notes[i].area);
+        const auto isCovering = [&] (const auto& box) { return std::ranges::any_of (others, [&] (const auto& o) { return o.intersects (box); }); };
+        if (std::ranges::any_of (added, isCovering))
+        {
+            const auto by = clearPlace (block, others) - block.getPosition();
+            all.commands.push_back (moved (then, canvas.patch(), movedParts (then, canvas.patch(), *scene, made), by));
+            bool has_notes = false;
+            for (std::size_t i = 0; i < notes.size(); ++i)
+                if (made.contains (noteId (i)))
+                {
+                    notes[i].area += by;
+                    has_notes = true;
+                }
+            if (has_notes) all.commands.push_back (setNotes (then, canvas.patch(), notes, NEEDS_TRANS ("move")));
+        }
+    }
+    return perform (std::move (all));
+}
+
 graph::Graph CanvasCommands::graphAsShown() const
 {
     return withValuesInEffect (graphWithPlaces(), canvas.seen(), canvas.types());
@@ -136,7 +172,7 @@ void CanvasCommands::duplicateSelection()
 {
     Selection made;
     auto command = duplicate (graphAsShown(), canvas.patch(), canvas.scene(), canvas.selection(), made);
-    if (command && perform (std::move (*command))) canvas.select (made);
+    if (command && performBeside (*std::move (command), made)) canvas.select (made);
 }
 
 void CanvasCommands::copySelection() const
@@ -157,7 +193,7 @@ void CanvasCommands::pasteText()
     auto command = paste (document.graph(), canvas.patch(), text, offset, made);
     if (! command)
         canvas.notice (filled (TRANS ("Nothing to paste: %1"), fromUtf8 (command.error().text)));
-    else if (! made.empty() && perform (*std::move (command)))
+    else if (! made.empty() && performBeside (*std::move (command), made))
         canvas.select (made);
 }
 
