@@ -131,7 +131,7 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
     if (face.type != nullptr && claimsPassive (*face.type))
         column.add (TRANS ("Passive with its default parameters: it generates no energy over any closed path."), TextBlock::Kind::small);
     if (face.kind == Face::Kind::placeholder)
-        column.add (TRANS ("Unknown node type. The node keeps its parameters and wires; its outputs are 0."), TextBlock::Kind::text);
+        column.add (TRANS ("Unknown node type. The node keeps its parameters and wires. A graph with it does not start."), TextBlock::Kind::text);
     if (face.kind == Face::Kind::subgraph) column.add (TRANS ("A subgraph. Double-click it on the canvas to enter."), TextBlock::Kind::text);
     column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
     if (at.contacts && at.patch.empty())

@@ -32,7 +32,7 @@ juce::String descriptionOf (const Preset& p)
 {
     if (! p.problem.empty()) return p.problem;
     const auto placeholders = placeholderText (p);
-    return placeholders.empty() ? juce::String (p.about) : juce::String (placeholders) + ". " + TRANS ("Their outputs are 0.") + " " + p.about;
+    return placeholders.empty() ? juce::String (p.about) : juce::String (placeholders) + ". " + TRANS ("The graph does not run without them.") + " " + p.about;
 }
 }   // namespace
 

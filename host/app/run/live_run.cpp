@@ -257,7 +257,7 @@ void LiveRun::begin()
     session = std::make_unique<LiveSession> (catalogue, hardware, sessionOptions());
     said = session->load (graph);
     std::ranges::move (of_sound, std::back_inserter (said));
-    if (! session->isLoaded())
+    if (! session->isLoaded() || session->hasPlaceholders())   // without a node that it needs, a graph may push as nobody intended
     {
         log_next.clear();
         return session.reset();

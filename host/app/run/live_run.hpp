@@ -109,8 +109,9 @@ public:
     void keepLimits (std::map<std::string, GuardLimits> limits) { kept_limits = std::move (limits); }
 
     bool isRunning() const noexcept { return session && session->isRunning(); }
-    bool isWanted() const noexcept { return wanted; }                 ///< started and not stopped since; it may still fail to compile
-    bool isWaiting() const noexcept { return wanted && ! session; }   ///< started, but the graph does not compile yet: an edit may start it
+    bool isWanted() const noexcept { return wanted; }                               ///< started and not stopped since; it may still fail to compile
+    bool isWaiting() const noexcept { return wanted && ! session; }                 ///< started, but the graph does not compile yet: an edit may start it
+    bool isOfOpenGraph() const noexcept { return run_of == document.identity(); }   ///< false while the run of the graph before still fades out
     const Hand& hand() const noexcept { return moved_by; }
 
     /// True if the mouse, or a path that the user has chosen, moves the tool of the role.

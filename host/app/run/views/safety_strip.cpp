@@ -53,10 +53,17 @@ juce::String runningText (const LiveRun& run)
     return text;
 }
 
+juce::String firstError (const LiveRun& run)
+{
+    const auto& all = run.messages();
+    const auto error = std::ranges::find (all, Message::Severity::error, &Message::severity);
+    return error == all.end() ? juce::String() : fromUtf8 (error->text).replaceCharacters ("\n", " ");
+}
+
 /// Of a graph with errors that does not run.
 juce::String whyNot (const LiveRun& run)
 {
-    return run.isWaiting() ? TRANS ("starts once the problems are solved") : TRANS ("cannot run: see Problems");
+    return filled (run.isWaiting() ? TRANS ("cannot run: %1 (starts once this is solved)") : TRANS ("cannot run: %1"), firstError (run));
 }
 
 juce::String delayText (const LiveRun& run)
@@ -178,7 +185,9 @@ SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
     }
     now.has_errors = has_errors;
     const bool halting = status->phase == RunStatus::Phase::halting;
-    if (has_errors)
+    if (has_errors && run.isRunning() && ! run.isOfOpenGraph())
+        now.state = filled (TRANS ("this graph cannot run: %1; the one before is felt until it stops"), firstError (run));
+    else if (has_errors)
         now.state = run.isRunning() && ! halting ? TRANS ("edit has errors; still running the last valid version") : whyNot (run);
     else if (! now.running)
         now.state = reason (*status, run);
