@@ -49,9 +49,15 @@ std::vector<const NodeType*> layerTypes (const Catalogue& catalogue, bool vector
 
 namespace
 {
-/// A layer with a node of this type. A clip is played over and over, so its inputs stay unwired.
+enum class ClipPlays
+{
+    at_taps,
+    in_a_loop,   // so that its inputs stay unwired
+};
+
+/// A layer with a node of this type.
 Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type, const std::string& clip,
-                             std::optional<double> gain)
+                             ClipPlays plays, std::optional<double> gain)
 {
     const auto* mixer = findMixer (g, at);
     const auto* patch = mixing::patchOf (g, at.patch);
@@ -74,14 +80,15 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     node.name = freeName (*patch, {}, type.substr (type.find ('.') + 1));
     node.type = type;
     node.params = firstParams (type);
-    if (! clip.empty()) playClip (node, clip);
+    if (! clip.empty() && plays == ClipPlays::in_a_loop) playClip (node, clip);
+    if (! clip.empty()) node.settings["clip"] = clip;
     if (gain) node.params["gain"] = numberText (*gain) + " N";
     const auto name = node.name;
     const auto id = node.id;
     batch.name = filled (TRANS ("add the layer %1"), name).toStdString();
     batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
     const auto later = wiring::downstreamOf (*patch, at.node);
-    auto missing = clip.empty() ? wiring::wireInputs (*sheet, name, g, at.patch, later, catalogue, batch) : std::string();
+    auto missing = plays == ClipPlays::at_taps ? wiring::wireInputs (*sheet, name, g, at.patch, later, catalogue, batch) : std::string();
     if (type == clip_type && clip.empty())
         missing = filled (TRANS ("Choose a clip for %1 in the inspector"), name).toStdString() + (missing.empty() ? "" : ". " + missing);
     auto out = wiring::endOf (name, output->port);
@@ -94,14 +101,15 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
 }
 }   // namespace
 
-Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type)
+Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type,
+                             const std::string& clip)
 {
-    return addLayer (g, at, catalogue, type, {}, {});
+    return addLayer (g, at, catalogue, type, clip, ClipPlays::at_taps, {});
 }
 
 Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& file, std::optional<double> gain)
 {
-    return addLayer (g, at, catalogue, std::string (clip_type), file, gain);
+    return addLayer (g, at, catalogue, std::string (clip_type), file, ClipPlays::in_a_loop, gain);
 }
 
 Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)

@@ -2,6 +2,7 @@
 #include "layers_panel.hpp"
 
 #include <host/app/look/size_in_view.hpp>
+#include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
@@ -49,7 +50,7 @@ LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document
         const auto called = juce::translate (juce::String (kind.name));
         auto& b = *kinds.emplace_back (std::make_unique<ToolButton> ("+ " + called, ToolButton::Kind::framed, juce::translate (juce::String (kind.about))));
         b.setTitle (filled (TRANS ("Add a layer: %1"), called));
-        b.onClick = [this, type = kind.type] { add (type); };
+        b.onClick = [this, type = kind.type] { begin (type); };
         addAndMakeVisible (b);
     }
     more.onClick = [this] { openMenu(); };
@@ -209,7 +210,15 @@ void LayersPanel::choose (std::size_t mixer)
     });
 }
 
-void LayersPanel::add (const std::string& type)
+void LayersPanel::begin (const std::string& type)
+{
+    if (type != clip_type || ! onChooseClip) return add (type);
+    onChooseClip ([safe = juce::Component::SafePointer (this), type] (const std::filesystem::path& file) {
+        if (safe != nullptr) safe->add (type, file);
+    });
+}
+
+void LayersPanel::add (const std::string& type, const std::filesystem::path& clip)
 {
     graph::Batch batch { NEEDS_TRANS ("add a layer"), {} };
     auto place = chosen;
@@ -225,7 +234,7 @@ void LayersPanel::add (const std::string& type)
         place = mixer->place;
         batch.commands.push_back (std::move (mixer->command));
     }
-    auto added = addLayer (graph, place, catalogue, type);
+    auto added = addLayer (graph, place, catalogue, type, clip.empty() ? std::string() : pathFrom (clip, graph.folder));
     if (! added) return refuse (added.error());
     if (const auto* named = std::get_if<graph::Batch> (&added->command.edit)) batch.name = named->name;
     batch.commands.push_back (std::move (added->command));
@@ -314,7 +323,7 @@ void LayersPanel::openMenu()
         menu.addItem (static_cast<int> (types.size()), std::string (t->info.name));
     }
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more), [safe = juce::Component::SafePointer (this), types] (int chosen_item) {
-        if (safe != nullptr && chosen_item > 0) safe->add (types[static_cast<std::size_t> (chosen_item - 1)]);
+        if (safe != nullptr && chosen_item > 0) safe->begin (types[static_cast<std::size_t> (chosen_item - 1)]);
     });
 }
 

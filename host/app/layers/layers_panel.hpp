@@ -24,13 +24,17 @@ public:
     std::function<void (const std::string& patch, graph::Id node)> onSelect;
     std::function<void (const std::string& patch, graph::Id node)> onAdded;   ///< receives the node of a layer that the user has just added
     std::function<void (const juce::String&)> onHint;
+    /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. Empty: the layer begins without a file.
+    std::function<void (std::function<void (const std::filesystem::path&)> chosen)> onChooseClip;
 
     void choose (std::size_t mixer);   ///< selects the mixer to show, if there are several
     const std::vector<MixerPlace>& mixers() const noexcept { return all; }
     std::size_t layers() const noexcept { return strips.size(); }
     LayerStrip& layer (std::size_t i) { return *strips[i]; }
     MixStrip* mix() noexcept { return total.get(); }
-    void add (const std::string& type);   ///< adds a layer with a node of that type, "" for an empty one; adds a mixer first if there is none
+    /// Adds a layer with a node of that type, "" for an empty one; adds a mixer first if there is none. A clip plays this file at each tap.
+    void add (const std::string& type, const std::filesystem::path& clip = {});
+    void begin (const std::string& type);   ///< like add(), but asks for the file of a clip first
     void addMixerNow();
 
     /// Adds a layer that plays a clip file, with this gain in N, or a gentle one. Without a mixer, adds one first, in the same step.

@@ -63,8 +63,9 @@ struct AddedLayer
 
 /// A texture is felt only in contact: it is multiplied by the gain of a contact window. The patch must have such a window, or a depth for a new
 /// one. A mixer of vectors gets the force of a texture with its direction, and numbers along z.
+/// A clip plays the file `clip`, a path as the graph contains it, at each tap.
 /// If the mixer has only one layer and nothing is wired to it, this layer is filled. Ids: mixer/gone, mixer/full, mixer/type.
-Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
+Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {}, const std::string& clip = {});
 
 /// Adds a layer that plays a clip in a loop, as a vibration, with this gain in N, or a gentle one. `file` is the path as the graph contains it.
 /// Ids: as addLayer.

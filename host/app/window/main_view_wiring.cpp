@@ -119,6 +119,7 @@ void MainView::connectRun()
         turnTo (patching);
         patching.show (patch, node);
     };
+    layers.onChooseClip = [this] (auto chosen) { askForSetting (clip_patterns, {}, std::move (chosen)); };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
 
     device_setup.onChangedElsewhere = [this] (const DeviceSession& before) {

@@ -66,6 +66,31 @@ TEST_CASE ("a mixer has a strip for each layer, with its name, source and gain",
     REQUIRE (rig.panel->mix() != nullptr);
 }
 
+TEST_CASE ("+ Clip asks for its file first: without one nothing is added, and with one each tap plays it", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    const auto before = writeGraph (rig.document->graph());
+    std::function<void (const std::filesystem::path&)> answer;
+    rig.panel->onChooseClip = [&] (auto chosen) { answer = std::move (chosen); };
+    const auto press = [&] {
+        for (auto* child : rig.panel->getChildren())
+            if (auto* b = dynamic_cast<juce::Button*> (child); b != nullptr && b->getButtonText() == "+ Clip") b->onClick();
+    };
+    press();
+    REQUIRE (answer);
+    CHECK (writeGraph (rig.document->graph()) == before);   // the user may choose none
+
+    answer ("/clips/knock.haptic");
+    const auto& nodes = rig.document->graph().root.nodes;
+    const auto clip = std::ranges::find (nodes, "signal.clip", &graph::Node::type);
+    REQUIRE (clip != nodes.end());
+    CHECK (clip->settings["clip"].get<std::string>().ends_with ("/clips/knock.haptic"));
+    CHECK_FALSE (clip->params.contains ("repeat"));                                                                            // it does not loop
+    CHECK (std::ranges::any_of (rig.document->graph().root.wires, [&] (const auto& w) { return w.to.node == clip->name; }));   // a tap starts it
+    CHECK (rig.panel->layers() == 4);
+    CHECK (rig.document->history().position() == 1);
+}
+
 TEST_CASE ("a fader that is set by a control moves the control, in one undo step", "[layers]")
 {
     Rig rig ("bronze_bell.json");
