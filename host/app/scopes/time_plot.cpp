@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "time_plot.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -44,7 +45,7 @@ void TimePlot::show (const Signals& signals)
         {
             const auto& t = traces[i];
             const auto component = traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String();
-            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i, traces.size()), component });
+            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i, traces.size()), fromUtf8 (port), component });
             all.push_back (t);
         }
     }
@@ -116,11 +117,23 @@ void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index
     for (std::size_t i = 0; i < std::min (lines.size(), columns.size()); ++i)
         if (lines[i].lane == index) drawTrace (g, lane, columns[i].columns(), zero, rate_hz, lines[i].colour);
 
-    // Components differ in lightness, in the same way for all vectors of a lane.
-    std::vector<Entry> components;
+    if (const auto legend = legendOf (index); ! legend.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), legend, false);
+}
+
+/// The ports of a lane, if there are several, and the components of its first vector: components differ in lightness, in the same way for all vectors.
+auto TimePlot::legendOf (std::size_t lane) const -> std::vector<Entry>
+{
+    std::vector<Entry> ports, components;
+    juce::StringArray seen_ports;
     for (const auto& l : lines)
-        if (l.lane == index && l.component.isNotEmpty() && components.size() < 3) components.push_back ({ l.colour, l.component });
-    if (! components.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), components, false);
+    {
+        if (l.lane != lane) continue;
+        if (seen_ports.addIfNotAlreadyThere (l.port)) ports.push_back ({ l.colour, l.port });
+        if (l.component.isNotEmpty() && components.size() < 3) components.push_back ({ l.colour, l.component });
+    }
+    if (ports.size() < 2) return components;
+    ports.insert (ports.end(), components.begin(), components.end());
+    return ports;
 }
 
 void TimePlot::paintOver (juce::Graphics& g)

@@ -24,10 +24,12 @@ private:
     {
         std::size_t lane = 0;
         juce::Colour colour;
+        juce::String port;        // "stylus.position"
         juce::String component;   // the component of a vector, such as "x"
     };
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
+    std::vector<Entry> legendOf (std::size_t lane) const;
     void paintOver (juce::Graphics&) override;
     juce::String emptyText() const override;
     bool hasTrigger() const noexcept { return spec.trigger.edge != ScopeTrigger::Edge::off; }

@@ -155,6 +155,23 @@ TEST_CASE ("scopes: each unit has a lane, and all components of a vector share o
     CHECK (lanes[0].area.getBottom() <= lanes[1].area.getY());
 }
 
+TEST_CASE ("scopes: ports that share a lane, such as those of two roles, have colours of their own, and a legend names them", "[app][scopes]")
+{
+    Bench b;
+    const auto inLegend = [&] (const juce::String& word) {
+        return std::ranges::count_if (readTexts (b.view (ScopeKind::time).plot()), [&] (const auto& seen) { return seen.text == word; });
+    };
+    b.run (500);
+    CHECK (inLegend ("motor.force") == 0);   // alone, it is named above the plot
+    b.panel->probe ("drag.force");
+    b.run (500);
+    CHECK (b.view (ScopeKind::time).shown().ports.size() == 2);
+    CHECK (inLegend ("motor.force") == 1);
+    CHECK (inLegend ("drag.force") == 1);
+    const auto colour = [] (std::size_t port) { return traceColour (Theme::dark(), Quantity::force, port, 0, 3); };
+    CHECK (colour (0) != colour (1));
+}
+
 TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo", "[app][scopes]")
 {
     Bench b;
