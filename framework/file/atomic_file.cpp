@@ -121,7 +121,13 @@ Message AtomicFile::unwritable (const std::string& reason) const
                            "choose another file, create its folder, or free some space");
 }
 
-Message AtomicFile::writeError() const { return unwritable (errno != 0 ? std::generic_category().message (errno) : "the system gave no reason"); }
+Message AtomicFile::writeError() const
+{
+    const int why = errno;
+    if (why == 0) return unwritable ("the system gave no reason");
+    const auto reason = std::generic_category().message (why);
+    return unwritable (why == ENOSPC ? "the disk is full (" + reason + ")" : reason);
+}
 
 Result<AtomicFile> AtomicFile::create (const fs::path& path, IfKilled if_killed)
 {

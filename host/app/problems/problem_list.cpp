@@ -3,6 +3,7 @@
 
 #include <host/app/look/button.hpp>
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.wher
 class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (fromUtf8 (message.text)), remedy (fromUtf8 (message.remedy))
+    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (fromUtf8 (message.text)), remedy (fromUtf8 (withoutOptions (message.remedy)))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path

@@ -33,7 +33,7 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     for (const auto& m : messages)
     {
         if (m.severity != Message::Severity::error || ++count > most) continue;
-        if (m.file != file.string()) list << printableName (m.file) << ": ";
+        if (! m.file.empty() && m.file != file.string()) list << printableName (m.file) << ": ";
         if (m.line > 0) list << filled (TRANS ("Line %1, column %2"), m.line, m.column) << ": ";
         list << messageText (m) << ".\n\n";
     }
@@ -278,7 +278,8 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then, con
     if (const auto copied = copyInto (folder, copies); ! copied)
     {
         if (name != before) document.call (before);
-        return saveElsewhere (filled ("%1: %2.", printableName (copied.error().where), messageText (copied.error())), then);
+        const auto& where = copied.error().where;
+        return saveElsewhere (filled (where.empty() ? "%2." : "%1: %2.", printableName (where), messageText (copied.error())), then);
     }
     if (callbacks.onWrite) callbacks.onWrite (written);
     const auto messages = document.save (file, written);

@@ -105,6 +105,8 @@ TEST_CASE ("Save saves and continues, and if saving fails, it does not continue"
     d.chosen = d.folder / "nowhere" / "mine.json";
     d.question.answer (0);
     CHECK (d.question.title() == "The graph was not saved");
+    CHECK_FALSE (d.question.getDescription().trimStart().startsWithChar (':'));   // where the message names no file
+    CHECK (d.question.getDescription().contains ("there is no folder"));
     CHECK (d.document.graph().name == "Dry wood");
     CHECK (d.document.isChanged());
 
