@@ -64,9 +64,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     if (mixer == nullptr) return mixing::mixerIsGone();
     const int layers = layersOf (*mixer, catalogue);
     const bool fills = layers == 1 && ! type.empty() && wireInto (g, at, 0) == nullptr;   // the only layer is still empty
-    if (layers >= list_capacity && ! fills)
-        return Message::error ("mixer/full", {}, filled (TRANS ("a mixer has at most %1 layers"), list_capacity).toStdString(),
-                               TRANS ("add a second mixer").toStdString());
+    if (layers >= list_capacity && ! fills) return mixing::mixerIsFull();
 
     const int place = fills ? 0 : layers;
     graph::Batch batch { NEEDS_TRANS ("add a layer"), {} };

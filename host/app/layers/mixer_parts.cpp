@@ -2,6 +2,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <tactus/kit/list.hpp>
 #include <tactus/text/list_text.hpp>
 
 namespace tactus::host::mixing
@@ -24,5 +25,11 @@ std::string namesWith (const graph::Node& mixer, int layers, const std::string& 
 }
 
 Message mixerIsGone() { return Message::error ("mixer/gone", {}, TRANS ("the mixer no longer exists").toStdString()); }
+
+Message mixerIsFull()
+{
+    return Message::error ("mixer/full", {}, filled (TRANS ("a mixer has at most %1 layers"), list_capacity).toStdString(),
+                           TRANS ("add a second mixer").toStdString());
+}
 
 }   // namespace tactus::host::mixing

@@ -23,5 +23,6 @@ std::string joined (std::vector<std::string> names);
 std::string namesWith (const graph::Node& mixer, int layers, const std::string& last);
 
 Message mixerIsGone();
+Message mixerIsFull();
 
 }   // namespace tactus::host::mixing

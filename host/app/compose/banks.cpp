@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "banks.hpp"
+
+#include <host/app/layers/mixer_parts.hpp>
+#include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <tactus/graph/endpoints.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace tactus::host::compose
+{
+
+namespace
+{
+bool leadsTo (const graph::Wire& w, const std::string& sink, const SinkPort& port) { return w.to.node == sink && w.to.port == port.port; }
+
+/// The mixer whose whole mix goes into an input, and nowhere else; null if there is none.
+const graph::Node* bankOf (const graph::Patch& root, const std::string& sink, const SinkPort& port)
+{
+    for (const auto& w : root.wires)
+    {
+        if (! leadsTo (w, sink, port)) continue;
+        const auto* from = root.find (w.from.node);
+        const bool is_mix = from != nullptr && ! from->bypass && from->type == (port.is_vector ? mixing::vector_mixer : mixing::number_mixer)
+                            && w.from.port == "out" && w.from.component < 0;
+        const bool is_whole = w.to.component < 0 && w.delay == 0 && w.gain.is_null() && w.enabled.value_or (true);
+        const auto uses = std::ranges::count_if (root.wires, [&] (const graph::Wire& v) { return v.from.node == w.from.node && v.from.port == "out"; });
+        if (is_mix && is_whole && uses == 1) return from;
+    }
+    return nullptr;
+}
+
+graph::Node& nodeOf (graph::Patch& root, const std::string& name) { return *std::ranges::find (root.nodes, name, &graph::Node::name); }
+
+/// Makes a layer without a wire, and returns its number.
+Result<int> newLayer (graph::Patch& root, const std::string& mixer, const std::string& label, const Catalogue& catalogue)
+{
+    auto& node = nodeOf (root, mixer);
+    const int layers = layersOf (node, catalogue);
+    const bool is_empty = layers == 1 && std::ranges::none_of (root.wires, [&] (const graph::Wire& w) { return w.to.node == mixer && w.to.port == "in"; });
+    const int place = is_empty ? 0 : layers;
+    if (place >= list_capacity) return mixing::mixerIsFull();
+    node.settings["inputs"] = place + 1;
+    auto called = label;
+    std::ranges::replace (called, ',', ' ');
+    node.settings["names"] = mixing::namesWith (node, place + 1, called);
+    return place;
+}
+
+/// Wires that go past the mixer before this input.
+std::vector<std::string> around (const graph::Patch& root, const std::string& sink, const SinkPort& port, const std::string& mixer)
+{
+    std::vector<std::string> sources;
+    for (const auto& w : root.wires)
+        if (leadsTo (w, sink, port) && w.from.node != mixer) sources.push_back (graph::firstNameOf (w.from.node));
+    return sources;
+}
+}   // namespace
+
+Result<std::string> bankBefore (graph::Patch& root, const std::string& sink, const SinkPort& port, const Catalogue& catalogue)
+{
+    const auto* there = bankOf (root, sink, port);
+    graph::Node made;
+    const auto mixer = there != nullptr ? there->name : freeName (root, {}, "desk");
+    if (there == nullptr)
+    {
+        made.name = mixer;
+        made.type = port.is_vector ? mixing::vector_mixer : mixing::number_mixer;
+        made.settings["inputs"] = 1;
+        root.nodes.push_back (made);
+    }
+    for (auto& w : root.wires)
+    {
+        if (! leadsTo (w, sink, port) || w.from.node == mixer) continue;
+        const auto place = newLayer (root, mixer, graph::firstNameOf (w.from.node), catalogue);
+        if (! place) return place.error();
+        w.to = { mixer, "in", *place, w.to.component };
+    }
+    if (there == nullptr)
+    {
+        graph::Wire out;
+        out.from = { mixer, "out" };
+        out.to = { sink, std::string (port.port) };
+        root.wires.push_back (std::move (out));
+    }
+    return mixer;
+}
+
+Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::Endpoint& from, const std::string& label, const Catalogue& catalogue)
+{
+    const auto place = newLayer (root, mixer, label, catalogue);
+    if (! place) return place.error();
+    graph::Wire w;
+    w.from = from;
+    w.to = { mixer, "in", *place };
+    root.wires.push_back (std::move (w));
+    return {};
+}
+
+Result<> mixAll (graph::Graph& g, const Catalogue& catalogue)
+{
+    if (auto lifted = liftSinks (g); ! lifted) return lifted;
+    const auto nodes = g.root.nodes;
+    for (const auto& n : nodes)
+        for (const auto& port : sinkPortsOf (n))
+            if (std::ranges::any_of (g.root.wires, [&] (const graph::Wire& w) { return leadsTo (w, n.name, port); }))
+                if (auto bank = bankBefore (g.root, n.name, port, catalogue); ! bank) return bank.error();
+    return {};
+}
+
+Result<graph::Command> mixAllStep (const graph::Graph& g, const Catalogue& catalogue)
+{
+    const auto after = std::make_shared<graph::Graph> (g);
+    if (auto mixed = mixAll (*after, catalogue); ! mixed) return mixed.error();
+    return graph::Command (graph::Batch { NEEDS_TRANS ("mix everything"), { graph::ReplaceGraph { after } } });
+}
+
+std::vector<Bypassed> bypassedBanks (const graph::Graph& g)
+{
+    std::vector<Bypassed> found;
+    for (const auto& n : g.root.nodes)
+        for (const auto& port : sinkPortsOf (n))
+        {
+            const auto* bank = bankOf (g.root, n.name, port);
+            if (bank == nullptr) continue;
+            if (auto sources = around (g.root, n.name, port, bank->name); ! sources.empty()) found.push_back ({ n.name, bank->name, std::move (sources) });
+        }
+    return found;
+}
+
+}   // namespace tactus::host::compose

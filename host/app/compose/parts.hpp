@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// The kinds of effect in a graph, and how some of them are left out.
+
+#include <tactus/graph/graph.hpp>
+#include <tactus/node/catalogue.hpp>
+
+namespace tactus::host::compose
+{
+
+/// A set of kinds of effect, by what makes the force.
+struct Parts
+{
+    bool walls = true;        ///< surfaces and couplings
+    bool friction = true;     ///< what rubs
+    bool textures = true;     ///< gratings, height maps and recorded textures
+    bool vibrations = true;   ///< modes, shocks, clips, oscillators
+    bool others = true;       ///< cuts, fields, and nodes of plugins
+
+    bool operator== (const Parts&) const = default;
+
+    static Parts none() { return { false, false, false, false, false }; }
+    bool isAll() const { return *this == Parts {}; }
+};
+
+/// The kinds of effect that reach a motor at the top of the graph or inside of it.
+Parts partsOf (const graph::Graph&, const Catalogue&);
+
+/// Unplugs the effects of all other kinds from the motors at the top of the graph. They still serve what is kept: friction keeps the load of its wall.
+/// What is multiplied with an effect that is kept is kept, too. Nodes that serve nothing any more are removed, with their wires, and controls lose what
+/// they moved there.
+void keepOnly (graph::Graph&, const Parts& kept, const Catalogue&);
+
+}   // namespace tactus::host::compose
