@@ -129,7 +129,8 @@ public:
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
-    std::function<void (const std::filesystem::path&)> onFileDropped;                  ///< receives a file that is not a clip
+    /// Receives the file of a graph that is dropped here, or dragged here from the list of presets.
+    std::function<void (const std::filesystem::path&, juce::Point<float> at)> onGraphDropped;
     std::function<void (const std::string& type, const NodeRequest&)> onTypeDropped;   ///< a node is dragged here from the list of nodes
     std::function<void (const std::filesystem::path&)> onSaveClip;                     ///< receives the clip of a node, to be saved in another format
 

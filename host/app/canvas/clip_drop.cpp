@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is dropped on the canvas: clip files, and nodes from the list of nodes.
+// What is dropped on the canvas: files of clips and graphs, presets from their list, and nodes from the list of nodes.
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/palette/node_list.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
@@ -33,7 +34,9 @@ void Canvas::fileDragMove (const juce::StringArray& files, int x, int y)
     file_over = { x, y };
     const auto* node = shown->nodeAt (window.toCanvas (juce::Point<int> (x, y).toFloat()));
     const auto name = juce::String (printableName (droppedFile (files).filename().string()));
-    if (node == nullptr)
+    if (! isClipFile (droppedFile (files)))
+        hint (filled (TRANS ("Drop %1 to add it to this graph, as a node and a layer."), name));
+    else if (node == nullptr)
         hint (filled (TRANS ("Drop %1 to add a node that plays it."), name));
     else if (node->type == clip_type)
         hint (filled (TRANS ("Drop %1 to let %2 play it."), name, node->name));
@@ -54,7 +57,7 @@ void Canvas::filesDropped (const juce::StringArray& files, int x, int y)
     fileDragExit (files);
     const auto file = droppedFile (files);
     if (isClipFile (file)) return dropClip (file, juce::Point<int> (x, y).toFloat());
-    if (onFileDropped) onFileDropped (file);
+    if (onGraphDropped) onGraphDropped (file, window.toCanvas (juce::Point<int> (x, y).toFloat()));
 }
 
 void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
@@ -78,10 +81,14 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     notice (filled (TRANS ("Added a node that plays %1 over and over. Wire its value to a motor to feel it."), printableName (file.filename().string())));
 }
 
-bool Canvas::isInterestedInDragSource (const SourceDetails& dragged) { return ! NodeList::typeOf (dragged.description).empty(); }
+bool Canvas::isInterestedInDragSource (const SourceDetails& dragged)
+{
+    return ! NodeList::typeOf (dragged.description).empty() || ! fileOfDragged (dragged.description.toString().toStdString()).empty();
+}
 
 void Canvas::itemDragMove (const SourceDetails& dragged)
 {
+    if (NodeList::typeOf (dragged.description).empty()) return hint (TRANS ("Drop it to add it to this graph, as a node and a layer."));
     const auto* wire = shown->wireAt (window.toCanvas (dragged.localPosition.toFloat()), wire_reach / window.zoom);
     highlights.hovered = wire != nullptr ? wire->id : 0;
     hint (wire != nullptr ? filled (TRANS ("Drop it to insert it into %1"), wire->text) : TRANS ("Drop it to add it here"));
@@ -99,6 +106,11 @@ void Canvas::itemDropped (const SourceDetails& dragged)
 {
     itemDragExit (dragged);
     const auto at = window.toCanvas (dragged.localPosition.toFloat());
+    if (const auto file = fileOfDragged (dragged.description.toString().toStdString()); ! file.empty())
+    {
+        if (onGraphDropped) onGraphDropped (file, at);
+        return;
+    }
     const auto* wire = shown->nodeAt (at) == nullptr ? shown->wireAt (at, wire_reach / window.zoom) : nullptr;
     if (onTypeDropped) onTypeDropped (NodeList::typeOf (dragged.description), { at, {}, wire != nullptr ? wire->id : 0 });
 }

@@ -52,6 +52,7 @@ public:
     /// As perform(). New nodes without a position get a free place where their wires are short, and come into view. Returns their ids; none if the
     /// edit is refused.
     Selection performPlaced (graph::Command);
+    graph::Graph graphWithPlaces() const;   ///< the graph with the places of automatically arranged nodes stored in them
 
     std::vector<const SceneNode*> selectedNodes() const;
     void selectAll();
@@ -116,7 +117,6 @@ private:
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
-    graph::Graph graphWithPlaces() const;                   ///< stores in the nodes of the patch where they are
     graph::Graph graphAsShown() const;                      ///< stores in the nodes of the patch where they are, and what controls set them to
 
     Canvas& canvas;

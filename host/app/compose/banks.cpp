@@ -8,7 +8,6 @@
 #include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace tactus::host::compose
 {
@@ -48,6 +47,17 @@ Result<int> newLayer (graph::Patch& root, const std::string& mixer, const std::s
     std::ranges::replace (called, ',', ' ');
     node.settings["names"] = mixing::namesWith (node, place + 1, called);
     return place;
+}
+
+/// Inserts the first mixer before the forces of the graph as a click in the panel does, with room for it. Does nothing if there is one, or if nothing
+/// that has a direction reaches a motor yet.
+void addFirstMixer (graph::Graph& g, const Catalogue& catalogue)
+{
+    if (std::ranges::any_of (g.root.nodes, mixing::isMixer, &graph::Node::type)) return;
+    const auto first = addMixer (g, catalogue);
+    if (! first || ! first->place.vectors) return;
+    auto with = g;
+    if (graph::apply (with, first->command) && with.root.find (first->place.node)->settings.contains ("names")) g = std::move (with);
 }
 
 /// Wires that go past the mixer before this input.
@@ -103,19 +113,13 @@ Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::En
 Result<> mixAll (graph::Graph& g, const Catalogue& catalogue)
 {
     if (auto lifted = liftSinks (g); ! lifted) return lifted;
+    addFirstMixer (g, catalogue);
     const auto nodes = g.root.nodes;
     for (const auto& n : nodes)
         for (const auto& port : sinkPortsOf (n))
             if (std::ranges::any_of (g.root.wires, [&] (const graph::Wire& w) { return leadsTo (w, n.name, port); }))
                 if (auto bank = bankBefore (g.root, n.name, port, catalogue); ! bank) return bank.error();
     return {};
-}
-
-Result<graph::Command> mixAllStep (const graph::Graph& g, const Catalogue& catalogue)
-{
-    const auto after = std::make_shared<graph::Graph> (g);
-    if (auto mixed = mixAll (*after, catalogue); ! mixed) return mixed.error();
-    return graph::Command (graph::Batch { NEEDS_TRANS ("mix everything"), { graph::ReplaceGraph { after } } });
 }
 
 std::vector<Bypassed> bypassedBanks (const graph::Graph& g)
@@ -126,9 +130,21 @@ std::vector<Bypassed> bypassedBanks (const graph::Graph& g)
         {
             const auto* bank = bankOf (g.root, n.name, port);
             if (bank == nullptr) continue;
-            if (auto sources = around (g.root, n.name, port, bank->name); ! sources.empty()) found.push_back ({ n.name, bank->name, std::move (sources) });
+            if (auto sources = around (g.root, n.name, port, bank->name); ! sources.empty()) found.push_back ({ n.name, bank->name, port, std::move (sources) });
         }
     return found;
+}
+
+Result<graph::Command> mixIn (const graph::Graph& g, const Bypassed& b, const Catalogue& catalogue)
+{
+    auto root = g.root;
+    if (auto bank = bankBefore (root, b.sink, b.port, catalogue); ! bank) return bank.error();
+    graph::Batch batch { filled (NEEDS_TRANS ("mix into %1"), b.mixer).toStdString(), {} };
+    for (const char* key : { "inputs", "names" })
+        batch.commands.push_back (graph::SetSetting { {}, b.mixer, key, nodeOf (root, b.mixer).settings[key] });
+    for (std::size_t i = 0; i < root.wires.size(); ++i)
+        if (root.wires[i].to != g.root.wires[i].to) batch.commands.push_back (graph::ChangeWire { {}, root.wires[i].id, root.wires[i] });
+    return graph::Command (std::move (batch));
 }
 
 }   // namespace tactus::host::compose

@@ -21,17 +21,18 @@ Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::En
 /// Mixes everything that reaches a motor. Ids: those of liftSinks.
 Result<> mixAll (graph::Graph&, const Catalogue&);
 
-/// The same as one undo step.
-Result<graph::Command> mixAllStep (const graph::Graph&, const Catalogue&);
-
 /// An input of a device node with a mixer before it and with wires that go past this mixer.
 struct Bypassed
 {
     std::string sink, mixer;
+    SinkPort port;
     std::vector<std::string> sources;   ///< the nodes that go past the mixer
 };
 
-/// Those at the top of the graph, and motors inside of subgraphs whose role has a mixer at the top.
+/// Those at the top of the graph.
 std::vector<Bypassed> bypassedBanks (const graph::Graph&);
+
+/// Makes layers of these wires. Ids: mixer/full.
+Result<graph::Command> mixIn (const graph::Graph&, const Bypassed&, const Catalogue&);
 
 }   // namespace tactus::host::compose

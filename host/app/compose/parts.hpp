@@ -24,6 +24,8 @@ struct Parts
     bool isAll() const { return *this == Parts {}; }
 };
 
+inline Parts withoutWalls() { return { .walls = false }; }
+
 /// The kinds of effect that reach a motor at the top of the graph or inside of it.
 Parts partsOf (const graph::Graph&, const Catalogue&);
 

@@ -61,7 +61,9 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     list.setRowHeight (row_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.getViewport()->setScrollBarThickness (8);
+    list.setRowSelectedOnMouseDown (false);   // a press may begin a drag
     list.addMouseListener (this, true);
+    list.addKeyListener (this);
     addAndMakeVisible (query);
     addAndMakeVisible (chips);
     addAndMakeVisible (list);
@@ -101,8 +103,16 @@ int PresetBrowser::presetFrom (int row, int step) const
 }
 
 /// In the search, the arrow keys choose what Return opens.
-bool PresetBrowser::keyPressed (const juce::KeyPress& key, juce::Component*)
+bool PresetBrowser::keyPressed (const juce::KeyPress& key, juce::Component* in)
 {
+    if (key == juce::KeyPress (juce::KeyPress::returnKey, juce::ModifierKeys::ctrlModifier, 0))
+    {
+        const int selected = list.getSelectedRow();
+        const auto* r = rowAt (selected >= 0 ? selected : presetFrom (0, 1));
+        if (r != nullptr && r->preset != nullptr && onAdd) onAdd (Preset (*r->preset));
+        return true;
+    }
+    if (in != &query) return false;
     const bool is_down = key == juce::KeyPress::downKey;
     if (! is_down && key != juce::KeyPress::upKey) return false;
     const int step = is_down ? 1 : -1, selected = list.getSelectedRow();
@@ -223,7 +233,9 @@ void PresetBrowser::openRow (int row)
 void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
 {
     const auto* r = rowAt (row);
-    if (r == nullptr || ! e.mods.isLeftButtonDown()) return;
+    if (r == nullptr || was_dragged) return;
+    if (e.mods.isPopupMenu() && r->preset != nullptr && onMenu) return onMenu (Preset (*r->preset), r->is_own);
+    if (! e.mods.isLeftButtonDown()) return;
     if (r->preset == nullptr)
     {
         if (! r->is_own) return;
@@ -260,12 +272,30 @@ PresetBrowser::Part PresetBrowser::partAt (const Row& row, int x) const
 
 void PresetBrowser::mouseDown (const juce::MouseEvent& e)
 {
+    was_dragged = false;
     if (! e.mods.isLeftButtonDown()) return;
     const auto at = e.getEventRelativeTo (&list).getPosition();
     const auto* r = list.getLocalBounds().contains (at) ? rowAt (list.getRowContainingPosition (at.x, at.y)) : nullptr;
     if (r == nullptr || r->preset == nullptr || partAt (*r, at.x) != Part::preview || ! onPreview) return;
     is_previewing = true;
     onPreview (r->preset->file);
+}
+
+/// The list of JUCE would drag the row in a window of its own, which needs a compositor.
+void PresetBrowser::mouseDrag (const juce::MouseEvent& e)
+{
+    auto* container = juce::DragAndDropContainer::findParentDragContainerFor (this);
+    if (container == nullptr || container->isDragAndDropActive() || is_previewing || ! e.mods.isLeftButtonDown() || ! e.mouseWasDraggedSinceMouseDown())
+        return;
+    const auto began = list.getLocalPoint (e.eventComponent, e.getMouseDownPosition());
+    const int row = list.getLocalBounds().contains (began) ? list.getRowContainingPosition (began.x, began.y) : -1;
+    const auto* r = rowAt (row);
+    if (r == nullptr || r->preset == nullptr || ! r->preset->problem.empty()) return;
+    was_dragged = true;
+    int x = 0, y = 0;
+    juce::SparseSet<int> rows;
+    rows.addRange ({ row, row + 1 });
+    container->startDragging (juce::String (asDragged (*r->preset)), &list, list.createSnapshotOfRows (rows, x, y), false);
 }
 
 void PresetBrowser::mouseUp (const juce::MouseEvent&)
@@ -328,7 +358,7 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    const auto hint = TRANS ("Point at a preset to read what it feels like. Click to open and run it, or hold its arrow to preview it.");
+    const auto hint = TRANS ("Point at a preset to read what it feels like. Click to open and run it, drag it onto the canvas to add it to the graph, or hold its arrow to preview it.");
     drawFittedText (g, hint, look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 

@@ -12,15 +12,18 @@
 namespace tactus::host
 {
 
-/// Lists the user's own graphs, the latest first, and the presets, with a description and a force plot. A click opens one.
+/// Lists the user's own graphs, the latest first, and the presets, with a description and a force plot. A click opens one. One can be dragged
+/// elsewhere.
 class PresetBrowser final : public juce::Component, private juce::ListBoxModel, private juce::KeyListener
 {
 public:
     PresetBrowser (const Catalogue&, Settings&, PictureStore&);
 
     std::function<void (const Preset&, bool is_own)> onOpen;
-    std::function<void()> onSettings;   ///< called when the favourites have changed
-    std::function<void()> onLeave;      ///< called by Esc in the search, which also clears it
+    std::function<void (const Preset&)> onAdd;                 ///< Ctrl+Return: it is added to the open graph
+    std::function<void (const Preset&, bool is_own)> onMenu;   ///< a right click
+    std::function<void()> onSettings;                          ///< called when the favourites have changed
+    std::function<void()> onLeave;                             ///< called by Esc in the search, which also clears it
 
     /// Preview a preset with its own gesture while the mouse button is held.
     std::function<void (const std::filesystem::path&)> onPreview;
@@ -48,6 +51,7 @@ public:
     void mouseMove (const juce::MouseEvent&) override;
     void mouseExit (const juce::MouseEvent&) override;
     void mouseDown (const juce::MouseEvent&) override;
+    void mouseDrag (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
 
 private:
@@ -59,7 +63,7 @@ private:
     void returnKeyPressed (int row) override { openRow (row); }
     void selectedRowsChanged (int) override { repaint(); }
     using juce::Component::keyPressed;
-    bool keyPressed (const juce::KeyPress&, juce::Component*) override;   // of the search
+    bool keyPressed (const juce::KeyPress&, juce::Component*) override;   // of the search and the list
 
     void update();
     void fillRows();
@@ -89,7 +93,7 @@ private:
     bool shows_all_own = false, has_more_own = false;
     std::vector<Row> shown;
     int hovered = -1, pictures_done = 0;
-    bool is_previewing = false;
+    bool is_previewing = false, was_dragged = false;
     juce::Rectangle<int> footer;
     juce::TextEditor query;
     TagChips chips;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <string_view>
 
 #include <juce_core/juce_core.h>
 
@@ -109,6 +110,15 @@ std::string placeholderText (const Preset& p)
     for (const auto& type : p.placeholders)
         text += (&type == &p.placeholders.front() ? "" : ", ") + type;
     return text;
+}
+
+static constexpr std::string_view dragged_preset = "preset ";   // before its path
+
+std::string asDragged (const Preset& p) { return std::string (dragged_preset) + p.file.string(); }
+
+std::filesystem::path fileOfDragged (const std::string& dragged)
+{
+    return dragged.starts_with (dragged_preset) ? dragged.substr (dragged_preset.size()) : std::string();
 }
 
 }   // namespace tactus::host

@@ -40,6 +40,10 @@ std::vector<Preset> matching (const std::vector<Preset>&, const std::string& que
 /// All tags with the number of presets that have them, most frequent first.
 std::vector<std::pair<std::string, int>> tagsOf (const std::vector<Preset>&);
 
+/// What is dragged from a list of presets, and the file of that preset; empty if something else is dragged.
+std::string asDragged (const Preset&);
+std::filesystem::path fileOfDragged (const std::string&);
+
 /// "2 placeholders: foo.bar, foo.baz". Empty if there are none.
 std::string placeholderText (const Preset&);
 

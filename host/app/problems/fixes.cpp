@@ -2,6 +2,7 @@
 #include "fixes.hpp"
 
 #include <host/app/canvas/actions.hpp>
+#include <host/app/compose/banks.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/text/file_path.hpp>
@@ -20,26 +21,6 @@ namespace tactus::host
 
 namespace
 {
-/// Splits a JSON pointer such as "/nodes/drag/params/mu" into its parts, unescaped (RFC 6901).
-std::vector<std::string> partsOf (const std::string& pointer)
-{
-    std::vector<std::string> parts;
-    for (std::size_t at = 0; at < pointer.size();)
-    {
-        const auto end = std::min (pointer.find ('/', at + 1), pointer.size());
-        auto& part = parts.emplace_back();
-        for (std::size_t i = at + 1; i < end; ++i)
-        {
-            const bool escaped = pointer[i] == '~' && i + 1 < end;
-            if (escaped) ++i;
-            const char unescaped = pointer[i] == '1' ? '/' : '~';
-            part += escaped ? unescaped : pointer[i];
-        }
-        at = end;
-    }
-    return parts;
-}
-
 const graph::Wire* wireOf (const graph::Graph& g, const ProblemLocation& c)
 {
     const auto* patch = findPatch (g, c.patch);
@@ -100,33 +81,6 @@ std::optional<Fix> leadToMotor (const graph::Graph& g, const ProblemLocation& at
 }
 }   // namespace
 
-ProblemLocation locationOf (const graph::Graph& g, const Message& m)
-{
-    ProblemLocation location;
-    auto parts = partsOf (m.where);
-    if (parts.size() > 2 && parts[0] == "graphs")
-    {
-        location.patch = parts[1];
-        parts.erase (parts.begin(), parts.begin() + 2);
-    }
-    const auto* patch = findPatch (g, location.patch);
-    if (patch == nullptr || ! m.file.empty() || parts.size() < 2) return location;
-    if (parts[0] == "devices") location.role = parts[1];
-    if (parts[0] == "nodes")
-        if (const auto* node = patch->find (parts[1]))
-        {
-            location.id = node->id;
-            location.node = node->name;
-            if (parts.size() > 3 && parts[2] == "params") location.param = parts[3];
-            if (parts.size() > 3 && parts[2] == "settings") location.setting = parts[3];
-            for (std::size_t i = 4; i < parts.size() && ! location.setting.empty(); ++i)
-                location.within += "/" + pointerPart (parts[i]);
-        }
-    if (parts[0] == "wires" && ! parts[1].empty() && std::ranges::all_of (parts[1], [] (char c) { return c >= '0' && c <= '9'; }))
-        if (const auto i = std::strtoull (parts[1].c_str(), nullptr, 10); i < patch->wires.size()) location.id = patch->wires[i].id;
-    return location;
-}
-
 std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
 {
     const auto location = locationOf (g, m);
@@ -140,6 +94,10 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     }
     if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"));
     if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"));
+    if (m.id == "mixer/bypassed")
+        for (const auto& b : compose::bypassedBanks (g))
+            if (b.sink == location.node)
+                if (auto mixed = compose::mixIn (g, b, catalogue())) return Fix { filled (TRANS ("Mix it in %1"), b.mixer).toStdString(), std::move (*mixed) };
     if (m.id == "node/no_effect") return leadToMotor (g, location);
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));
@@ -203,7 +161,7 @@ std::optional<MissingFile> missingFileOf (const graph::Graph& g, const Message& 
     const auto* type = node == nullptr ? nullptr : catalogue().find (node->type);
     if (type == nullptr || at.setting.empty()) return std::nullopt;
     const auto sheet = std::ranges::find (type->settings, at.setting, &SettingSheet::id);
-    const auto kind = sheet == type->settings.end() ? std::nullopt : fileKindAt (*sheet, partsOf (at.within));
+    const auto kind = sheet == type->settings.end() ? std::nullopt : fileKindAt (*sheet, pointerParts (at.within));
     if (! kind) return std::nullopt;
 
     const JsonPointer place ("/" + pointerPart (at.setting) + at.within);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/location/problem_location.hpp>
+
 #include <tactus/graph/edit.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/message.hpp>
@@ -11,19 +13,6 @@
 
 namespace tactus::host
 {
-
-/// The part of a graph that a message is about.
-struct ProblemLocation
-{
-    std::string patch;         ///< "" is the graph itself
-    graph::Id id = 0;          ///< id of the node or wire; 0 if the message is about neither
-    std::string node;          ///< name of the node, if the message is about one
-    std::string param, role;   ///< name of the param or device role, if the message is about one
-    std::string setting;       ///< name of the setting, if the message is about one
-    std::string within;        ///< JSON pointer to the part of that setting
-};
-
-ProblemLocation locationOf (const graph::Graph&, const Message&);
 
 /// A one-click fix for a problem, with a short button label.
 struct Fix

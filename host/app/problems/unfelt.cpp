@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unfelt.hpp"
 
+#include <host/app/compose/banks.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/face.hpp>
 #include <host/app/model/obvious_wires.hpp>
@@ -10,6 +11,7 @@
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/instances.hpp>
 #include <tactus/text/json_text.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -161,6 +163,12 @@ Messages unfelt (const graph::Graph& g, const Catalogue& catalogue)
     Wired (g, {}, g.root, catalogue).warn (all);
     for (const auto& [name, patch] : g.graphs)
         Wired (g, name, patch, catalogue).warn (all);
+    for (const auto& b : compose::bypassedBanks (g))
+        all.push_back (Message::warning ("mixer/bypassed", "/nodes/" + pointerPart (b.sink),
+                                         filled (TRANS ("%1 goes to '%2' past the mixer '%3', so mute, solo and ceiling miss it"), listText (b.sources), b.sink,
+                                                 b.mixer)
+                                             .toStdString(),
+                                         TRANS ("wire it into a layer of the mixer").toStdString()));
     return all;
 }
 

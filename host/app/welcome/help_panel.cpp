@@ -152,6 +152,7 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("F5"), NEEDS_TRANS ("starts the graph") },
     Keys { NEEDS_TRANS ("F6, Shift+F6"), NEEDS_TRANS ("goes to the next or the previous panel") },
     Keys { NEEDS_TRANS ("Ctrl+F"), NEEDS_TRANS ("searches the presets") },
+    Keys { NEEDS_TRANS ("Ctrl+Return"), NEEDS_TRANS ("in the presets, adds the selected one to the graph, as a node and a layer") },
     Keys { NEEDS_TRANS ("Ctrl+K, F3"),
            NEEDS_TRANS ("finds a node of the graph and shows it, or a command, a button or a panel and does what a click on it does") },
     Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },

@@ -10,6 +10,7 @@
 #include "tabs.hpp"
 #include "top_bar.hpp"
 
+#include <host/app/compose/add_preset.hpp>
 #include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/devices_panel/reach.hpp>
 #include <host/app/fit_panel/fit_panel.hpp>
@@ -155,6 +156,11 @@ private:
 
     void startOpened (bool by_pointer);   ///< runs the graph that has just been opened
     void openPreset (const Preset&, bool is_own);
+    void openPresetMenu (const Preset&, bool is_own);
+    /// Adds a graph to the open one as a node and a layer, and asks for its roles if there are several ways. If nothing is open, opens it.
+    void addToGraph (const std::filesystem::path&, const compose::Parts& = {}, std::optional<juce::Point<float>> at = {});
+    void addLoaded (const graph::Graph&, compose::AddOptions, std::optional<juce::Point<float>> at);
+    void askForAdded();
     void chooseNode (const NodeRequest&);
     void addNode (const std::string& type, const NodeRequest&);
     void noteType (const std::string&);
@@ -214,6 +220,7 @@ private:
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
     void addHands (std::vector<Action>&);
+    void addPresets (std::vector<Action>&);
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();

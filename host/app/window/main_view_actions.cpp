@@ -122,6 +122,19 @@ void MainView::addHands (std::vector<Action>& all)
                              [this, of = role, to = label] { devices.bind (of, to); } });
 }
 
+/// Adds the presets that can be added to the graph, whole or without their walls.
+void MainView::addPresets (std::vector<Action>& all)
+{
+    if (welcome.isVisible() || edited.graph().root.nodes.empty()) return;
+    for (const auto& p : presets.shipped())
+    {
+        if (! p.problem.empty()) continue;
+        all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), TRANS ("A preset, as a node and a layer"), [this, file = p.file] { addToGraph (file); } });
+        all.push_back ({ filled (TRANS ("Add %1 without its walls"), p.name), TRANS ("A preset, as a node and a layer"),
+                         [this, file = p.file] { addToGraph (file, compose::withoutWalls()); } });
+    }
+}
+
 /// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
 void MainView::addNodes (std::vector<Action>& all)
 {
@@ -164,6 +177,7 @@ void MainView::findAction()
     addTabsAndButtons (all);
     addItems (windowMenu(), {}, all);
     addNodes (all);
+    addPresets (all);
     std::map<std::string, std::function<void()>> acts;
     std::vector<PaletteEntry> entries;
     std::vector<Findable> searched;

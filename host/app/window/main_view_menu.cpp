@@ -145,6 +145,7 @@ juce::PopupMenu MainView::windowMenu()
     menu.addSubMenu (TRANS ("New from template"), fresh, fresh.getNumItems() > 0);
     menu.addItem (menuItem (TRANS ("Open ..."), keyText ("ctrl + o"), [this] { files.open(); }));
     menu.addSubMenu (TRANS ("Open recent"), recent, ! settings.recent.empty());
+    if (! edited.graph().root.nodes.empty()) menu.addItem (menuItem (TRANS ("Add a graph to this one ..."), {}, [this] { askForAdded(); }));
     menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
     menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
     auto revert = menuItem (TRANS ("Reload from the file"), {}, [this] { files.reload(); });

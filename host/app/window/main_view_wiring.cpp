@@ -53,7 +53,7 @@ void MainView::connectCanvas()
     patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
     patching.onChoose = [this] (const auto& purpose, auto search, auto chosen) { choose (purpose, std::move (search), std::move (chosen)); };
     patching.onProbe = [this] (const auto& ports) { probe (ports); };
-    patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
+    patching.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addToGraph (file, {}, at); };
     patching.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (type, request); };
     patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
 }
@@ -69,6 +69,8 @@ void MainView::connectSides()
     inspector.valuesNow = [this] (const std::string& param) { return live.valuesOf (param); };
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
+    presets.onAdd = [this] (const Preset& p) { addToGraph (p.file); };
+    presets.onMenu = [this] (const Preset& p, bool is_own) { openPresetMenu (p, is_own); };
     presets.onSettings = [this] { saveSettingsSoon(); };
     presets.onLeave = nodes.onLeave = [this] { takeFocus (keyboardHome()); };
 

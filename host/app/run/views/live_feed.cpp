@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_feed.hpp"
 
+#include <host/app/location/problem_location.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/with_prefix.hpp>
-#include <host/app/problems/fixes.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/tools/figures/axis.hpp>
 #include <tactus/graph/endpoint_text.hpp>

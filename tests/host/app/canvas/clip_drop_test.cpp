@@ -76,7 +76,7 @@ TEST_CASE ("the canvas passes on a dropped graph, and refuses other files", "[ap
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     fs::path opened;
-    rig.canvas->onFileDropped = [&] (const fs::path& file) { opened = file; };
+    rig.canvas->onGraphDropped = [&] (const fs::path& file, juce::Point<float>) { opened = file; };
     const fs::path graph = fs::path (TACTUS_SOURCE_DIR) / "graphs" / "zip.json";
     dropOn (*rig.canvas, graph, rig.nowhere());
     CHECK (opened == graph);

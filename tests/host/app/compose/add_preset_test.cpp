@@ -3,6 +3,7 @@
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/banks.hpp>
 #include <host/app/layers/mixer.hpp>
+#include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
 
 #include <host/base/assets/file_assets.hpp>
@@ -157,7 +158,7 @@ TEST_CASE ("a preset that is added to another one plays the sum of both, through
 {
     const auto files = presetFiles();
     REQUIRE (files.size() > 30);
-    test::property ("random pairs of presets", [&] {
+    tactus::test::property ("random pairs of presets", [&] {
         const auto open = loadGraph (*rc::gen::elementOf (files)).graph, added = loadGraph (*rc::gen::elementOf (files)).graph;
         INFO (open.name << " + " << added.name);
         const auto maps = roleMaps (open, added);
@@ -315,26 +316,30 @@ TEST_CASE ("what goes past a mixer is found, and becomes a layer in one step", "
     auto wood = preset ("dry_wood");
     CHECK (bypassedBanks (wood).empty());   // there is no mixer to go past
     REQUIRE (mixAll (wood, catalogue()));
-    test::Sketch more { wood };
+    tactus::test::Sketch more { wood };
     more.node ("hum", "texture.grating").wire ("hand.position -> hum.position").wire ("hum.force -> motor.force");
     const auto found = bypassedBanks (more.graph);
     REQUIRE (found.size() == 1);
     CHECK (found[0].sink == "motor");
     CHECK (found[0].mixer == "desk");
     CHECK (found[0].sources == std::vector<std::string> { "hum" });
-    const auto step = mixAllStep (more.graph, catalogue());
-    REQUIRE (step);
+    const auto said = unfelt (more.graph, catalogue());
+    REQUIRE (said.size() == 1);
+    CHECK (said[0].id == "mixer/bypassed");
+    const auto fix = fixOf (more.graph, said[0]);
+    REQUIRE (fix);
     auto after = more.graph;
-    REQUIRE (graph::apply (after, *step));
+    REQUIRE (graph::apply (after, fix->command));
     CHECK (isMixed (after));
     CHECK (hasWire (after, "hum.force -> desk.in[3]"));
+    CHECK (unfelt (after, catalogue()).empty());
     CHECK (difference (more.graph, {}, after, {}).most < 1e-12);
 }
 
 TEST_CASE ("a graph that drives nothing cannot be a layer", "[compose]")
 {
     const auto wood = preset ("dry_wood");
-    test::Sketch silent;
+    tactus::test::Sketch silent;
     silent.node ("hand", "device.position").node ("noise", "signal.noise");
     const auto refused = addPreset (wood, silent.graph, {}, catalogue());
     REQUIRE_FALSE (refused);
