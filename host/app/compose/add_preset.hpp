@@ -46,7 +46,7 @@ struct AddedPreset
 /// Adds a graph to another one as one node at its top, a subgraph, in one undo step. Its hands read the roles of the open graph. What went to its
 /// motors goes to layers of the mixers before the motors of these roles. Mixers and motors are made if there are none, and everything else that
 /// reaches a motor becomes a layer, too. Its controls become controls of the open graph. The rate becomes the higher one of the two.
-/// Its files stay where they are. Ids: mixer/full, compose/in_file, compose/no_motor, compose/no_part. [main thread]
+/// Its files stay where they are. Ids: mixer/full, compose/in_file, compose/in_path, compose/no_motor, compose/no_part. [main thread]
 Result<AddedPreset> addPreset (const graph::Graph& open, graph::Graph added, const AddOptions&, const Catalogue&);
 
 }   // namespace tactus::host::compose

@@ -40,28 +40,36 @@ bool isPlain (const graph::Wire& w)
            && w.from.node.find_first_of ("[/") == std::string::npos;
 }
 
-/// Sums what goes into an input, and removes the wires into it. Empty port: nothing goes into it.
+/// Sums what goes into an input, from the patch and through what it exposes, and removes the wires into it. Empty port: nothing goes into it.
 Result<graph::Endpoint> sumInto (graph::Patch& patch, const std::string& sink, const SinkPort& port)
 {
-    std::vector<graph::Wire*> wires;
+    const auto leadsThere = [&] (const graph::Endpoint& e) { return e.node == sink && e.port == port.port; };
+    std::vector<std::pair<graph::Endpoint*, std::string>> ends;   // with the name of what leads there
+    const graph::Wire* first = nullptr;
     for (auto& w : patch.wires)
-        if (w.to.node == sink && w.to.port == port.port) wires.push_back (&w);
-    if (wires.empty()) return graph::Endpoint {};
-    if (wires.size() == 1 && isPlain (*wires.front()))
     {
-        const auto from = wires.front()->from;
-        std::erase_if (patch.wires, [id = wires.front()->id] (const graph::Wire& w) { return w.id == id; });
+        if (! leadsThere (w.to)) continue;
+        if (first == nullptr) first = &w;
+        ends.emplace_back (&w.to, graph::firstNameOf (w.from.node));
+    }
+    for (auto& [name, at] : patch.expose.inputs)
+        if (leadsThere (at)) ends.emplace_back (&at, name);
+    if (ends.empty()) return graph::Endpoint {};
+    if (ends.size() == 1 && first != nullptr && isPlain (*first))
+    {
+        const auto from = first->from;
+        std::erase_if (patch.wires, [id = first->id] (const graph::Wire& w) { return w.id == id; });
         return from;
     }
-    if (wires.size() > static_cast<std::size_t> (list_capacity)) return mixing::mixerIsFull();
+    if (ends.size() > static_cast<std::size_t> (list_capacity)) return mixing::mixerIsFull();
     graph::Node mixer;
     mixer.name = freeName (patch, {}, "desk");
     mixer.type = port.is_vector ? mixing::vector_mixer : mixing::number_mixer;
     std::vector<std::string> names;
-    for (auto* w : wires)
+    for (auto& [end, name] : ends)
     {
-        w->to = { mixer.name, "in", static_cast<int> (names.size()), w->to.component };
-        names.push_back (graph::firstNameOf (w->from.node));
+        *end = { mixer.name, "in", static_cast<int> (names.size()), end->component };
+        names.push_back (std::move (name));
     }
     mixer.settings["inputs"] = names.size();
     mixer.settings["names"] = mixing::joined (names);
@@ -204,7 +212,19 @@ Result<std::vector<LiftedSink>> takeSinks (graph::Patch& patch)
     return taken;
 }
 
-Result<> liftSinks (graph::Graph& g) { return Lifting (g).lift ({}); }
+Result<> liftSinks (graph::Graph& g)
+{
+    std::string named;
+    graph::forEachEndpoint (g, [&] (graph::Endpoint& e, const graph::Waypoint& w) {
+        const auto* node = w.begin > 0 && w.side != graph::Side::param && w.end == e.node.size() ? w.patch->find (w.name) : nullptr;
+        if (node != nullptr && ! sinkPortsOf (*node).empty()) named = e.node;
+        return true;
+    });
+    if (! named.empty())
+        return Message::error ("compose/in_path", {}, filled (TRANS ("a wire from outside leads to the motor %1"), named).toStdString(),
+                               TRANS ("expose that port of the subgraph, and wire to the subgraph").toStdString());
+    return Lifting (g).lift ({});
+}
 
 std::string sinkFor (graph::Patch& root, const LiftedSink& l, const std::string& role)
 {

@@ -36,7 +36,7 @@ struct LiftedSink
 Result<std::vector<LiftedSink>> takeSinks (graph::Patch&);
 
 /// Moves all motors that are inside subgraphs to the top of the graph, and wires the same signals to them: one motor for each role, and a wire from each
-/// instance. Ids: mixer/full; compose/in_file if a motor is in a subgraph of another file.
+/// instance. Ids: mixer/full; compose/in_file if a motor is in a subgraph of another file, compose/in_path if a wire from outside names one.
 Result<> liftSinks (graph::Graph&);
 
 /// The device node of this kind and role at the top of the graph; added if there is none.

@@ -9,6 +9,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -95,7 +96,7 @@ void MainView::addLoaded (const graph::Graph& added, compose::AddOptions how, st
     patching.select ({ made->node });
     if (const auto* node = patching.scene().find (made->node)) patching.bringIntoView (node->bounds());
     takeFocus (patching);
-    auto text = filled (TRANS ("Added %1 as a node, and as a layer of %2. One undo takes it away."), made->label, made->layers.front());
+    auto text = filled (TRANS ("Added %1 as a node, and as a layer of %2. One undo takes it away."), made->label, listText (made->layers));
     if (made->rate_hz != before_hz) text << " " << filled (TRANS ("The graph runs at %1 Hz now."), numberText (made->rate_hz));
     status.notify (text);
 }

@@ -111,13 +111,12 @@ bool hasWire (const graph::Graph& g, const std::string& text)
     return std::ranges::any_of (g.root.wires, [&] (const graph::Wire& w) { return graph::toText (w) == text; });
 }
 
-/// True if each motor of the graph gets one wire, from a mixer.
+/// True if each motor of the graph gets one wire, from a mixer, and no motor is inside of a subgraph, where an exposed port may lead to it.
 bool isMixed (const graph::Graph& g)
 {
     const auto isMotor = [] (const graph::Node& n) { return ! sinkPortsOf (n).empty(); };
     for (const auto& [name, patch] : g.graphs)
-        for (const auto& n : patch.nodes)
-            if (isMotor (n) && std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == n.name; })) return false;
+        if (std::ranges::any_of (patch.nodes, isMotor)) return false;
     std::set<std::string> ends;
     return std::ranges::all_of (g.root.wires, [&] (const graph::Wire& w) {
         if (! isMotor (*g.root.find (w.to.node))) return true;
