@@ -130,7 +130,8 @@ std::vector<Bypassed> bypassedBanks (const graph::Graph& g)
         {
             const auto* bank = bankOf (g.root, n.name, port);
             if (bank == nullptr) continue;
-            if (auto sources = around (g.root, n.name, port, bank->name); ! sources.empty()) found.push_back ({ n.name, bank->name, port, std::move (sources) });
+            auto sources = around (g.root, n.name, port, bank->name);
+            if (! sources.empty()) found.push_back ({ n.name, bank->name, port, std::move (sources) });
         }
     return found;
 }

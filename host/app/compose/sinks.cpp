@@ -106,7 +106,9 @@ public:
     Result<> lift (const std::string& name)
     {
         if (! seen.insert (name).second) return {};
-        const auto patch = [&]() -> graph::Patch& { return name.empty() ? g.root : std::ranges::find (g.graphs, name, &std::pair<std::string, graph::Patch>::first)->second; };
+        const auto patch = [&]() -> graph::Patch& {
+            return name.empty() ? g.root : std::ranges::find (g.graphs, name, &std::pair<std::string, graph::Patch>::first)->second;
+        };
         const auto nodes = patch().nodes;
         for (const auto& n : nodes)
         {

@@ -358,7 +358,8 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    const auto hint = TRANS ("Point at a preset to read what it feels like. Click to open and run it, drag it onto the canvas to add it to the graph, or hold its arrow to preview it.");
+    const auto hint = TRANS ("Point at a preset to read what it feels like. Click to open and run it, drag it onto the canvas to add it to "
+                             "the graph, or hold its arrow to preview it.");
     drawFittedText (g, hint, look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 

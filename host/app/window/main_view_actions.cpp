@@ -129,7 +129,8 @@ void MainView::addPresets (std::vector<Action>& all)
     for (const auto& p : presets.shipped())
     {
         if (! p.problem.empty()) continue;
-        all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), TRANS ("A preset, as a node and a layer"), [this, file = p.file] { addToGraph (file); } });
+        all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), TRANS ("A preset, as a node and a layer"),
+                         [this, file = p.file] { addToGraph (file); } });
         all.push_back ({ filled (TRANS ("Add %1 without its walls"), p.name), TRANS ("A preset, as a node and a layer"),
                          [this, file = p.file] { addToGraph (file, compose::withoutWalls()); } });
     }

@@ -211,7 +211,8 @@ TEST_CASE ("an added preset is one node with its controls, and one layer of the 
     REQUIRE (made.layers == std::vector<std::string> { "desk" });
     CHECK (both.root.nodes.size() == wood.root.nodes.size() + 2);   // the block and the mixer
     CHECK (both.root.find ("zip_fastener")->roles.value ("slider", std::string()) == "stylus");
-    for (const char* wire : { "board.force -> desk.in[0]", "drag.force -> desk.in[1]", "grain_felt.out -> desk.in[2]", "zip_fastener.force -> desk.in[3]", "desk.out -> motor.force" })
+    for (const char* wire : { "board.force -> desk.in[0]", "drag.force -> desk.in[1]", "grain_felt.out -> desk.in[2]", "zip_fastener.force -> desk.in[3]",
+                              "desk.out -> motor.force" })
         CHECK (hasWire (both, wire));
     CHECK (layerNames (*both.root.find ("desk"), 4) == std::vector<std::string> { "board", "drag", "grain_felt", "Zip fastener" });
     const auto control = std::ranges::find (both.controls, "drag", &graph::Control::id);
