@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "csv.hpp"
+#include "separator.hpp"
 #include "text_file.hpp"
 
 #include <tactus/kit/at.hpp>
@@ -69,6 +70,7 @@ public:
             return Message::error ("csv/empty", name, "the file is empty", "write a row of column names, then rows of numbers");
 
         separator = separatorOf (rest.substr (0, rest.find_first_of ("\r\n")));
+        if (separator == ' ') separator = ',';   // one column; its name may have spaces
         auto parsed = nextLine();
         if (parsed)
             parsed = readHeader();
@@ -92,34 +94,10 @@ private:
         return Message::error (std::move (id), name + ":" + std::to_string (line_number) + ":" + std::to_string (column), std::move (what), std::move (remedy));
     }
 
-    /// The separator of the columns: a semicolon or a tab if the header has one and no comma; else a comma. Spreadsheets write semicolons or tabs if the
-    /// decimal sign is a comma.
-    static char separatorOf (std::string_view header)
-    {
-        char found = ',';
-        bool is_quoted = false;
-        for (const char c : header)
-        {
-            if (c == '"') is_quoted = ! is_quoted;
-            if (is_quoted) continue;
-            if (c == ',') return ',';
-            if (c == ';' || (c == '\t' && found != ';')) found = c;
-        }
-        return found;
-    }
-
     std::string_view separatorInWords() const { return separator == ',' ? "comma" : separator == ';' ? "semicolon"
                                                                                                      : "tab"; }
 
-    /// A field with a point in the place of a decimal comma.
-    std::string_view withPoint (std::string_view text)
-    {
-        const auto comma = text.find (',');
-        if (separator == ',' || comma == text.npos || text.find_first_of (",.", comma + 1) != text.npos || text.find ('.') < comma) return text;
-        plain = text;
-        plain[comma] = '.';
-        return plain;
-    }
+    std::string numberText (std::string_view field) const { return separator == ',' ? std::string (field) : withPoint (field); }
 
     Result<> nextLine()
     {
@@ -184,7 +162,7 @@ private:
         return close;
     }
 
-    bool isNumber (const Field& field) { return wholeNumber (withPoint (field.text)).has_value(); }
+    bool isNumber (const Field& field) { return wholeNumber (numberText (field.text)).has_value(); }
 
     static std::string inColumn (std::string_view column, std::string_view text, const char* what)
     {
@@ -232,7 +210,7 @@ private:
         for (std::size_t i = 0; i < fields.size(); ++i)
         {
             const auto& [written, column] = fields[i];
-            const auto text = withPoint (written);
+            const auto text = numberText (written);
             const auto& name_of_column = table.columns[i];
             if (text.empty())
                 return fail ("csv/empty_field", column, "there is no number in column " + quote (name_of_column),
@@ -244,7 +222,7 @@ private:
                              "write inf or 0 if that is what you mean");
             if (number.size != text.size())
             {
-                const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
+                const bool has_separator = text.find_first_of (";\t") != text.npos;
                 return fail ("csv/not_a_number", column, inColumn (name_of_column, written, "is not a number"),
                              has_separator ? "separate the columns by commas" : "write a number like -1.5e-3, without a unit or marks between thousands");
             }
@@ -259,7 +237,6 @@ private:
     std::string name;
     std::size_t line_number = 0;
     char separator = ',';
-    std::string plain;           // the latest number that had a decimal comma
     std::vector<Field> fields;   // fields of the current line; reused to save allocations
     Table table;
 };

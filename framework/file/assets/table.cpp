@@ -2,6 +2,7 @@
 #include "table.hpp"
 #include "lines.hpp"
 
+#include <tactus/file/separator.hpp>
 #include <tactus/text/as_utf8.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
@@ -22,14 +23,6 @@ std::string_view trim (std::string_view text)
 {
     text.remove_prefix (std::min (text.find_first_not_of (spaces), text.size()));
     return text.substr (0, text.find_last_not_of (spaces) + 1);
-}
-
-/// The separator of a line: the first of these that occurs in it.
-char separatorOf (std::string_view line)
-{
-    for (const char c : { ';', '\t', ',' })
-        if (line.find (c) != std::string_view::npos) return c;
-    return ' ';
 }
 
 /// Removes a field from the front of a line.
@@ -68,7 +61,7 @@ private:
     std::string_view name;
     Grid grid;
     std::size_t first_row = 0;   // line number of the first row
-    std::string plain;           // the latest number that had a decimal comma
+    char usual = '\0';           // the separator of the first row
 
     Message fail (std::string id, std::string what, std::string remedy) const
     {
@@ -80,19 +73,9 @@ private:
         return Message::error (std::move (id), std::string (name) + ":" + std::to_string (line), std::move (what), std::move (remedy));
     }
 
-    /// A field with a point in the place of a decimal comma.
-    std::string_view withPoint (std::string_view field)
-    {
-        const auto comma = field.find (',');
-        if (comma == field.npos || field.find (',', comma + 1) != field.npos || field.find ('.') != field.npos) return field;
-        plain = field;
-        plain[comma] = '.';
-        return plain;
-    }
-
     Checked takeRow (std::string_view line)
     {
-        const char separator = separatorOf (line);
+        const char separator = separatorOf (line, usual);
         while (! line.empty() && line.back() == separator)
             line = trim (line.substr (0, line.size() - 1));
 
@@ -100,7 +83,7 @@ private:
         while (! line.empty())
         {
             const auto field = takeField (line, separator);
-            const auto value = numberIn<double> (separator == ',' ? field : withPoint (field));
+            const auto value = numberIn<double> (separator == ',' ? std::string (field) : withPoint (field));
             if (! value && columns == 0 && grid.rows == 0) return {};   // a header line
             if (! value || ! std::isfinite (*value))
                 return fail (
@@ -120,6 +103,7 @@ private:
         {
             grid.columns = columns;
             first_row = lines.number();
+            usual = separator;
         }
         if (columns != grid.columns)
             return fail ("table/ragged_row",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "recorded_text.hpp"
 
+#include <tactus/file/separator.hpp>
 #include <tactus/kit/at.hpp>
 #include <tactus/text/as_utf8.hpp>
 #include <tactus/text/read_number.hpp>
@@ -27,25 +28,10 @@ Fields split (const std::string& line, char at)
 }
 
 /// A number with a point in the place of its decimal comma; any other field as it is.
-std::string withPoint (std::string field)
+std::string numberOr (std::string field)
 {
-    const auto comma = field.find (',');
-    if (comma == std::string::npos) return field;
-    auto plain = field;
-    plain[comma] = '.';
+    auto plain = withPoint (field);
     return wholeNumber (plain) ? plain : field;
-}
-
-/// The separator of a line: a semicolon or a tab if all its fields are then numbers or empty, because commas may be decimal signs. Else the first of comma,
-/// semicolon and tab that occurs, or a space.
-char separatorOf (const std::string& line)
-{
-    const auto isNumberOrEmpty = [] (const std::string& part) { return trimmed (part).empty() || wholeNumber (withPoint (trimmed (part))).has_value(); };
-    for (const char c : { ';', '\t' })
-        if (line.find (c) != std::string::npos && std::ranges::all_of (split (line, c), isNumberOrEmpty)) return c;
-    for (const char c : { ',', ';', '\t' })
-        if (line.find (c) != std::string::npos) return c;
-    return ' ';
 }
 
 /// The fields of a line, without spaces around them. Several spaces separate like one.
@@ -54,18 +40,11 @@ Fields fieldsOf (const std::string& line, char separator)
     Fields fields;
     for (auto& part : split (separator == ' ' ? trimmed (line) : line, separator))
         if (auto field = trimmed (part); separator != ' ' || ! field.empty())
-            fields.push_back (separator == ',' ? std::move (field) : withPoint (std::move (field)));
+            fields.push_back (separator == ',' ? std::move (field) : numberOr (std::move (field)));
     return fields;
 }
 
 Fields fieldsOf (const std::string& line) { return fieldsOf (line, separatorOf (line)); }
-
-/// The fields of a row of a table whose first row has this separator. A semicolon or a tab separates also where a field is not a number, such as 1.000,5.
-Fields fieldsOfRow (const std::string& line, char usual)
-{
-    const bool is_usual = (usual == ';' || usual == '\t') && line.find (usual) != std::string::npos;
-    return fieldsOf (line, is_usual ? usual : separatorOf (line));
-}
 
 /// The number of fields, without empty ones at the end.
 std::size_t filled (const Fields& fields)
@@ -181,7 +160,7 @@ std::optional<RecordedText> tableIn (const std::string& written_text)
     else
         table.add (joined (names, columns, true), written[place.first_row - 1]);
     for (auto i = place.first_row; i < written.size(); ++i)
-        table.add (joined (fieldsOfRow (lines[written[i]], separatorOf (first)), columns, false), written[i]);
+        table.add (joined (fieldsOf (lines[written[i]], separatorOf (lines[written[i]], separatorOf (first))), columns, false), written[i]);
     return table;
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "separator.hpp"
+
+#include <tactus/text/read_number.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace tactus
+{
+
+namespace
+{
+/// True if a line has this separator, and all its fields are then numbers or empty.
+bool hasNumbers (std::string_view line, char separator)
+{
+    constexpr std::string_view around = " \t\r\"#";
+    if (line.find (separator) == line.npos) return false;
+    for (;;)
+    {
+        auto field = line.substr (0, line.find (separator));
+        const bool is_last = field.size() == line.size();
+        line.remove_prefix (is_last ? line.size() : field.size() + 1);
+        field.remove_prefix (std::min (field.find_first_not_of (around), field.size()));
+        field = field.substr (0, field.find_last_not_of (around) + 1);
+        if (! field.empty() && ! wholeNumber (withPoint (field))) return false;
+        if (is_last) return true;
+    }
+}
+
+bool isOutsideOfQuotes (std::string_view line, char wanted)
+{
+    bool is_quoted = false;
+    return std::ranges::any_of (line, [&] (char c) {
+        if (c == '"') is_quoted = ! is_quoted;
+        return c == wanted && ! is_quoted;
+    });
+}
+}   // namespace
+
+char separatorOf (std::string_view line, char usual)
+{
+    if ((usual == ';' || usual == '\t') && line.find (usual) != line.npos) return usual;
+    for (const char c : { ';', '\t' })
+        if (hasNumbers (line, c)) return c;
+    for (const char c : { ',', ';', '\t' })
+        if (isOutsideOfQuotes (line, c)) return c;
+    return ' ';
+}
+
+std::string withPoint (std::string_view field)
+{
+    std::string plain (field);
+    const auto comma = field.find (',');
+    if (comma != field.npos && field.find (',', comma + 1) == field.npos && field.find ('.') == field.npos) plain[comma] = '.';
+    return plain;
+}
+
+}   // namespace tactus
