@@ -4,10 +4,15 @@
 #include <host/app/layers/mixer_parts.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/tools/stems/sink_mixes.hpp>
 
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/plan/flat/flatten.hpp>
 
 #include <algorithm>
+#include <memory>
+#include <set>
+#include <utility>
 
 namespace tactus::host::compose
 {
@@ -58,15 +63,6 @@ void addFirstMixer (graph::Graph& g, const Catalogue& catalogue)
     if (! first || ! first->place.vectors) return;
     auto with = g;
     if (graph::apply (with, first->command) && with.root.find (first->place.node)->settings.contains ("names")) g = std::move (with);
-}
-
-/// Wires that go past the mixer before this input.
-std::vector<std::string> around (const graph::Patch& root, const std::string& sink, const SinkPort& port, const std::string& mixer)
-{
-    std::vector<std::string> sources;
-    for (const auto& w : root.wires)
-        if (leadsTo (w, sink, port) && w.from.node != mixer) sources.push_back (graph::firstNameOf (w.from.node));
-    return sources;
 }
 }   // namespace
 
@@ -122,30 +118,41 @@ Result<> mixAll (graph::Graph& g, const Catalogue& catalogue)
     return {};
 }
 
-std::vector<Bypassed> bypassedBanks (const graph::Graph& g)
+std::vector<Bypassed> bypassedBanks (const graph::Graph& g, const Catalogue& catalogue)
 {
+    if (mixersOf (g).empty()) return {};
+    const auto flat = plan::flatten (g, catalogue, {}, nullptr, plan::SettingFiles::left_out).flat;
+    const auto mixes = sinkMixes (flat);
+    const bool has_bank = std::ranges::any_of (mixes, &SinkMix::is_direct);
     std::vector<Bypassed> found;
-    for (const auto& n : g.root.nodes)
-        for (const auto& port : sinkPortsOf (n))
-        {
-            const auto* bank = bankOf (g.root, n.name, port);
-            if (bank == nullptr) continue;
-            auto sources = around (g.root, n.name, port, bank->name);
-            if (! sources.empty()) found.push_back ({ n.name, bank->name, port, std::move (sources) });
-        }
+    std::set<std::pair<std::string, std::string>> known;
+    for (const auto& m : mixes)
+    {
+        if (m.unmixed.empty() || ! (m.is_direct || (has_bank && m.mixers.empty()))) continue;
+        const auto& path = flat.node (m.sink).path;
+        if (! known.emplace (graph::firstNameOf (path), flat.sheet (m.input).id).second) continue;
+        Bypassed b { path, std::string (flat.sheet (m.input).id), m.is_direct ? flat.node (m.mixers.front()).path : std::string(), {} };
+        for (const auto& u : m.unmixed)
+            b.sources.push_back (u.from);
+        found.push_back (std::move (b));
+    }
     return found;
 }
 
-Result<graph::Command> mixIn (const graph::Graph& g, const Bypassed& b, const Catalogue& catalogue)
+Result<graph::Command> mixIn (const graph::Graph& g, const std::string& sink, std::string_view port, const Catalogue& catalogue)
 {
-    auto root = g.root;
-    if (auto bank = bankBefore (root, b.sink, b.port, catalogue); ! bank) return bank.error();
-    graph::Batch batch { filled (NEEDS_TRANS ("mix into %1"), b.mixer).toStdString(), {} };
-    for (const char* key : { "inputs", "names" })
-        batch.commands.push_back (graph::SetSetting { {}, b.mixer, key, nodeOf (root, b.mixer).settings[key] });
-    for (std::size_t i = 0; i < root.wires.size(); ++i)
-        if (root.wires[i].to != g.root.wires[i].to) batch.commands.push_back (graph::ChangeWire { {}, root.wires[i].id, root.wires[i] });
-    return graph::Command (std::move (batch));
+    const auto after = std::make_shared<graph::Graph> (g);
+    const auto* node = after->root.find (sink);
+    auto name = node == nullptr ? std::string (NEEDS_TRANS ("mix all layers")) : filled (NEEDS_TRANS ("mix into %1"), sink).toStdString();
+    if (node == nullptr)
+    {
+        if (auto mixed = mixAll (*after, catalogue); ! mixed) return mixed.error();
+    }
+    else
+        for (const auto& p : sinkPortsOf (*node))
+            if (p.port == port)
+                if (auto bank = bankBefore (after->root, sink, p, catalogue); ! bank) return bank.error();
+    return graph::Command (graph::Batch { std::move (name), { graph::ReplaceGraph { after } } });
 }
 
 }   // namespace tactus::host::compose

@@ -21,18 +21,18 @@ Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::En
 /// Mixes everything that reaches a motor. Ids: those of liftSinks.
 Result<> mixAll (graph::Graph&, const Catalogue&);
 
-/// An input of a device node with a mixer before it and with wires that go past this mixer.
+/// An input of a motor that signals reach past the mixers of the graph. A mixer stands straight before it, or before another input.
 struct Bypassed
 {
-    std::string sink, mixer;
-    SinkPort port;
-    std::vector<std::string> sources;   ///< the nodes that go past the mixer
+    std::string sink, port;             ///< the path of the node, and its input
+    std::string mixer;                  ///< path; "" if none stands before this input
+    std::vector<std::string> sources;   ///< the ports that go past it: "wall.force"
 };
 
-/// Those at the top of the graph.
-std::vector<Bypassed> bypassedBanks (const graph::Graph&);
+/// Those of a graph with a mixer. Of several instances, the first one counts.
+std::vector<Bypassed> bypassedBanks (const graph::Graph&, const Catalogue&);
 
-/// Makes layers of these wires. Ids: mixer/full.
-Result<graph::Command> mixIn (const graph::Graph&, const Bypassed&, const Catalogue&);
+/// Makes layers of what reaches this input. A motor inside of a subgraph moves to the top of the graph with all others. Ids: those of mixAll.
+Result<graph::Command> mixIn (const graph::Graph&, const std::string& sink, std::string_view port, const Catalogue&);
 
 }   // namespace tactus::host::compose

@@ -11,13 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tactus::host
 {
 
 namespace
 {
-constexpr int most_probes = 18;     // components. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
 constexpr int button_line = 28;
 juce::String headingOf (std::string_view family)
@@ -42,7 +42,8 @@ void placeIn (juce::Component& parent, const std::vector<std::unique_ptr<ToolBut
 }
 }   // namespace
 
-LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
+LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t, Traces::Rank::first),
+                                                                        spectra (t, Traces::Rank::spare)
 {
     setTitle (TRANS ("Layers"));
     for (const auto& kind : layerKinds())
@@ -86,6 +87,7 @@ void LayersPanel::rebuild()
     for (auto& s : strips)
         s->show();
     if (total) total->show();
+    if (isVisible()) rebuildUnmixed();
 
     for (auto& b : kinds)
         b->setEnabled (true);
@@ -125,7 +127,6 @@ void LayersPanel::rebuildStrips (std::size_t layers)
 {
     strips.clear();
     total.reset();
-    probes = most_probes;
     if (! all.empty())
     {
         const auto hint = [this] (const juce::String& text) {
@@ -146,37 +147,55 @@ void LayersPanel::rebuildStrips (std::size_t layers)
     requestTraces();
 }
 
-void LayersPanel::requestTraces()
+/// Looks at all nodes, so it is not done while the panel is hidden.
+void LayersPanel::rebuildUnmixed()
 {
-    std::vector<std::string> ports;
-    if (isVisible() && ! all.empty())
-    {
-        ports = { chosen.path + ".out", chosen.path + ".reduction" };
-        const int each = chosen.vectors ? 3 : 1;
-        int used = each + 1;
-        for (std::size_t i = 0; i < strips.size(); ++i)
-        {
-            const bool whole = used + each <= probes;
-            used += whole ? each : 1;
-            ports.push_back (chosen.path + (whole ? ".in[" : ".level[") + std::to_string (i) + ']');
-        }
-    }
-    traces.want (std::move (ports));
+    auto now = all.empty() ? BehindMixer {} : behindMixer (document.graph(), chosen, catalogue);
+    if (now == behind && now.unmixed.size() == past.size()) return;
+    behind = std::move (now);
+    past.clear();
+    for (const auto& u : behind.unmixed)
+        row.addAndMakeVisible (*past.emplace_back (std::make_unique<UnmixedStrip> (u, [this, u] { mixIn (u); })));
+    requestTraces();
 }
 
-/// All panels share what a run can record. If that is too little, one more layer has a meter and no spectrum.
-void LayersPanel::attendLeftOut()
+void LayersPanel::mixIn (const UnmixedSignal& u)
 {
-    if (all.empty() || probes <= 0) return;
-    const auto isOurs = [stem = chosen.path + '.'] (const std::string& component) { return component.starts_with (stem); };
-    if (std::ranges::none_of (traces.leftOut(), isOurs)) return;
-    --probes;
-    requestTraces();
+    if (! commandToMix) return;
+    auto command = commandToMix (u);
+    if (! command)
+    {
+        if (onHint) onHint (juce::String (messageText (command.error())));
+        return;
+    }
+    // Asynchronous, because the command deletes the strip whose button is being clicked.
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), edit = *std::move (command)] {
+        if (safe != nullptr) safe->document.perform (edit);
+    });
+}
+
+void LayersPanel::requestTraces()
+{
+    std::vector<std::string> levels, signals;
+    if (isVisible() && ! all.empty())
+    {
+        levels = { chosen.path + ".out", chosen.path + ".reduction" };
+        std::ranges::copy (behind.motors, std::back_inserter (levels));
+        for (const auto& u : behind.unmixed)
+            levels.push_back (u.from);
+        for (std::size_t i = 0; i < strips.size(); ++i)
+        {
+            levels.push_back (chosen.path + ".level[" + std::to_string (i) + ']');
+            signals.push_back (chosen.path + ".in[" + std::to_string (i) + ']');
+        }
+    }
+    traces.want (std::move (levels));
+    spectra.want (std::move (signals));
 }
 
 void LayersPanel::visibilityChanged()
 {
-    probes = most_probes;
+    if (isVisible()) rebuildUnmixed();
     requestTraces();
     if (! isVisible()) return;
     proposeMixer();
@@ -189,11 +208,12 @@ void LayersPanel::refresh()
     const double dt = std::clamp ((now - refreshed_ms) * 1e-3, 1e-3, 1.0);
     if (! isVisible()) return;
     refreshed_ms = now;
-    attendLeftOut();
     const bool with_spectrum = ++refreshes % spectrum_every == 0;
     for (auto& s : strips)
         s->refresh (traces, dt, with_spectrum);
-    if (total) total->refresh (traces, dt);
+    for (auto& s : past)
+        s->refresh (traces, dt);
+    if (total) total->refresh (traces, behind.motors, dt);
 }
 
 void LayersPanel::choose (std::size_t mixer)
@@ -441,13 +461,12 @@ void LayersPanel::resized()
     placeIn (parent, names);
     placeIn (parent, kinds);
     placeIn (parent, { &more, total.get() });
-    const int bar = scroll.getScrollBarThickness(), all_strips = static_cast<int> (strips.size()) * LayerStrip::width;
+    const int bar = scroll.getScrollBarThickness(), all_strips = static_cast<int> (strips.size() + past.size()) * LayerStrip::width;
     if (is_narrow)   // the strips, the mix and the head scroll together
     {
         scroll.setBounds (area);
         row.setSize (all_strips + MixStrip::width + head_width, std::max (LayerStrip::least_height, area.getHeight() - bar));
-        for (std::size_t i = 0; i < strips.size(); ++i)
-            strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
+        placeStrips();
         if (total) total->setBounds (all_strips, 0, MixStrip::width, row.getHeight());
         return layOutHead ({ all_strips + MixStrip::width + 12, 4, head_width - 24, row.getHeight() - 8 });
     }
@@ -459,8 +478,20 @@ void LayersPanel::resized()
     // The row is so wide that, scrolled to its end, the first strip in view is whole.
     const int hidden = std::max (0, width - size.seen_width), whole = (hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width;
     row.setSize (hidden == 0 ? width : whole + size.seen_width, size.height);
-    for (std::size_t i = 0; i < strips.size(); ++i)
-        strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
+    placeStrips();
+}
+
+void LayersPanel::placeStrips()
+{
+    int x = 0;
+    const auto place = [&] (juce::Component& strip) {
+        strip.setBounds (x, 0, LayerStrip::width, row.getHeight());
+        x += LayerStrip::width;
+    };
+    for (auto& s : strips)
+        place (*s);
+    for (auto& s : past)
+        place (*s);
 }
 
 }   // namespace tactus::host

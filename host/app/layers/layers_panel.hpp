@@ -3,6 +3,7 @@
 
 #include "strip.hpp"
 #include "strip_view.hpp"
+#include "unmixed_strip.hpp"
 
 #include <host/app/text/filled.hpp>
 
@@ -11,8 +12,8 @@
 namespace tactus::host
 {
 
-/// A layer mixer of the graph as a mixing desk: a strip for each layer, and the master strip. A clip file dropped on it becomes a
-/// layer.
+/// A layer mixer of the graph as a mixing desk: a strip for each layer, one for each signal that reaches the motor past it, and the master strip. A clip
+/// file dropped on it becomes a layer.
 class LayersPanel final : public juce::Component, public juce::FileDragAndDropTarget, private Document::Listener
 {
 public:
@@ -27,11 +28,16 @@ public:
     /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. Empty: the layer begins without a file.
     std::function<void (std::function<void (const std::filesystem::path&)> chosen)> onChooseClip;
 
+    /// The edit that makes a layer of a signal. Must be set before mixIn().
+    std::function<Result<graph::Command> (const UnmixedSignal&)> commandToMix;
+
     void choose (std::size_t mixer);   ///< selects the mixer to show, if there are several
     const std::vector<MixerPlace>& mixers() const noexcept { return all; }
     std::size_t layers() const noexcept { return strips.size(); }
     LayerStrip& layer (std::size_t i) { return *strips[i]; }
     MixStrip* mix() noexcept { return total.get(); }
+    const std::vector<std::unique_ptr<UnmixedStrip>>& unmixed() const noexcept { return past; }
+    void mixIn (const UnmixedSignal&);   ///< makes a layer of it
     /// Adds a layer with a node of that type, "" for an empty one; adds a mixer first if there is none. A clip plays this file at each tap.
     void add (const std::string& type, const std::filesystem::path& clip = {});
     void begin (const std::string& type);   ///< like add(), but asks for the file of a clip first
@@ -59,8 +65,9 @@ private:
     void proposeMixer();
     void rebuildNames();
     void rebuildStrips (std::size_t layers);
+    void rebuildUnmixed();
+    void placeStrips();
     void requestTraces();
-    void attendLeftOut();
     void openMenu();
     void layOutHead (juce::Rectangle<int>);
     juce::Rectangle<int> introductionArea() const;
@@ -70,7 +77,8 @@ private:
 
     Document& document;
     const Catalogue& catalogue;
-    Traces::Client traces;
+    Traces::Client traces;    // the levels
+    Traces::Client spectra;   // as many as can be recorded
     std::vector<MixerPlace> all;
     MixerPlace chosen;
     std::vector<std::unique_ptr<ToolButton>> names;   // one button for each mixer
@@ -82,9 +90,11 @@ private:
     StripView scroll;
     juce::Component row;   // contains the strips
     std::vector<std::unique_ptr<LayerStrip>> strips;
+    BehindMixer behind;
+    std::vector<std::unique_ptr<UnmixedStrip>> past;
     std::unique_ptr<MixStrip> total;
     double refreshed_ms = 0.0;
-    int refreshes = 0, drop_at = -1, probes = 0;
+    int refreshes = 0, drop_at = -1;
     bool file_over = false;   // a clip file is being dragged over the desk
 };
 

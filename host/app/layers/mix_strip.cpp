@@ -48,9 +48,15 @@ void MixStrip::show()
     repaint();
 }
 
-void MixStrip::refresh (const Traces::Client& traces, double dt_s)
+void MixStrip::refresh (const Traces::Client& traces, const std::vector<std::string>& motors, double dt_s)
 {
     const auto before = over_db;
+    const auto before_motor = std::exchange (motor_peak, juce::String());
+    if (! motors.empty())
+    {
+        motor.take (traces.of (motors.front()), 1.0, dt_s);
+        motor_peak = levelText (motor.meter.peak(), motor.unit);
+    }
     const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
     feed.take (traces.of (context->place.path + ".out"), 1.0, dt_s);
     over_db = 0.0;
@@ -62,7 +68,7 @@ void MixStrip::refresh (const Traces::Client& traces, double dt_s)
             if (v > over_db) over_db = v;
     }
     repaint (meter_area);
-    if (before != over_db || shown_peak != peak) repaint (text_area);
+    if (before != over_db || shown_peak != peak || before_motor != motor_peak) repaint (text_area);
 }
 
 void MixStrip::paint (juce::Graphics& g)
@@ -83,6 +89,7 @@ void MixStrip::paint (juce::Graphics& g)
     auto lines = text_area;
     g.setColour (theme.text);
     g.drawText (filled (TRANS ("peak %1"), peak), lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    if (motor_peak.isNotEmpty()) g.drawText (filled (TRANS ("motor %1"), motor_peak), lines.removeFromTop (18), juce::Justification::centredLeft, false);
     auto state = limits ? TRANS ("below the ceiling") : TRANS ("no ceiling");
     if (limits && over) state = filled (TRANS ("over by %1 dB"), juce::String (over_db, 1));
     g.setColour (over ? theme.warning : theme.dim);

@@ -118,8 +118,11 @@ public:
     explicit MixStrip (std::shared_ptr<const MixerContext>);
 
     void show();
-    void refresh (const Traces::Client&, double dt_s);
+    /// `motors`: the inputs that the mix reaches. The strip shows what the first one gets in all, which is the force of the status line unless the guard acts.
+    void refresh (const Traces::Client&, const std::vector<std::string>& motors, double dt_s);
     double reduction() const noexcept { return over_db; }
+    const Meter& meter() const noexcept { return feed.meter; }
+    const Meter& motorMeter() const noexcept { return motor.meter; }
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -127,8 +130,8 @@ public:
 private:
     std::shared_ptr<const MixerContext> context;
     NumberField duck, ceiling;
-    MeterFeed feed;
-    juce::String peak;
+    MeterFeed feed, motor;
+    juce::String peak, motor_peak;   // motor_peak: "" if no motor is behind the mixer
     double over_db = 0.0;
     bool limits = false;
     juce::Rectangle<int> meter_area, duck_label, ceiling_label, text_area;

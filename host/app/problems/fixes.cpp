@@ -7,6 +7,7 @@
 #include <host/app/model/patch.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoints.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -95,9 +96,10 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"));
     if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"));
     if (m.id == "mixer/bypassed")
-        for (const auto& b : compose::bypassedBanks (g))
-            if (b.sink == location.node)
-                if (auto mixed = compose::mixIn (g, b, catalogue())) return Fix { filled (TRANS ("Mix it in %1"), b.mixer).toStdString(), std::move (*mixed) };
+        for (const auto& b : compose::bypassedBanks (g, catalogue()))
+            if (graph::firstNameOf (b.sink) == location.node && m.text.find (b.sources.front()) != std::string::npos)
+                if (auto mixed = compose::mixIn (g, b.sink, b.port, catalogue()))
+                    return Fix { (b.mixer.empty() ? TRANS ("Mix it in") : filled (TRANS ("Mix it in %1"), b.mixer)).toStdString(), std::move (*mixed) };
     if (m.id == "node/no_effect") return leadToMotor (g, location);
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));

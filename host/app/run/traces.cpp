@@ -48,13 +48,22 @@ void Traces::Client::want (std::vector<std::string> wanted)
     if (traces.onWanted) traces.onWanted();
 }
 
+std::vector<std::pair<std::string, Traces::Rank>> Traces::requests() const
+{
+    std::vector<std::pair<std::string, Rank>> all;
+    std::set<std::string_view> known;
+    for (const auto rank : { Rank::first, Rank::usual, Rank::spare })
+        for (const auto* c : clients)
+            for (const auto& p : c->ports)
+                if (c->rank == rank && known.insert (p).second) all.emplace_back (p, rank);
+    return all;
+}
+
 std::vector<std::string> Traces::ports() const
 {
     std::vector<std::string> all;
-    std::set<std::string_view> known;
-    for (const auto* c : clients)
-        for (const auto& p : c->ports)
-            if (known.insert (p).second) all.push_back (p);
+    for (auto& [port, rank] : requests())
+        all.push_back (std::move (port));
     return all;
 }
 
@@ -71,26 +80,37 @@ void Traces::planComes (const Plan& plan)
 {
     collect();   // the frames so far belong to the previous plan
     ++changes;
-    std::map<std::string, std::vector<std::string>, std::less<>> wanted;   // by stem
-    for (auto& port : ports())
-        wanted[std::string (stemOf (port))].push_back (std::move (port));
-    const auto isWanted = [&] (const std::string& tap) {
-        const auto ports = wanted.find (stemOf (tap));
-        return ports != wanted.end() && std::ranges::any_of (ports->second, [&] (const std::string& port) { return isPartOf (tap, port); });
-    };
+    const auto wanted = requests();
+    std::map<std::string, std::vector<std::size_t>, std::less<>> by_stem;   // numbers of taps
+    for (const auto& [port, rank] : wanted)
+        by_stem.try_emplace (std::string (stemOf (port)));
+    for (std::size_t i = 0; i < plan.taps().size(); ++i)
+        if (const auto stem = by_stem.find (stemOf (plan.taps()[i].name)); stem != by_stem.end()) stem->second.push_back (i);
+
+    std::vector<bool> is_chosen (plan.taps().size());
+    std::size_t count = 0;
+    too_many.clear();
+    for (const auto& [port, rank] : wanted)
+    {
+        auto parts = by_stem.find (stemOf (port))->second;
+        std::erase_if (parts, [&, p = std::string_view (port)] (std::size_t i) { return is_chosen[i] || ! isPartOf (plan.taps()[i].name, p); });
+        const auto room = ProbeRing::most - count;
+        if (rank == Rank::spare && parts.size() > room) continue;
+        for (std::size_t k = room; k < parts.size(); ++k)
+            if (std::ranges::count (too_many, plan.taps()[parts[k]].name) == 0) too_many.push_back (plan.taps()[parts[k]].name);
+        parts.resize (std::min (parts.size(), room));
+        count += parts.size();
+        for (const auto i : parts)
+            is_chosen[i] = true;
+    }
+
     std::vector<std::size_t> chosen;
     std::vector<std::shared_ptr<Trace>> columns;
-    too_many.clear();
     std::map<std::string, std::shared_ptr<Trace>> recorded;
     for (std::size_t i = 0; i < plan.taps().size(); ++i)
     {
+        if (! is_chosen[i]) continue;
         const auto& tap = plan.taps()[i];
-        if (! isWanted (tap.name)) continue;
-        if (chosen.size() == ProbeRing::most)
-        {
-            too_many.push_back (tap.name);
-            continue;
-        }
         auto& trace = recorded[tap.name];
         if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
         if (! trace) trace = std::make_shared<Trace> (tap, plan.rateHz());

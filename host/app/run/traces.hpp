@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -63,11 +64,19 @@ private:
 class Traces final : public RunListener
 {
 public:
+    /// The order in which clients are served, because a run records only so many components.
+    enum class Rank
+    {
+        first,   ///< levels: few numbers, without which something seems silent
+        usual,
+        spare   ///< whole ports out of what the others leave; whatever is left out counts as not requested
+    };
+
     /// Requests ports for as long as it lives.
     class Client
     {
     public:
-        explicit Client (Traces& t) : traces (t) { traces.clients.push_back (this); }
+        explicit Client (Traces& t, Rank r = Rank::usual) : traces (t), rank (r) { traces.clients.push_back (this); }
         ~Client();
         Client (const Client&) = delete;
         Client& operator= (const Client&) = delete;
@@ -87,10 +96,11 @@ public:
     private:
         friend Traces;
         Traces& traces;
+        Rank rank;
         std::vector<std::string> ports;
     };
 
-    /// All requested ports, each once.
+    /// All requested ports, each once, in the order in which they are served.
     std::vector<std::string> ports() const override;
 
     std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const;
@@ -112,6 +122,8 @@ public:
     void collect();   ///< call many times a second
 
 private:
+    std::vector<std::pair<std::string, Rank>> requests() const;
+
     static constexpr std::size_t most_plans = 64;   ///< plans whose frames may still be in the ring
 
     ProbeRing ring;

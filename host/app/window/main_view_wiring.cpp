@@ -2,6 +2,7 @@
 // Which panel of the window calls what. All connections between panels are here.
 #include "main_view.hpp"
 
+#include <host/app/compose/banks.hpp>
 #include <host/app/devices_panel/session_change.hpp>
 #include <host/app/look/focus.hpp>
 
@@ -121,6 +122,7 @@ void MainView::connectRun()
         turnTo (patching);
         patching.show (patch, node);
     };
+    layers.commandToMix = [this] (const UnmixedSignal& u) { return compose::mixIn (edited.graph(), u.sink, u.port, catalogue); };
     layers.onChooseClip = [this] (auto chosen) { askForSetting (clip_patterns, {}, std::move (chosen)); };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
 

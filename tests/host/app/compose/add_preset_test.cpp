@@ -124,6 +124,25 @@ bool isMixed (const graph::Graph& g)
     });
 }
 
+/// True if the devices get nothing once each layer of the mixers before them is muted.
+bool isSilentWhenMuted (graph::Graph g)
+{
+    for (auto& n : g.root.nodes)
+        if (n.type.starts_with ("layer.mix") && std::ranges::any_of (g.root.wires, [&] (const graph::Wire& w) {
+                return w.from.node == n.name && ! sinkPortsOf (*g.root.find (w.to.node)).empty();
+            }))
+        {
+            auto all = Json::array();
+            for (int i = 0; i < layersOf (n, catalogue()); ++i)
+                all.push_back (1.0);
+            n.params["mute"] = all;
+        }
+    for (const auto& [role, efforts] : played (g, g.rate_hz, {}))
+        for (const auto& e : efforts)
+            if (e.force.norm() + e.torque.norm() > 0.0) return false;
+    return true;
+}
+
 /// The largest difference between the sum of two graphs and both in one, in N and N m; and the largest force.
 struct Difference
 {
@@ -166,7 +185,7 @@ TEST_CASE ("a preset that is added to another one plays the sum of both, through
         AddedPreset made;
         const auto both = with (open, added, { .roles = roles }, &made);
         CHECK (isMixed (both));
-        CHECK (bypassedBanks (both).empty());
+        CHECK (bypassedBanks (both, catalogue()).empty());
         CHECK (both.controls.size() == open.controls.size() + added.controls.size());
         CHECK (both.rate_hz == std::max (open.rate_hz, added.rate_hz));
         CHECK (both.devices.size() == open.devices.size() + rolesIn (added).size() - roles.size());
@@ -174,6 +193,7 @@ TEST_CASE ("a preset that is added to another one plays the sum of both, through
         const auto d = difference (open, added, both, roles);
         CHECK (d.strongest > 1e-3);
         CHECK (d.most <= 1e-12 * (1.0 + d.strongest));
+        CHECK (isSilentWhenMuted (both));   // every force is in a strip
     });
 }
 
@@ -314,15 +334,15 @@ TEST_CASE ("motors inside of subgraphs come to the top, one for each role", "[co
 TEST_CASE ("what goes past a mixer is found, and becomes a layer in one step", "[compose]")
 {
     auto wood = preset ("dry_wood");
-    CHECK (bypassedBanks (wood).empty());   // there is no mixer to go past
+    CHECK (bypassedBanks (wood, catalogue()).empty());   // there is no mixer to go past
     REQUIRE (mixAll (wood, catalogue()));
     tactus::test::Sketch more { wood };
     more.node ("hum", "texture.grating").wire ("hand.position -> hum.position").wire ("hum.force -> motor.force");
-    const auto found = bypassedBanks (more.graph);
+    const auto found = bypassedBanks (more.graph, catalogue());
     REQUIRE (found.size() == 1);
     CHECK (found[0].sink == "motor");
     CHECK (found[0].mixer == "desk");
-    CHECK (found[0].sources == std::vector<std::string> { "hum" });
+    CHECK (found[0].sources == std::vector<std::string> { "hum.force" });
     const auto said = unfelt (more.graph, catalogue());
     REQUIRE (said.size() == 1);
     CHECK (said[0].id == "mixer/bypassed");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/compose/banks.hpp>
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/run/live_run.hpp>
 
@@ -34,6 +35,7 @@ struct Rig
         document = std::make_unique<Document> (std::move (g));
         live_run = std::make_unique<LiveRun> (*document, catalogue());
         panel = std::make_unique<LayersPanel> (*document, live_run->traces(), catalogue());
+        panel->commandToMix = [this] (const UnmixedSignal& u) { return compose::mixIn (document->graph(), u.sink, u.port, catalogue()); };
         panel->setBounds (0, 0, 900, 232);
         panel->setVisible (true);
     }
@@ -291,6 +293,84 @@ TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]
     }));
     CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));
     CHECK (rig.panel->layer (0).meter().rms() == Approx (2.0));
+}
+
+TEST_CASE ("the levels of the strips, the mix, the motor and the status line agree, and what is not mixed has a strip of its own", "[layers]")
+{
+    tactus::test::Sketch sketch;
+    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("past", "signal.constant", { { "value", "1 N" } }).node ("motor", "device.force");
+    sketch.node ("desk", "layer.mix", { { "gain", { 0.4 } } }, { { "inputs", 1 } });
+    sketch.wire ("loud.out -> desk.in[0]").wire ("desk.out -> motor.force.z").wire ("past.out -> motor.force.z");
+    sketch.graph.root.wires.back().gain = Json (0.5);
+    Rig rig (sketch.graph);
+    REQUIRE (rig.panel->unmixed().size() == 1);
+    CHECK (rig.panel->unmixed()[0]->signal().from == "past.out");
+    rig.live_run->start (LiveRun::Hand {});
+    REQUIRE (rig.live_run->isRunning());
+    const auto forceNow = [&] {
+        const auto status = rig.live_run->status();
+        return status ? status->force : 0.0;
+    };
+    const auto settle = [&] (double force) {
+        return tactus::test::eventually (std::chrono::milliseconds (10), [&] {
+            rig.live_run->poll();
+            rig.panel->refresh();
+            return std::abs (forceNow() - force) < 1e-9 && std::abs (rig.panel->mix()->motorMeter().rms() - force) < 1e-9;
+        });
+    };
+    CHECK (settle (1.3));
+    CHECK (rig.panel->layer (0).meter().rms() == Approx (0.8));
+    CHECK (rig.panel->mix()->meter().rms() == Approx (0.8));
+    CHECK (rig.panel->unmixed()[0]->meter().rms() == Approx (0.5));
+    CHECK (rig.picture().isValid());
+
+    rig.panel->mixIn (rig.panel->unmixed()[0]->signal());
+    rig.settle();
+    CHECK (rig.panel->unmixed().empty());
+    CHECK (rig.panel->mixers().size() == 2);   // the first one has one axis, and its mix is a layer of the second
+    rig.panel->choose (1);
+    rig.settle();
+    REQUIRE (rig.panel->layers() == 2);
+    CHECK (settle (1.3));
+    CHECK (rig.panel->mix()->meter().rms() == Approx (1.3));
+    CHECK (rig.panel->layer (0).meter().rms() + rig.panel->layer (1).meter().rms() == Approx (1.3));
+    rig.document->undo();
+    CHECK (rig.panel->unmixed().size() == 1);
+}
+
+TEST_CASE ("with many layers and scopes, every strip has its level, and the spectra share what is left", "[layers]")
+{
+    tactus::test::Sketch sketch;
+    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("up", "vector.join").node ("motor", "device.force").wire ("loud.out -> up.z");
+    sketch.node ("desk", "layer.mix_vectors", Json::object(), { { "inputs", 12 } }).wire ("desk.out -> motor.force");
+    for (int i = 0; i < 12; ++i)
+        sketch.wire ("up.out -> desk.in[" + std::to_string (i) + "]");
+    for (int i = 0; i < 5; ++i)
+        sketch.node ("s" + std::to_string (i), "vector.join").wire ("loud.out -> s" + std::to_string (i) + ".x");
+    Rig rig (sketch.graph);
+    Traces::Client scopes (rig.live_run->traces());
+    const auto level = [&] (std::size_t i) { return rig.panel->layer (i).meter().rms(); };
+    const auto allShow = [&] {
+        return tactus::test::eventually (std::chrono::milliseconds (10), [&] {
+            rig.live_run->poll();
+            rig.panel->refresh();
+            for (std::size_t i = 0; i < rig.panel->layers(); ++i)
+                if (std::abs (level (i) - 2.0) > 1e-9) return false;
+            return std::abs (rig.panel->mix()->meter().rms() - 24.0) < 1e-9;
+        });
+    };
+    rig.live_run->start (LiveRun::Hand {});
+    REQUIRE (rig.live_run->isRunning());
+    CHECK (allShow());
+    CHECK (rig.live_run->traces().leftOut().empty());   // spectra are no loss
+    const auto partsOf = [&] (const std::string& port) { return rig.live_run->traces().of (port).size(); };
+    CHECK (partsOf ("desk.in[0]") == 3);
+    CHECK (partsOf ("desk.in[11]") == 0);
+    scopes.want ({ "s0.out", "s1.out", "s2.out", "s3.out", "s4.out", "up.out", "loud.out" });
+    CHECK (allShow());
+    CHECK (partsOf ("s0.out") == 3);
+    CHECK (partsOf ("desk.in[0]") == 0);
+    CHECK (rig.live_run->traces().leftOut().size() == 6);   // 12 levels, reduction, mix and motor take 19 of 32 numbers, and 19 more are asked for
 }
 
 TEST_CASE ("a clip dropped on the desk becomes a layer, and without a mixer, the same step adds one", "[layers][clips]")

@@ -58,7 +58,7 @@ TEST_CASE ("a preset that is dragged onto the canvas is added as a node and a la
     w.stage->move ({ 2.0f, 2.0f });   // until then, the line says what is under the pointer
     INFO (w.view->statusText());
     CHECK (w.view->statusText().contains ("a layer of desk"));
-    CHECK (compose::bypassedBanks (w.graph()).empty());
+    CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
     CHECK (mixersOf (w.graph()).size() == 2);   // before the motor, and inside of the block
     const auto& nodes = w.view->canvas().scene().nodes();
     for (const auto& a : nodes)
@@ -92,7 +92,7 @@ TEST_CASE ("the menu of a preset adds it or a part of it, and Ctrl+Return adds t
     w.key ("ctrl + return");
     CHECK (w.graph().root.find ("velvet") != nullptr);
     CHECK (w.view->canvas().hasKeyboardFocus (true));
-    CHECK (compose::bypassedBanks (w.graph()).empty());
+    CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
 
     w.key ("ctrl + k");
     w.stage->type ("add denim without its walls");
