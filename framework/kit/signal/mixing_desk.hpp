@@ -69,6 +69,9 @@ public:
         return out;
     }
 
+    /// The factor on a layer in the last mix, before the ceiling: gain, mute, solo and ducking.
+    double factor (int i, const DeskParams& params) const noexcept { return channels[at (i)].duck * channels[at (i)].open * params.gain[i]; }
+
 private:
     struct Channel
     {

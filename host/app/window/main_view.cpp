@@ -247,6 +247,11 @@ void MainView::timerCallback()
     hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
     attendFilm();
+    if (stems.isRunning())
+    {
+        wake();
+        stems.attend();
+    }
     live.refresh();
     inspector.refreshLive();
     limits.poll();

@@ -7,6 +7,7 @@
 #include "shade.hpp"
 #include "splitter.hpp"
 #include "status_line.hpp"
+#include "stem_export.hpp"
 #include "tabs.hpp"
 #include "top_bar.hpp"
 
@@ -256,6 +257,10 @@ private:
     Files files;         // declared before the run, so that an edit is autosaved before it runs
     Playback playback;   // declared before the panels that show it
     LimitWatch limits;
+    StemExport stems { catalogue,
+                       { .question = question,
+                         .notify = [this] (const juce::String& text) { status.notify (text); },
+                         .chooseFolder = [this] (const std::string& name, std::function<void (const std::filesystem::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); } } };
     std::unique_ptr<OscServer> osc_server;
     std::optional<LiveNodes> live_nodes;
     Reaches reaches { device_setup };

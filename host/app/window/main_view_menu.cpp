@@ -85,6 +85,7 @@ struct MainView::SaveWords
         if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
         if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };
+        if (begin.extension().empty()) return { TRANS ("Name a folder for the stems"), "*" };
         return { TRANS ("Save graph"), "*.json" };
     }
 };
@@ -152,6 +153,7 @@ juce::PopupMenu MainView::windowMenu()
     revert.isEnabled = ! edited.file().empty();
     menu.addItem (revert);
     menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
+    if (! edited.graph().root.nodes.empty()) menu.addItem (menuItem (TRANS ("Export stems ..."), {}, [this] { stems.ask (edited.graph()); }));
     menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();
     menu.addItem (menuItem (

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plot_options.hpp"
 #include "plotter.hpp"
+#include "stem_options.hpp"
 
 #include <host/base/assets/file_assets.hpp>
 #include <host/base/platform/signals.hpp>
@@ -31,6 +32,7 @@ struct RenderOptions : RunOptions
 {
     std::string replay, listen;
     PlotOptions plot;
+    StemCommand stems;
 
     /// The files that --plot and --listen name.
     std::vector<std::string> pictures() const
@@ -152,6 +154,7 @@ void run (RenderOptions& options)
 {
     options.plot.finish();
     if (options.graph.empty() && options.replay.empty()) throw UsageError ("graph is required");
+    if (! options.stems.folder.empty()) return options.stems.run (options);
     options.replay.empty() ? render (options) : replay (options);
 }
 }   // namespace
@@ -169,7 +172,8 @@ void addRender (const Command& app)
     options->plot.addTo (command);
     command.addOption ("--listen", options->listen,
                        "Write what is recorded as a sound for loudspeakers: a mono .wav at 48 kHz, high-passed at 20 Hz, at -3 dBFS");
-    command.footer ("Without --out, --plot and --listen, CSV goes to the standard output.\n\n"
+    options->stems.addTo (command);
+    command.footer ("Without --out, --plot, --listen and --stems, CSV goes to the standard output.\n\n"
                     "Examples:\n"
                     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                     "  tactus render graphs/dry_wood.json --device stylus=gesture:circle --out wood.wav\n"
@@ -178,6 +182,8 @@ void addRender (const Command& app)
                     "  tactus render rub.json --feed loop.csv --record drag.position.x,drag.force.x --plot loop.png --over drag.position.x\n"
                     "  tactus render graphs/dry_wood.json --record drag.force --plot wood.pdf --size 85x60 --from 1 --until 2\n"
                     "  tactus render graphs/steel_bar.json --record ring.value --listen bar.wav\n"
+                    "  tactus render graphs/bronze_bell.json --stems bell --stem-format pcm24 --stem-rate 48000\n"
+                    "  tactus render graphs --stems all --duration 5\n"
                     "  tactus render --replay wood.jsonl --record drag.force,drag.state --out wood.csv");
     command.callback ([options] { run (*options); });
 }

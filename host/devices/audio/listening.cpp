@@ -39,19 +39,7 @@ Biquad highPass (double rate_hz)
 /// A WAV with one channel of 16-bit integers.
 std::string wavOf (const std::vector<float>& samples, double gain)
 {
-    const auto bytes = static_cast<std::uint32_t> (2 * samples.size()), rate = static_cast<std::uint32_t> (wav_rate_hz);
-    std::string out = "RIFF";
-    appendInteger (out, 36 + bytes, 4);
-    out += "WAVEfmt ";
-    appendInteger (out, 16, 4);
-    appendInteger (out, 1, 2);   // integers
-    appendInteger (out, 1, 2);   // channel
-    appendInteger (out, rate, 4);
-    appendInteger (out, 2 * rate, 4);
-    appendInteger (out, 2, 2);
-    appendInteger (out, 16, 2);
-    out += "data";
-    appendInteger (out, bytes, 4);
+    auto out = wavHeader (wav_rate_hz, 1, samples.size(), SampleFormat::pcm16);
     for (const float s : samples)
         appendInteger (out, static_cast<std::uint32_t> (std::lround (std::clamp (gain * double { s }, -1.0, 1.0) * 32767.0)), 2);
     return out;
@@ -87,25 +75,35 @@ void Listening::frame (std::span<const double> values)
     }
 }
 
+std::vector<double> mainDirection (std::span<const std::vector<float>* const> components)
+{
+    const auto n = static_cast<Eigen::Index> (components.size());
+    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero (n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+            for (std::size_t k = 0; k < components[0]->size(); ++k)
+                moments (i, j) += double { (*components[static_cast<std::size_t> (i)])[k] } * double { (*components[static_cast<std::size_t> (j)])[k] };
+    if (! moments.allFinite()) return {};
+    Eigen::VectorXd most = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> (moments).eigenvectors().col (n - 1);
+    Eigen::Index longest = 0;
+    most.cwiseAbs().maxCoeff (&longest);
+    if (most[longest] < 0.0) most = -most;   // a solver may return either direction
+    return { most.begin(), most.end() };
+}
+
 std::vector<float> Listening::mixed() const
 {
     std::vector<float> mix (columns[0].size());
     for (const auto& parts : vectors)
     {
-        const auto n = static_cast<Eigen::Index> (parts.size());
-        Eigen::MatrixXd moments = Eigen::MatrixXd::Zero (n, n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index j = 0; j < n; ++j)
-                for (std::size_t k = 0; k < mix.size(); ++k)
-                    moments (i, j) += double { columns[parts[static_cast<std::size_t> (i)]][k] } * double { columns[parts[static_cast<std::size_t> (j)]][k] };
-        if (! moments.allFinite()) continue;
-        Eigen::VectorXd most = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> (moments).eigenvectors().col (n - 1);
-        Eigen::Index longest = 0;
-        most.cwiseAbs().maxCoeff (&longest);
-        if (most[longest] < 0.0) most = -most;   // a solver may return either direction
+        std::vector<const std::vector<float>*> components;
+        for (const auto p : parts)
+            components.push_back (&columns[p]);
+        const auto most = mainDirection (components);
+        if (most.empty()) continue;
         for (std::size_t k = 0; k < mix.size(); ++k)
-            for (Eigen::Index i = 0; i < n; ++i)
-                mix[k] += static_cast<float> (most[i] * double { columns[parts[static_cast<std::size_t> (i)]][k] });
+            for (std::size_t i = 0; i < parts.size(); ++i)
+                mix[k] += static_cast<float> (most[i] * double { (*components[i])[k] });
     }
     return mix;
 }

@@ -12,12 +12,13 @@ void appendInteger (std::string& out, std::uint64_t value, int bytes)
         out += static_cast<char> (value >> 8 * i & 0xff);
 }
 
-std::string wavHeader (double rate_hz, std::size_t channels, std::uint64_t frames)
+std::string wavHeader (double rate_hz, std::size_t channels, std::uint64_t frames, SampleFormat format)
 {
-    constexpr std::uint64_t before_data = 12 + (8 + 28) + (8 + 18) + (8 + 4) + 8;
+    const bool is_float = format == SampleFormat::float32;
+    const std::uint64_t format_bytes = is_float ? 18 : 16, before_data = 12 + (8 + 28) + (8 + format_bytes) + (is_float ? 8 + 4 : 0) + 8;
     constexpr std::uint64_t see_ds64 = 0xffffffff;
-    const auto rate = static_cast<std::uint64_t> (rate_hz), frame_bytes = channels * sizeof (float);
-    const auto bytes = frames * frame_bytes, size = before_data - 8 + bytes;
+    const auto rate = static_cast<std::uint64_t> (rate_hz), frame_bytes = channels * bytesOf (format);
+    const auto bytes = frames * frame_bytes, size = before_data - 8 + bytes + bytes % 2;   // a chunk has an even number of bytes
     const bool is_large = size >= see_ds64;
 
     std::string out = is_large ? "RF64" : "RIFF";
@@ -29,17 +30,20 @@ std::string wavHeader (double rate_hz, std::size_t channels, std::uint64_t frame
     appendInteger (out, is_large ? frames : 0, 8);
     appendInteger (out, 0, 4);
     out += "fmt ";
-    appendInteger (out, 18, 4);
-    appendInteger (out, 3, 2);   // WAVE_FORMAT_IEEE_FLOAT
+    appendInteger (out, format_bytes, 4);
+    appendInteger (out, is_float ? 3 : 1, 2);   // WAVE_FORMAT_IEEE_FLOAT, WAVE_FORMAT_PCM
     appendInteger (out, channels, 2);
     appendInteger (out, rate, 4);
     appendInteger (out, rate * frame_bytes, 4);
     appendInteger (out, frame_bytes, 2);
-    appendInteger (out, 8 * sizeof (float), 2);
-    appendInteger (out, 0, 2);
-    out += "fact";
-    appendInteger (out, 4, 4);
-    appendInteger (out, std::min (frames, see_ds64), 4);
+    appendInteger (out, 8 * bytesOf (format), 2);
+    if (is_float)
+    {
+        appendInteger (out, 0, 2);
+        out += "fact";
+        appendInteger (out, 4, 4);
+        appendInteger (out, std::min (frames, see_ds64), 4);
+    }
     out += "data";
     appendInteger (out, is_large ? see_ds64 : bytes, 4);
     return out;

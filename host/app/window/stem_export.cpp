@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stem_export.hpp"
+
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <memory>
+#include <utility>
+
+namespace tactus::host
+{
+
+void StemExport::ask (const graph::Graph& g)
+{
+    const auto graph = std::make_shared<const graph::Graph> (g);
+    const auto name = g.name.empty() ? TRANS ("graph") : fromUtf8 (g.name);
+    const auto choice = [&] (const juce::String& label, const StemOptions& options) {
+        return Question::Choice { label, [this, graph, name, options] {
+                                     const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();   // an ending would be that of another file
+                                     window.chooseFolder (legal + " stems", [this, graph, options] (const auto& into) { render (*graph, options, into); });
+                                 } };
+    };
+    constexpr double rate_hz = 48000.0;
+    const StemOptions integers { .format = SampleFormat::pcm24, .rate_hz = rate_hz, .scale = StemOptions::Scale::together };
+    auto small = integers, looped = integers;
+    small.format = SampleFormat::pcm16;
+    looped.loop_s = 0.05;
+    window.question.ask (filled (TRANS ("Export the stems of %1"), name),
+                         TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device feels them. "
+                                "`tactus render --stems` has more choices."),
+                         { choice (TRANS ("24 bit, 48 kHz"), integers),
+                           choice (TRANS ("16 bit, 48 kHz"), small),
+                           choice (TRANS ("24 bit, 48 kHz, to be looped"), looped),
+                           choice (TRANS ("Float: a sample of 1 is 1 N"), {}),
+                           { TRANS ("Cancel"), {} } });
+}
+
+void StemExport::render (const graph::Graph& g, const StemOptions& options, const std::filesystem::path& into)
+{
+    folder = into;
+    job.start (g, catalogue, into, options);
+    title = filled (TRANS ("Rendering stems into %1"), fromUtf8 (into.filename().string()));
+    window.question.ask (title, {}, { { TRANS ("Cancel"), [this] { job.cancel(); } } });
+}
+
+void StemExport::attend()
+{
+    if (! job.isRunning()) return;
+    if (! window.question.isOpen() || window.question.title() != title) return;   // another question comes first
+    const auto result = job.take();
+    if (! result) return window.question.say (filled (TRANS ("%1 %"), juce::roundToInt (100.0 * job.share())));
+    window.question.cancel();
+    window.notify (*result ? filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()))
+                           : fromUtf8 (messageText (result->error())));
+}
+
+}   // namespace tactus::host

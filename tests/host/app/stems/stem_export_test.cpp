@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stems that the window exports, compared with those that `tactus render --stems` is made of.
+#include "host/app/support/window_rig.hpp"
+
+#include "support/waiting.hpp"
+
+#include <host/base/files/wav.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+bool until (const std::function<bool()>& isSo)
+{
+    return tactus::test::eventually ({}, [&] {
+        WindowRig::settle (5);
+        return isSo();
+    });
+}
+}   // namespace
+
+TEST_CASE ("the window exports the stems of the open graph, and they add up to its mix", "[app][stems]")
+{
+    const TemporaryFolder folder;
+    WindowRig w ("bronze_bell.json");
+    std::filesystem::path proposed;
+    w.view->chooseFile = [&] (bool saves, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+        CHECK (saves);
+        proposed = begin.filename();
+        chosen (folder / "bell");
+    };
+    w.key ("ctrl + k");
+    w.stage->type ("export stems");
+    w.key ("return");
+    WindowRig::settle();
+    REQUIRE (w.view->asked().isOpen());
+    CHECK (w.view->asked().title() == "Export the stems of Bronze bell");
+    w.view->asked().answer (3);   // floats
+    CHECK (proposed == "Bronze bell stems");
+    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
+    INFO (w.view->statusText());
+    CHECK (w.view->statusText().contains ("files are in"));
+
+    const auto mix = readWav (folder / "bell" / "mix.wav"), wall = readWav (folder / "bell" / "not_mixed_wall_force.wav");
+    REQUIRE (mix);
+    REQUIRE (wall);
+    REQUIRE (mix->channels.size() == 3);
+    std::vector<double> sum = wall->channels.at (2);
+    int layers = 0;
+    for (const auto& entry : std::filesystem::directory_iterator (folder / "bell"))
+    {
+        if (! entry.path().filename().string().starts_with ("layer_")) continue;
+        const auto layer = readWav (entry.path());
+        REQUIRE (layer);
+        ++layers;
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            sum[k] += layer->channels.at (0).at (k);
+    }
+    CHECK (layers == 3);
+    double worst = 0.0, peak = 0.0;
+    for (std::size_t k = 0; k < sum.size(); ++k)
+    {
+        worst = std::max (worst, std::abs (sum[k] - mix->channels[2][k]));
+        peak = std::max (peak, std::abs (sum[k]));
+    }
+    CHECK (peak > 0.05);
+    CHECK (worst < 1e-5 * (1.0 + peak));
+}
+
+TEST_CASE ("a user who cancels the export gets no folder, and a refused folder is named", "[app][stems]")
+{
+    const TemporaryFolder folder;
+    WindowRig w ("bronze_bell.json");
+    auto into = folder / "bell";
+    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) { chosen (into); };
+    const auto begin = [&] {
+        w.key ("ctrl + k");
+        w.stage->type ("export stems");
+        w.key ("return");
+        WindowRig::settle();
+        REQUIRE (w.view->asked().isOpen());
+        w.view->asked().answer (0);
+    };
+    begin();
+    REQUIRE (w.view->asked().isOpen());
+    w.view->asked().cancel();
+    WindowRig::settle (100);
+    CHECK_FALSE (w.view->asked().isOpen());
+    CHECK_FALSE (std::filesystem::exists (into));
+
+    folder.write ("full/mine.txt", "mine");
+    into = folder / "full";
+    begin();
+    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
+    INFO (w.view->statusText());
+    CHECK (w.view->statusText().contains ("not empty"));
+}
