@@ -16,11 +16,25 @@
 #include <algorithm>
 #include <cstdio>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace tactus::host
 {
 
 namespace
 {
+/// A run locks the memory of the program, and what is locked goes back to the system only block by block. So large blocks, such as those of a mesh, are
+/// mapped one by one. By default, the C library joins them with others after the first one was freed.
+void mapLargeBlocks() noexcept
+{
+#ifdef __GLIBC__
+    constexpr int large = 1 << 20;   // bytes
+    ::mallopt (M_MMAP_THRESHOLD, large);
+#endif
+}
+
 class Window final : public juce::DocumentWindow
 {
 public:
@@ -69,6 +83,7 @@ public:
 
     void initialise (const juce::String&) override
     {
+        mapLargeBlocks();
         if (const auto begun = caught ({}, [this] { begin(); }); ! begun) giveUp (begun.error());
     }
 

@@ -240,14 +240,8 @@ struct ElasticSurface
     std::string warning (const Setup&) const
     {
         const auto& surface = *settings.surface;
-        auto all = wrongSide (surface);
-        const auto add = [&] (const std::string& more) { all += (all.empty() || more.empty() ? "" : "; ") + more; };
-        if (all.empty())
-        {
-            add (coarseFaces (surface, creaseAngle()));
-            add (sharpEdges (surface, creaseAngle(), settings.tool_radius));
-        }
-        add (abruptStiffness (surface));
+        auto all = faultsOf (settings.surface, creaseAngle(), settings.tool_radius);
+        const auto add = [&] (const std::string& more) { all += (all.empty() ? "" : "; ") + more; };
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             add (std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks");
         return all;
@@ -256,8 +250,7 @@ struct ElasticSurface
     void prepare (const Setup& setup)
     {
         dt = setup.dt_s();
-        body = std::make_shared<const PlacedSurface> (settings.surface, settings.scale, settings.origin, settings.rotation, creaseAngle(),
-                                                      settings.tool_radius);
+        body = placedSurface (settings.surface, settings.scale, settings.origin, settings.rotation, creaseAngle(), settings.tool_radius);
         tool = trial = body->noTool();
         slippery = isSlippery();
         touch = {};

@@ -87,6 +87,18 @@ std::optional<Message> whyUnusable (const Signal& signal, const std::string& pat
     return {};
 }
 
+void FileAssets::adopt (const FileAssets& others)
+{
+    const auto take = [] (auto& cache, const auto& read) {
+        for (const auto& [path, kept] : read)
+            cache.insert_or_assign (path, kept);
+    };
+    take (signals, others.signals);
+    take (images, others.images);
+    take (tables, others.tables);
+    take (meshes, others.meshes);
+}
+
 template <typename T, typename Read>
 Assets::Loaded<T> FileAssets::load (Cache<T>& cache, const std::string& path, Read read)
 {

@@ -31,6 +31,9 @@ public:
     Loaded<Grid> table (const std::string& path) override;   ///< numbers, or the rows of a clip or recording (tactus/kit/signal/clip.hpp)
     Loaded<Mesh> mesh (const std::string& path) override;
 
+    /// Takes over what others have read, as long as it is in use.
+    void adopt (const FileAssets&);
+
 protected:
     /// Decodes a recording. This class refuses it: asset/no_decoder. The file exists and is not too large; its size has already been
     /// charged.

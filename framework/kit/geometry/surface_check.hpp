@@ -3,6 +3,7 @@
 
 #include "surface.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,9 @@ std::string coarseFaces (const Surface&, double crease);
 /// A warning if the force along the normal, at a depth of 1 mm, changes over fewer than three cells of the mesh, so that the tool feels a slower change;
 /// else empty.
 std::string abruptStiffness (const Surface&);
+
+/// The warnings of a surface: that of wrongSide, or those of coarseFaces and sharpEdges; and that of abruptStiffness. Empty if there is none. Computed once
+/// for each surface, crease and radii, as long as the surface is in use. [any thread]
+std::string faultsOf (const std::shared_ptr<const Surface>&, double crease, const std::vector<double>& radii);
 
 }   // namespace tactus

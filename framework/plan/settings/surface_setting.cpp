@@ -2,6 +2,8 @@
 #include "surface_setting.hpp"
 #include "files.hpp"
 
+#include <tactus/kit/geometry/kept_results.hpp>
+
 namespace tactus::plan
 {
 
@@ -192,13 +194,11 @@ std::vector<std::vector<std::vector<double>>> weightsFrom (const Json& json, std
     }
     return tools;
 }
-}   // namespace
 
-std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files, const std::string& key)
+std::shared_ptr<const Surface> surfaceOf (const Json& json, std::shared_ptr<const Mesh> mesh, const std::string& key)
 {
-    objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu", "weights" }, "it", key);
     Surface s;
-    s.mesh = meshFrom (json, files, key);
+    s.mesh = std::move (mesh);
     const auto nodes = s.mesh->points.size();
     s.curves = toolsFrom (needed (json, "curves", key), nodes, key + "/curves");
     const auto shapes = s.curves.size();
@@ -206,6 +206,16 @@ std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files
     s.mu = ratiosFrom (needed (json, "mu", key), nodes, shapes, key + "/mu");
     if (const auto* weights = member (json, "weights")) s.weights = weightsFrom (*weights, nodes, shapes, key + "/weights");
     return std::make_shared<const Surface> (std::move (s));
+}
+}   // namespace
+
+std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files, const std::string& key)
+{
+    objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu", "weights" }, "it", key);
+    const auto mesh = meshFrom (json, files, key);
+    if (member (json, "mesh") == nullptr) return surfaceOf (json, mesh, key);
+    static KeptResults<Mesh, std::string, std::shared_ptr<const Surface>> kept;   // the same for each plan, so that what is computed from it is, too
+    return kept.of (mesh, json.dump(), [&] { return surfaceOf (json, mesh, key); });
 }
 
 }   // namespace tactus::plan

@@ -507,7 +507,11 @@ void LiveRun::poll()
 {
     if (session) tell (session->poll());
     if (begins && ! isRunning()) begin();
-    if (isLive() && ! isRunning()) endLog();
+    if (isLive() && ! isRunning())
+    {
+        endLog();
+        if (! isOfOpenGraph()) end();   // which gives back the memory of the graph before
+    }
     if (sound != nullptr) sound->poll();
     probes.collect();
     film_tape.collect();

@@ -61,6 +61,9 @@ public:
     void use (const DeviceSetup&);
     void setupChanged();
 
+    /// Takes over files that others have read, so that the next compilation need not read them.
+    void adopt (const FileAssets& read) { assets.adopt (read); }
+
     /// True if a run that begins now would get other devices from the session, or another clock or sound, than the latest one. A tool that the mouse or
     /// a path moves keeps its hand.
     bool wouldGetOtherDevices() const;

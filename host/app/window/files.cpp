@@ -6,6 +6,7 @@
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
+#include <host/app/run/asset_load.hpp>
 #include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
@@ -15,6 +16,7 @@
 #include <tactus/run/log/content_hash.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <memory>
 #include <utility>
 
 namespace tactus::host
@@ -40,6 +42,8 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     if (count > most) list << filled (TRANS ("There are %1 more errors."), count - most) << "\n\n";
     return list;
 }
+
+constexpr double large_assets = 1e6;   // bytes; more would keep the window busy for longer than a blink
 
 /// The name of a file for a graph with this name: "dry_wood" for "Dry wood".
 std::string stemFor (const std::string& name)
@@ -140,15 +144,22 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages) && isClipFile (file)) return loadClipGraph (file, by_pointer);
     if (hasErrors (loaded.messages)) return refuse (file, loaded.messages);
-    if (! source.file.empty())
-    {
-        settings.noteRecent (file);
-        callbacks.onSettings();
-    }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
-    show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), runs, by_pointer);
-    if (! document.file().empty()) known_files[document.file()] = contentHash (text.value_or (std::string()));
-    callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
+    const auto hash = contentHash (text.value_or (std::string()));
+    const auto is_large = assetBytes (loaded.graph) > large_assets;
+    const auto graph = std::make_shared<const graph::Graph> (std::move (loaded.graph));
+    const auto opens = [this, file, source, by_pointer, runs, called, hash, graph] {
+        if (! source.file.empty())
+        {
+            settings.noteRecent (file);
+            callbacks.onSettings();
+        }
+        show (*graph, source, filled (TRANS ("open %1"), called).toStdString(), runs, by_pointer);
+        if (! document.file().empty()) known_files[document.file()] = hash;
+        callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
+    };
+    if (is_large && callbacks.prepare) return callbacks.prepare (*graph, fromUtf8 (printableName (called)), opens);
+    opens();
 }
 
 void Files::loadClipGraph (const fs::path& file, bool by_pointer)

@@ -24,9 +24,11 @@ public:
         std::function<void()> stop;                  ///< called before another graph is opened
         std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
-        std::function<bool()> isStopped;                                    ///< true unless it runs, and no stop holds its forces at zero
-        std::function<bool()> isByPointer;                                  ///< true if the mouse moves the tool
-        std::function<void()> usePointer;                                   ///< from the next run on, the mouse moves the tool, unless a device does
+        std::function<bool()> isStopped;     ///< true unless it runs, and no stop holds its forces at zero
+        std::function<bool()> isByPointer;   ///< true if the mouse moves the tool
+        std::function<void()> usePointer;    ///< from the next run on, the mouse moves the tool, unless a device does
+        /// Loads the large files of a graph with this name on another thread, and then shows it; a user who cancels keeps the open graph.
+        std::function<void (const graph::Graph&, const juce::String& name, std::function<void()> show)> prepare;
         std::function<bool (const std::filesystem::path& take)> openTake;   ///< recovers a take; false if it cannot be opened
         std::function<void()> onSettings;                                   ///< called when the settings have changed and must be saved
         std::function<void (graph::Graph&)> onWrite;                        ///< called with what is about to be written; may change its `ui`

@@ -22,6 +22,7 @@
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/problems/unfelt.hpp>
+#include <host/app/run/asset_load.hpp>
 #include <host/app/run/limit_watch.hpp>
 #include <host/app/run/live_nodes.hpp>
 #include <host/app/run/osc_server.hpp>
@@ -237,6 +238,8 @@ private:
     void closeWithTake (const std::function<void()>& close);
     void closeWithFilm (const std::function<void()>& close);
     void attendFilm();
+    void loadAssets (const graph::Graph&, const juce::String& name, std::function<void()> show);
+    void attendLoad();
     using Shares = std::array<std::optional<double>, 5>;
     std::array<std::pair<const char*, Splitter*>, 5> edges();   ///< of the panels, by the names that the settings give them; only the first three fold
     Shares shares();
@@ -261,6 +264,11 @@ private:
                        { .question = question,
                          .notify = [this] (const juce::String& text) { status.notify (text); },
                          .chooseFolder = [this] (const std::string& name, std::function<void (const std::filesystem::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); } } };
+    AssetLoad asset_load;
+    juce::String loading;                                     // title of the question that offers to cancel
+    std::function<void()> after_load;                         // shows the graph whose files are being loaded
+    std::shared_ptr<const AssetLoad::Loaded> loaded_assets;   // kept while this graph is open, so that an edit need not load them again
+    const void* loaded_for = nullptr;                         // identity of the graph
     std::unique_ptr<OscServer> osc_server;
     std::optional<LiveNodes> live_nodes;
     Reaches reaches { device_setup };

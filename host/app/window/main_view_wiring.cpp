@@ -22,6 +22,7 @@ Files::Callbacks MainView::fileCallbacks()
         .isByPointer = [this] { return playback.run().hand() == LiveRun::Hand::pointer(); },
         .usePointer = [this] {
             if (! hasBoundRole()) playback.changeHand (LiveRun::Hand::pointer()); },
+        .prepare = [this] (const graph::Graph& graph, const juce::String& name, std::function<void()> show) { loadAssets (graph, name, std::move (show)); },
         .openTake = [this] (const std::filesystem::path& take) { return takes.open (take, true); },
         .onSettings = [this] {
             saveSettingsSoon();

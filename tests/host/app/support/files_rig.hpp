@@ -57,6 +57,7 @@ struct FilesRig
             .isStopped = [this] { return ! runs; },
             .isByPointer = [this] { return by_pointer; },
             .usePointer = [this] { by_pointer = true; },
+            .prepare = {},
             .openTake = {},
             .onSettings = [] {},
             .onWrite = {},
