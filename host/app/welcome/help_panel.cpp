@@ -156,6 +156,7 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("Ctrl+K, F3"),
            NEEDS_TRANS ("finds a node of the graph and shows it, or a command, a button or a panel and does what a click on it does") },
     Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },
+    Keys { NEEDS_TRANS ("V"), NEEDS_TRANS ("switches between the last two snapshots") },
     Keys { NEEDS_TRANS ("Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S, Ctrl+Q"), NEEDS_TRANS ("new, open, save, save as, quit") },
     Keys { NEEDS_TRANS ("Z"), NEEDS_TRANS ("gives the window to the canvas, or brings the panels back") },
     Keys { NEEDS_TRANS ("H"), NEEDS_TRANS ("holds the tool pressed where it is, or releases it") },

@@ -318,6 +318,7 @@ void MainView::documentChanged()
     if (is_other)
     {
         shown_identity = edited.identity();
+        compared = {};
         if (loaded_for != shown_identity) loaded_assets.reset();
         hand.view().letGo();                               // it held the tool of the graph before
         if (! run().isRunning()) run().traces().clear();   // they are of the graph before

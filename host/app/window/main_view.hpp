@@ -212,6 +212,9 @@ private:
     bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to, const readers::ClipFile* source = nullptr);
     void recall (int snapshot);
     void store (int snapshot);
+    void compare();   ///< recalls the snapshot before the last one
+    void morph (int from, int to);
+    void randomise();
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
     juce::PopupMenu languageMenu();
     juce::PopupMenu windowMenu();
@@ -313,6 +316,7 @@ private:
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     std::function<void()> close_after_film;                  // while the window waits for a film that is being saved
+    std::array<int, 2> compared {};                          // the last two snapshots; 0: none
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time

@@ -2,7 +2,10 @@
 // What the keys of the window do.
 #include "main_view.hpp"
 
+#include <host/app/compose/variation.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/app/welcome/example.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -56,6 +59,11 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     if (key == juce::KeyPress::createFromDescription ("z"))
     {
         foldPanels();
+        return true;
+    }
+    if (key == juce::KeyPress::createFromDescription ("v"))
+    {
+        compare();
         return true;
     }
     if (key == juce::KeyPress::createFromDescription ("h"))
@@ -210,6 +218,7 @@ void MainView::recall (int number)
     const juce::String n (number);
     if (! hasSnapshot (edited.graph(), number)) return status.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
     if (auto command = recallSnapshot (edited.graph(), number)) edited.perform (std::move (*command));
+    if (compared[1] != number) compared = { compared[1], number };
     const auto missing = missingNodes (edited.graph(), number);
     if (missing.empty()) return status.notify (filled (TRANS ("Recalled snapshot %1."), n));
     juce::StringArray names;
@@ -222,7 +231,41 @@ void MainView::recall (int number)
 void MainView::store (int number)
 {
     const juce::String n (number);
-    if (edited.perform (storeSnapshot (edited.graph(), number))) status.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
+    if (! edited.perform (storeSnapshot (edited.graph(), number))) return;
+    status.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
+    if (compared[1] != number) compared = { compared[1], number };
+}
+
+void MainView::compare()
+{
+    if (compared[0] == 0 || ! hasSnapshot (edited.graph(), compared[0]))
+        return status.notify (TRANS ("V switches between the last two snapshots: store one with Ctrl+1 and another with Ctrl+2 first."));
+    recall (compared[0]);
+}
+
+void MainView::morph (int from, int to)
+{
+    auto made = morphBetween (edited.graph(), from, to, catalogue);
+    if (! made) return status.notify (fromUtf8 (messageText (made.error())));
+    if (! edited.perform (std::move (made->command))) return;
+    status.notify (made->left_out == 0
+                       ? filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3."), made->params, from, to)
+                       : filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3. %4 differences stay as in snapshot %2: choices, "
+                                        "vectors, values in subgraphs, and what a wire or a control sets."),
+                                 made->params, from, to, made->left_out));
+}
+
+/// New values for the selected nodes, or for all of the patch.
+void MainView::randomise()
+{
+    std::vector<graph::Id> nodes;
+    for (const auto& n : patching.scene().nodes())
+        if (patching.selection().empty() || patching.selection().contains (n.id)) nodes.push_back (n.id);
+    const auto seed = static_cast<std::uint64_t> (1 + juce::Random::getSystemRandom().nextInt (9999));
+    auto batch = randomised (edited.graph(), patching.patch(), nodes, catalogue, seed);
+    if (batch.commands.empty()) return status.notify (TRANS ("Nothing here has a number with a usual range."));
+    const auto count = batch.commands.size();
+    if (edited.perform (std::move (batch))) status.notify (filled (TRANS ("%1 new values, with the seed %2. Ctrl+Z restores the old ones."), count, juce::String (seed)));
 }
 
 void MainView::saveSettingsSoon()

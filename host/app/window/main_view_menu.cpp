@@ -154,6 +154,8 @@ juce::PopupMenu MainView::windowMenu()
     menu.addItem (revert);
     menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
     if (! edited.graph().root.nodes.empty()) menu.addItem (menuItem (TRANS ("Export stems ..."), {}, [this] { stems.ask (edited.graph()); }));
+    if (! edited.graph().root.nodes.empty())
+        menu.addItem (menuItem (TRANS ("Randomise the numbers of the selection, or of all nodes"), {}, [this] { randomise(); }));
     menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();
     menu.addItem (menuItem (

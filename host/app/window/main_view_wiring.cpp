@@ -85,6 +85,7 @@ void MainView::connectSides()
     top.onInstance = [this] (int number) { patching.chooseInstance (number); };
     top.onRecall = [this] (int number) { recall (number); };
     top.onStore = [this] (int number) { store (number); };
+    top.onMorph = [this] (int from, int to) { morph (from, to); };
     top.onClear = [this] (int number) { edited.perform (clearSnapshot (edited.graph(), number)); };
     top.onHelp = [this] { helpOnSelection(); };
     top.onMenu = [this] (juce::Component& at) { openMenu (at); };

@@ -199,6 +199,12 @@ void TopBar::openSnapshots (juce::Component& at, int first, int last)
     add (NEEDS_TRANS ("Recall snapshot %1"), nullptr, onRecall);
     add (NEEDS_TRANS ("Overwrite snapshot %1"), NEEDS_TRANS ("Store in snapshot %1"), onStore);
     add (NEEDS_TRANS ("Clear snapshot %1"), nullptr, onClear);
+    for (int n = first; n <= last; ++n)
+        for (int to = 1; to <= snapshot_count && first == last && hasSnapshot (document.graph(), n); ++to)
+            if (to != n && hasSnapshot (document.graph(), to))
+                list.addItem (filled (TRANS ("Morph from snapshot %1 to %2"), n, to), [this, n, to] {
+                    if (onMorph) onMorph (n, to);
+                });
     list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (at));
 }
 

@@ -40,6 +40,7 @@ public:
 
     std::function<void (std::size_t depth)> onLeave;
     std::function<void (int number)> onRecall, onStore, onClear;   ///< receive the number of a snapshot, from 1
+    std::function<void (int from, int to)> onMorph;                ///< receives two snapshots
     std::function<void (int instance)> onInstance;
     std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "variation.hpp"
+
+#include <host/app/model/controlled_param.hpp>
+#include <host/app/model/param_now.hpp>
+#include <host/app/model/param_value.hpp>
+#include <host/app/model/quantity_text.hpp>
+#include <host/app/storage/snapshots.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <tactus/kit/random.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+const graph::Patch* patchOf (const graph::Graph& g, const std::string& name) { return name.empty() ? &g.root : g.find (name); }
+
+bool isNumber (const FacePort& p) { return p.sheet != nullptr && p.width == 1 && ! p.isChoice(); }
+
+/// The value of a param as it is, or would be, written.
+Json valueOf (const graph::Graph& g, const graph::Node& n, const FacePort& p)
+{
+    auto written = writtenValue (n, p);
+    return written.is_null() ? initialValue (g, n, p) : written;
+}
+
+bool isSetElsewhere (const graph::Graph& g, const std::string& path) { return ! driverAt (g, path).empty() || controlOf (g, path).has_value(); }
+
+/// The graph with the values of a snapshot.
+graph::Graph at (graph::Graph g, int snapshot)
+{
+    if (const auto recalled = recallSnapshot (g, snapshot)) static_cast<void> (graph::apply (g, *recalled));
+    return g;
+}
+
+/// A switch is a number that means on or off.
+bool isSwitch (const PortSheet& sheet) { return sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::state; }
+}   // namespace
+
+Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catalogue& catalogue)
+{
+    for (const int n : { from, to })
+        if (! hasSnapshot (g, n))
+            return Message::error ("morph/empty", {}, filled (TRANS ("snapshot %1 is empty"), n).toStdString(), TRANS ("store a snapshot there").toStdString());
+    const auto first = at (g, from), last = at (g, to);
+    graph::Control control;
+    int left_out = 0;
+    for (const auto& node : g.root.nodes)
+    {
+        const auto *a = first.root.find (node.name), *b = last.root.find (node.name);
+        if (a == nullptr || b == nullptr || (a->params == b->params && a->overrides == b->overrides)) continue;
+        if (a->overrides != b->overrides) ++left_out;
+        const auto face = faceOf (first, first.root, *a, catalogue);
+        for (const auto& p : face.params)
+        {
+            const auto low = valueOf (first, *a, p), high = valueOf (last, *b, p);
+            if (low == high) continue;
+            const auto path = node.name + '.' + p.id;
+            if (isNumber (p) && ! isSetElsewhere (g, path))
+                control.to.push_back ({ path, low, high });
+            else
+                ++left_out;
+        }
+    }
+    for (const auto& [name, patch] : first.graphs)
+        if (const auto* other = last.find (name))
+            left_out += static_cast<int> (std::ranges::count_if (patch.nodes, [&] (const graph::Node& n) {
+                const auto* m = other->find (n.name);
+                return m != nullptr && (m->params != n.params || m->overrides != n.overrides);
+            }));
+    for (std::size_t i = 0; i < first.controls.size() && i < last.controls.size(); ++i)
+        left_out += first.controls[i].value != last.controls[i].value ? 1 : 0;
+    if (control.to.empty())
+        return Message::error ("morph/same", {}, filled (TRANS ("snapshots %1 and %2 differ in no number that a control can move"), from, to).toStdString(),
+                               TRANS ("turn some knobs, and store a snapshot again").toStdString());
+
+    const auto id = "morph_" + std::to_string (from) + "_" + std::to_string (to);
+    control.id = id;
+    for (int i = 2; findControl (g, control.id) != nullptr; ++i)
+        control.id = id + "_" + std::to_string (i);
+    control.name = filled (TRANS ("Morph %1-%2"), from, to).toStdString();
+    control.value = 0.0;
+    graph::Batch batch { filled (NEEDS_TRANS ("morph from snapshot %1 to %2"), from, to).toStdString(), {} };
+    if (auto recalled = recallSnapshot (g, from)) batch.commands.push_back (std::move (*recalled));
+    Morph made { .control = control.id, .params = static_cast<int> (control.to.size()), .left_out = left_out };
+    batch.commands.push_back (graph::AddControl { std::move (control) });
+    made.command = std::move (batch);
+    return made;
+}
+
+graph::Batch randomised (const graph::Graph& g, const std::string& patch, std::span<const graph::Id> nodes, const Catalogue& catalogue, std::uint64_t seed)
+{
+    graph::Batch batch { filled (NEEDS_TRANS ("randomise, seed %1"), juce::String (seed)).toStdString(), {} };
+    const auto* in = patchOf (g, patch);
+    Random random { seed };
+    for (const auto& node : in == nullptr ? std::vector<graph::Node> {} : in->nodes)
+    {
+        if (std::ranges::count (nodes, node.id) == 0) continue;
+        auto changed = node;
+        for (const auto& p : faceOf (g, *in, node, catalogue).params)
+        {
+            if (! isNumber (p) || isSwitch (*p.sheet)) continue;
+            const auto& [hard, usual, latch] = p.sheet->limits;
+            const double low = std::max (hard.min, usual.min), high = std::min (hard.max, usual.max);
+            const double share = random.uniform();   // taken even if it is not used, so that a value depends on the seed alone
+            if (! std::isfinite (low) || ! std::isfinite (high) || low >= high) continue;
+            const auto isDriving = [&, id = baseOf (p.id)] (const graph::Wire& w) { return w.to.node == node.name && w.to.port == id; };
+            if (std::ranges::any_of (in->wires, isDriving) || (patch.empty() && isSetElsewhere (g, node.name + '.' + p.id))) continue;
+            const auto now = readQuantity (valueOf (g, node, p), *p.sheet);
+            if (! now) continue;
+            const double wanted = low > 0.0 && high >= 10.0 * low ? low * std::pow (high / low, share) : low + share * (high - low);
+            const auto moved = now->moved (wanted);
+            const auto value = withValue (changed, p, (moved.si() < low || moved.si() > high ? now->exactly (std::clamp (wanted, low, high)) : moved).toJson());
+            if (value) changed.params[baseOf (p.id)] = *value;
+        }
+        for (const auto& [key, value] : changed.params.items())
+            if (! node.params.contains (key) || *node.params.find (key) != value) batch.commands.push_back (graph::SetParam { patch, node.name, key, value });
+    }
+    return batch;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Morphs between two snapshots, and random values.
+#include <host/app/compose/variation.hpp>
+#include <host/app/model/quantity_text.hpp>
+#include <host/app/storage/snapshots.hpp>
+
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/engine.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+void mustPerform (graph::History& h, graph::Command c)
+{
+    const auto done = h.perform (std::move (c));
+    INFO ((done ? "" : done.error().text));
+    REQUIRE (done);
+}
+
+/// The value of a parameter in the compiled graph, in SI.
+double valueIn (const graph::Graph& g, const std::string& node, const std::string& param)
+{
+    const auto compiled = compile (g, catalogue());
+    REQUIRE (compiled.plan);
+    const auto& flat = compiled.plan->flat();
+    for (int n = 0; n < flat.nodeCount(); ++n)
+        if (flat.node (n).path == node)
+        {
+            const auto& rows = flat.node (n).type->params;
+            const auto row = static_cast<std::size_t> (std::ranges::find (rows, param, &PortSheet::id) - rows.begin());
+            return *compiled.plan->instances()[static_cast<std::size_t> (n)].param (plan::Knobs::indexOf (*flat.node (n).type, row, 0));
+        }
+    FAIL (node);
+    return 0.0;
+}
+
+struct Tip final : public Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return {}; }
+    void write (const Effort& e) noexcept override { force = e.force.z(); }
+
+    double force = 0.0;
+};
+
+graph::Graph loud (double newtons)
+{
+    tactus::test::Sketch s;
+    s.node ("a", "signal.constant", { { "value", newtons } }).node ("motor", "device.force").wire ("a.out -> motor.force.z");
+    return s.graph;
+}
+}   // namespace
+
+TEST_CASE ("a morph moves the numbers from one snapshot to another on a line, and one undo takes it away", "[snapshots]")
+{
+    auto s = tactus::test::Sketch { loud (1.0) };
+    s.node ("wall", "deform.plane", { { "stiffness", "1 N/mm" } }).node ("hand", "device.position").wire ("hand.position -> wall.position");
+    s.wire ("wall.force -> motor.force");
+    graph::History h (s.graph);
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, graph::SetParam { "", "wall", "stiffness", Json ("3 N/mm") });
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    const auto before = writeGraph (h.graph());
+    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE (made);
+    CHECK (made->params == 1);
+    CHECK (made->left_out == 0);
+    const auto steps = h.position();
+    mustPerform (h, made->command);
+    CHECK (h.position() == steps + 1);
+    CHECK (h.names().back() == "morph from snapshot 1 to 2");
+    CHECK (readGraph (writeGraph (h.graph())).messages.empty());
+    for (const double at : { 0.0, 0.25, 1.0 })
+    {
+        auto c = *std::ranges::find (h.graph().controls, made->control, &graph::Control::id);
+        c.value = at;
+        mustPerform (h, graph::ChangeControl { c.id, c });
+        CHECK (valueIn (h.graph(), "wall", "stiffness") == Approx (1000.0 + 2000.0 * at));
+    }
+    while (h.position() > steps)
+        h.undo();
+    CHECK (writeGraph (h.graph()) == before);
+}
+
+TEST_CASE ("a morph says what it cannot move, and needs two snapshots that differ", "[snapshots]")
+{
+    graph::History h (loud (1.0));
+    const auto refused = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE_FALSE (refused);
+    CHECK (refused.error().id == "morph/empty");
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    CHECK (morphBetween (h.graph(), 1, 2, catalogue()).error().id == "morph/same");
+    mustPerform (h, graph::SetParam { "", "a", "value", Json (2.0) });
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    mustPerform (h, morphBetween (h.graph(), 1, 2, catalogue())->command);
+    mustPerform (h, storeSnapshot (h.graph(), 3));
+    const auto again = morphBetween (h.graph(), 1, 2, catalogue());   // another control moves it already
+    REQUIRE_FALSE (again);
+    CHECK (again.error().id == "morph/same");
+}
+
+TEST_CASE ("a recalled snapshot blends in without a step of the force", "[snapshots]")
+{
+    graph::History h (loud (1.0));
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, graph::SetParam { "", "a", "value", Json (3.0) });
+    auto first = compile (h.graph(), catalogue());
+    REQUIRE (first.plan);
+    Engine engine (first.plan);
+    Tip tip;
+    engine.attach ("stylus", tip);
+    for (int i = 0; i < 400; ++i)
+        engine.tick();
+    CHECK (tip.force == 3.0);
+    mustPerform (h, *recallSnapshot (h.graph(), 1));
+    auto next = compile (h.graph(), catalogue(), { .before = first.plan.get() });
+    REQUIRE (next.plan);
+    engine.submit (next.plan);
+    double before = tip.force, largest = 0.0;
+    for (int i = 0; i < 400; ++i)
+    {
+        engine.tick();
+        largest = std::max (largest, std::abs (tip.force - before));
+        before = tip.force;
+    }
+    CHECK (tip.force == Approx (1.0));
+    CHECK (largest < 0.1);   // N, of 2 N
+}
+
+TEST_CASE ("random values stay within the usual ranges, leave out what is set elsewhere, and follow the seed", "[snapshots]")
+{
+    for (const char* preset : { "dry_wood", "granite_wall", "bronze_bell", "two_fingers" })
+    {
+        INFO (preset);
+        const auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/" + std::string (preset) + ".json").graph;
+        std::vector<graph::Id> all;
+        for (const auto& n : g.root.nodes)
+            all.push_back (n.id);
+        std::set<std::string> different;
+        for (std::uint64_t seed = 1; seed <= 20; ++seed)
+        {
+            const auto batch = randomised (g, {}, all, catalogue(), seed);
+            graph::History h (g);
+            REQUIRE_FALSE (batch.commands.empty());
+            mustPerform (h, batch);
+            CHECK (h.names().back() == "randomise, seed " + std::to_string (seed));
+            const auto text = writeGraph (h.graph());
+            different.insert (text);
+            CHECK (readGraph (text).messages.empty());
+            for (const auto& n : h.graph().root.nodes)
+                for (const auto& [key, value] : n.params.items())
+                    if (const auto* was = g.root.find (n.name); ! was->params.contains (key) || *was->params.find (key) != value)
+                    {
+                        const auto& rows = catalogue().find (n.type)->params;
+                        const auto& sheet = *std::ranges::find (rows, key, &PortSheet::id);
+                        for (std::size_t i = 0; i < (value.is_array() ? value.size() : 1); ++i)
+                        {
+                            INFO (n.name << "." << key << " " << value.dump());
+                            const double si = siOf (value.is_array() ? value[i] : value, sheet);
+                            CHECK (si >= sheet.limits.usual.min * (1.0 - 1e-9) - 1e-12);
+                            CHECK (si <= sheet.limits.usual.max * (1.0 + 1e-9) + 1e-12);
+                        }
+                        for (const auto& c : g.controls)
+                            for (const auto& t : c.to)
+                                CHECK (t.path != n.name + "." + key);
+                    }
+            graph::History again (g);
+            mustPerform (again, randomised (g, {}, all, catalogue(), seed));
+            CHECK (writeGraph (again.graph()) == text);
+        }
+        CHECK (different.size() == 20);
+    }
+}
