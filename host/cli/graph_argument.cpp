@@ -3,6 +3,7 @@
 
 #include "report.hpp"
 
+#include <host/base/files/preset_pack.hpp>
 #include <host/base/platform/preset_folder.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 std::string graphArgument (const std::string& given)
 {
+    if (isPresetPack (given)) return orFail (unpackPreset (given)).string();
     auto file = graphFile (given);
     const fs::path path (given);
     std::error_code failed;

@@ -10,6 +10,7 @@
 #include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
+#include <host/base/files/preset_pack.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
@@ -140,6 +141,11 @@ void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, st
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer, bool runs)
 {
     if (isClipExtension (file)) return loadClipGraph (file, by_pointer);
+    if (isPresetPack (file))
+    {
+        const auto unpacked = unpackPreset (file);
+        return unpacked ? load (*unpacked, { .preset = *unpacked }, by_pointer, runs) : refuse (file, { unpacked.error() });
+    }
     const auto text = readTextFile (file);   // before it is read as a graph, so that a change in between is noticed
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages) && isClipFile (file)) return loadClipGraph (file, by_pointer);

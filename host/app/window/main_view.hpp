@@ -168,6 +168,7 @@ private:
     void noteType (const std::string&);
     void showBeginnings();   ///< the templates, if the graph is empty
     void savePictureAs();
+    void share();
     void choose (const juce::String& purpose, PaletteSearch, std::function<void (const std::string&)> chosen);
     void probe (const std::vector<std::string>& ports);
     void showAdded (const std::string& patch, graph::Id node);

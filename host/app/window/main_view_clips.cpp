@@ -5,6 +5,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
+#include <host/base/files/preset_pack.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <utility>
@@ -84,7 +85,7 @@ bool MainView::isInterestedInFileDrag (const juce::StringArray& dragged)
 {
     if (dragged.size() != 1 || question.isOpen()) return false;
     const fs::path file { dragged[0].toStdString() };
-    return isClipExtension (file) || isRecording (file) || extensionOf (file) == ".json";
+    return isClipExtension (file) || isRecording (file) || extensionOf (file) == ".json" || isPresetPack (file);
 }
 
 void MainView::filesDropped (const juce::StringArray& dropped, int, int)

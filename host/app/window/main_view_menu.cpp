@@ -8,7 +8,9 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
+#include <host/app/storage/share.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
 #include <tactus/text/quote.hpp>
@@ -29,7 +31,7 @@ juce::String folderText (const std::filesystem::path& file)
     return folder == home || folder.startsWith (home + "/") ? "~" + folder.substring (home.length()) : folder;
 }
 
-constexpr const char* graphs_and_clips = "*.json;*.haptic;*.ahap;*.hjif;*.wav";
+constexpr const char* graphs_and_clips = "*.json;*.tactus;*.haptic;*.ahap;*.hjif;*.wav";
 
 /// One Return on the path of a file chooses the file. JUCE only goes to its folder, and wants a second one.
 class PathKeys final : public juce::KeyListener
@@ -85,6 +87,7 @@ struct MainView::SaveWords
         if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
         if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };
+        if (extensionOf (begin) == ".tactus") return { TRANS ("Share the graph as one file, with the files that it names"), "*.tactus" };
         if (begin.extension().empty()) return { TRANS ("Name a folder for the stems"), "*" };
         return { TRANS ("Save graph"), "*.json" };
     }
@@ -149,6 +152,7 @@ juce::PopupMenu MainView::windowMenu()
     if (! edited.graph().root.nodes.empty()) menu.addItem (menuItem (TRANS ("Add a graph to this one ..."), {}, [this] { askForAdded(); }));
     menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
     menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
+    if (! edited.graph().root.nodes.empty()) menu.addItem (menuItem (TRANS ("Share as one file ..."), {}, [this] { share(); }));
     auto revert = menuItem (TRANS ("Reload from the file"), {}, [this] { files.reload(); });
     revert.isEnabled = ! edited.file().empty();
     menu.addItem (revert);
@@ -242,6 +246,16 @@ void MainView::askForSetting (const juce::String& patterns, const std::filesyste
         browser->setFileFilter (&only_clips);
         browser->refresh();
     }
+}
+
+void MainView::share()
+{
+    const auto& name = edited.graph().name;
+    const auto legal = juce::File::createLegalFileName (name.empty() ? "preset" : fromUtf8 (name)).replaceCharacter ('.', '_').toStdString();
+    chooseOwnFile (legal + ".tactus", [this] (const std::filesystem::path& file) {
+        const auto written = sharePreset (edited.graph(), file);
+        status.notify (written ? filled (TRANS ("Saved %1"), file.string()) : fromUtf8 (messageText (written.error())));
+    });
 }
 
 void MainView::askForRecording()

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Presets that are shared as one file. tests/host/cli/pack_test.py makes files that do harm.
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/storage/share.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/base/files/preset_pack.hpp>
+
+#include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/engine.hpp>
+
+#include <algorithm>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+struct Tip final : public Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return { .position = { 0.0, 0.0, -1e-4 * static_cast<double> (++ticks % 50) } }; }
+    void write (const Effort& e) noexcept override { efforts.push_back (e.force); }
+
+    std::vector<Vec3> efforts;
+    int ticks = 0;
+};
+
+std::vector<Vec3> played (const graph::Graph& g)
+{
+    FileAssets assets;
+    auto compiled = compile (g, catalogue(), { .assets = &assets });
+    REQUIRE (compiled.plan);
+    CHECK (std::ranges::none_of (compiled.messages, [] (const Message& m) { return m.severity == Message::Severity::error; }));
+    Engine engine (std::move (compiled.plan));
+    std::map<std::string, Tip> tips;
+    for (const auto& [role, device] : g.devices)
+        engine.attach (role, tips[role]);
+    for (int i = 0; i < 500; ++i)
+        engine.tick();
+    return tips.begin()->second.efforts;
+}
+}   // namespace
+
+TEST_CASE ("a shared preset has its files, and plays the same bits elsewhere", "[app][share]")
+{
+    const TemporaryFolder folder;
+    for (const char* name : { "dry_wood", "heartbeat", "liver", "pebbled_leather", "zip" })
+    {
+        INFO (name);
+        const auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/" + std::string (name) + ".json").graph;
+        const auto file = folder / (std::string (name) + ".tactus");
+        const auto shared = sharePreset (g, file);
+        INFO ((shared ? "" : shared.error().text));
+        REQUIRE (shared);
+        const auto first = readFile (file);
+        REQUIRE (sharePreset (g, file));
+        CHECK (*readFile (file) == *first);   // the same bytes each time
+        const auto unpacked = unpackPreset (file);
+        REQUIRE (unpacked);
+        const auto again = loadGraph (*unpacked);
+        CHECK (again.messages.empty());
+        CHECK (again.graph.name == g.name);
+        CHECK (played (again.graph) == played (g));
+    }
+}
+
+TEST_CASE ("a graph that names a file elsewhere is not shared", "[app][share]")
+{
+    const TemporaryFolder folder;
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/heartbeat.json").graph;
+    folder.write ("secret.haptic", "{}");
+    for (auto& n : g.root.nodes)
+        if (n.type == "signal.clip") n.settings["clip"] = (folder / "secret.haptic").string();
+    const auto shared = sharePreset (g, folder / "x.tactus");
+    REQUIRE_FALSE (shared);
+    CHECK (shared.error().id == "share/outside");
+    CHECK_FALSE (std::filesystem::exists (folder / "x.tactus"));
+}
+
+TEST_CASE ("the window shares the open graph, and opens such a file as a copy", "[app][share]")
+{
+    const TemporaryFolder folder;
+    WindowRig w ("heartbeat.json");
+    std::filesystem::path proposed;
+    w.view->chooseFile = [&] (bool saves, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+        CHECK (saves);
+        proposed = begin.filename();
+        chosen (folder / "beat.tactus");
+    };
+    w.key ("ctrl + k");
+    w.stage->type ("share as one file");
+    w.key ("return");
+    WindowRig::settle();
+    CHECK (proposed == "Heartbeat.tactus");
+    INFO (w.view->statusText());
+    REQUIRE (std::filesystem::exists (folder / "beat.tactus"));
+
+    w.key ("ctrl + n");
+    REQUIRE (w.graph().name != "Heartbeat");
+    w.view->open (folder / "beat.tactus");
+    WindowRig::settle();
+    CHECK (w.graph().name == "Heartbeat");
+    CHECK (w.view->document().file().empty());
+    CHECK (w.view->problemList().messages().empty());
+
+    folder.write ("bad.tactus", "no archive");
+    w.view->open (folder / "bad.tactus");
+    WindowRig::settle();
+    CHECK (w.view->asked().isOpen());
+    w.view->asked().cancel();
+    CHECK (w.graph().name == "Heartbeat");
+}
