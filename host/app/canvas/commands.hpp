@@ -113,6 +113,7 @@ private:
     };
 
     void moveClear (graph::Id made, const NodeRequest&);
+    void modulate (const Plug& from, const Plug& to, graph::Command& joined) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;

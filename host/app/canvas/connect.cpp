@@ -10,6 +10,8 @@
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <tactus/graph/endpoint_text.hpp>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -255,12 +257,31 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     }
 }
 
+/// A modulator that is wired to a param adds to its value, with a depth that is the gain of the wire. A param that a wire sets already has no such value.
+void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command& joined) const
+{
+    auto& commands = std::get<graph::Batch> (joined.edit).commands;
+    const auto *source = patchShown().find (from.node.name), *driven = patchShown().find (to.node.name);
+    if (commands.size() != 1 || to.port.role != Role::param || to.port.width != 1 || to.port.sheet == nullptr || to.port.isChoice()) return;
+    if (source == nullptr || driven == nullptr) return;
+    const auto now = paramNow (document.graph(), canvas.seen(), *driven, to.port).value;
+    const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet);
+    if (! depth) return;
+    auto& wire = std::get<graph::AddWire> (commands.front().edit).wire;
+    wire.add = true;
+    wire.gain = *depth;
+    canvas.hint (filled (TRANS ("%1 moves %2 around its value, by %3 for each unit. Select the wire to set this depth."), graph::toText (wire.from), graph::toText (wire.to),
+                         gainText (*depth)));
+}
+
 /// One step, also if it moves a wire. Where nothing would change, no step.
 void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, const Plug& to)
 {
     if (replaced == 0)
     {
-        perform (connect (document.graph(), canvas.patch(), from, to));
+        auto command = connect (document.graph(), canvas.patch(), from, to);
+        modulate (from, to, command);
+        perform (std::move (command));
         return;
     }
     const graph::RemoveWire removal { canvas.patch(), replaced };

@@ -112,7 +112,10 @@ private:
     void note (const juce::String& control)
     {
         const auto driver = std::ranges::find_if_not (drivers, &std::string::empty);
-        setNote (driver == drivers.end() ? control : filled (TRANS ("from %1"), *driver), themeOf (*this).accent);
+        if (driver != drivers.end()) return setNote (filled (TRANS ("from %1"), *driver), themeOf (*this).accent);
+        const auto* in = findPatch (document.graph(), patch.name);
+        const auto added = in == nullptr ? juce::String() : addedTo (*in, node_name, port);
+        setNote (added.isEmpty() ? control : filled (TRANS ("plus %1"), added), themeOf (*this).accent);
     }
 
     void change (const std::optional<Json>& value, bool continues)

@@ -39,6 +39,22 @@ const graph::Wire* driverOf (const graph::Patch& patch, const std::string& node,
     return found == patch.wires.end() ? nullptr : &*found;
 }
 
+juce::String gainText (const Json& gain)
+{
+    const auto text = gain.is_string() ? gain.asString() : gain.dump();
+    return juce::String::fromUTF8 (text.c_str());
+}
+
+juce::String addedTo (const graph::Patch& patch, const std::string& node, const FacePort& param)
+{
+    const auto entry = entryOf (param.id);
+    juce::StringArray all;
+    for (const auto& w : patch.wires)
+        if (w.add && w.enabled.value_or (true) && w.to.node == node && w.to.port == baseOf (param.id) && w.to.index == (entry ? static_cast<int> (*entry) : -1))
+            all.add ((w.gain.is_null() ? juce::String() : gainText (w.gain) + juce::String::fromUTF8 (" \xc3\x97 ")) + juce::String (graph::toText (w.from)));
+    return all.joinIntoString (", ");
+}
+
 namespace
 {
 bool isSet (const graph::Wire& w) { return ! w.add && w.enabled.value_or (true); }

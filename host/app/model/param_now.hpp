@@ -26,6 +26,12 @@ ParamNow paramNow (const graph::Graph&, const SeenPatch&, const graph::Node&, co
 /// The wire that sets a param, or one component of it, whatever value is stored. Null if none does. A wire that adds to the value does not set it.
 const graph::Wire* driverOf (const graph::Patch&, const std::string& node, const FacePort& param, int component = -1);
 
+/// The gain of a wire as it is written: "8 mN", "0.5".
+juce::String gainText (const Json&);
+
+/// The wires that add to the value of a param, and by how much for each unit of their source: "8 mN x lfo.out". Empty if none does.
+juce::String addedTo (const graph::Patch&, const std::string& node, const FacePort& param);
+
 /// True if a wire sets the param of a node, or a component of it.
 bool drives (const graph::Wire&, const FacePort& param);
 

@@ -5,10 +5,14 @@
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/inside.hpp>
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string_view>
 
 namespace tactus::host
 {
@@ -146,6 +150,35 @@ std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, co
     give ("amplitude", swing);
     give ("offset", middle);
     return values;
+}
+
+std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet& sheet)
+{
+    constexpr std::array<std::string_view, 4> modulators { "signal.lfo", "signal.envelope", "signal.noise", "signal.sample_hold" };
+    constexpr double part_of_value = 0.1, part_of_range = 0.05, slow = 0.1;   // m/s
+    const bool is_speed = carried == Quantity::speed, is_fixed = sheet.unit.kind == UnitRule::Kind::fixed;
+    if (! is_speed && std::ranges::count (modulators, source.type) == 0) return std::nullopt;
+    const auto [value, low, high] = usualSweep (now, sheet);
+    const double si = value.si();
+    double depth = si == 0.0 ? part_of_range * (high - low) : part_of_value * std::abs (si);
+    bool has_unit = carried != Quantity::any && carried != Quantity::gain;
+    if (const auto* amplitude = face.find (Role::param, "amplitude"); amplitude != nullptr && amplitude->sheet != nullptr)
+    {
+        const auto written = writtenValue (source, *amplitude);
+        const auto size = readQuantity (written.is_null() ? Json (amplitude->sheet->initial[0]) : written, *amplitude->sheet);
+        if (! size || size->si() == 0.0) return std::nullopt;
+        depth /= std::abs (size->si());
+        has_unit = has_unit || ! size->unit.empty();
+    }
+    const auto symbol = is_fixed ? std::string (sheet.unit.unit.symbol) : std::string();
+    const bool is_number = symbol.empty() || symbol == "1";
+    if (is_speed && carried != (is_fixed ? sheet.unit.unit.quantity : Quantity::any))
+        return Json (numberText (value.moved (depth / slow).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
+    if (has_unit && is_fixed && carried != Quantity::any && carried != sheet.unit.unit.quantity) return std::nullopt;
+    if (has_unit || is_number) return Json (QuantityText { 0.0, {}, 1.0 }.moved (depth).number);
+    auto text = withBestPrefix (value.moved (depth), sheet);
+    if (text.unit.empty()) text.unit = symbol;
+    return text.toJson();
 }
 
 }   // namespace tactus::host

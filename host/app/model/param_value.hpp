@@ -35,4 +35,9 @@ std::pair<Json, Json> sweepThrough (const Json& now, const PortSheet&, double at
 /// constant is it. What has no offset swings around 0 by as much. Stays in the hard range of the param.
 std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, const Json& now, const PortSheet&);
 
+/// The gain of a wire that modulates a param around its value `now`: a source that swings by one unit, or by its amplitude, moves the param by a tenth of
+/// this value, or by a twentieth of its usual range if it is 0. With a speed, 0.1 m/s does so. Empty if the source is no modulator: an oscillator, an
+/// envelope, a noise, a held sample or a speed; or if its unit does not fit. `carried`: the quantity of the output.
+std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet&);
+
 }   // namespace tactus::host

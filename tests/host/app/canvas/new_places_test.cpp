@@ -119,6 +119,14 @@ TEST_CASE ("a new hand or motor gets a free place in every preset, and its wires
             for (const auto& [id, at] : before)
                 CHECK (scene.find (id)->at == at);   // the nodes of the user stay
             CHECK (overlaps (scene, made) == std::vector<std::string> {});
+            if (type == "device.force")
+                for (const auto& w : scene.wires())
+                    if (const auto& from = scene.nodes()[static_cast<std::size_t> (w.start)], &to = scene.nodes()[static_cast<std::size_t> (w.end)];
+                        made.contains (to.id))
+                    {
+                        INFO (w.text << ", motor " << to.bounds().toString() << ", source " << from.bounds().toString());
+                        CHECK (to.bounds().getX() > from.bounds().getRight());   // to the right of its sources
+                    }
             const auto through = hiddenWires (scene, made);
             for (const auto& w : through)
                 found += "\n" + entry.path().stem().string() + ": " + w;

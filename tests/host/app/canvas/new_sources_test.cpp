@@ -6,6 +6,7 @@
 
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/quantity_text.hpp>
+#include <tactus/file/graph_file.hpp>
 #include <tactus/plan/values.hpp>
 
 #include <catch2/catch.hpp>
@@ -134,4 +135,67 @@ TEST_CASE ("a new control of a source covers the usual range of the param that i
     const auto& to = document.graph().controls.front().to.front();
     CHECK (plan::readNumber (to.low)->value == Approx (usual.min));
     CHECK (plan::readNumber (to.high)->value == Approx (usual.max));
+}
+
+TEST_CASE ("a modulator that is wired to a param moves it around its value, with a depth that is the gain of the wire", "[app][canvas][sources]")
+{
+    for (const auto& [source, port, of_one] : { std::tuple { "signal.lfo", "out", 1.0 }, std::tuple { "signal.envelope", "out", 1.0 },
+                                                std::tuple { "signal.noise", "out", 1.0 }, std::tuple { "motion.velocity", "speed", 10.0 } })
+        for (const auto& type : catalogue())
+        {
+            INFO (source << " -> " << type.info.id);
+            const auto g = Sketch {}.node ("driven", std::string (type.info.id)).node ("source", source).graph;
+            const auto face = faceOf (g, g.root, g.root.nodes[0], catalogue());
+            for (const auto& p : face.params)
+            {
+                if (p.isChoice() || p.width != 1) continue;
+                INFO (p.id);
+                CanvasRig rig { g };
+                const auto& scene = rig.canvas->scene();
+                const auto from = scene.findPort ({ rig.node ("source").id, Role::output, port }), to = scene.findPort ({ rig.node ("driven").id, Role::param, p.id });
+                REQUIRE (from);
+                REQUIRE (to);
+                rig.canvas->commands().join (from, to);
+                REQUIRE (rig.graph().root.wires.size() == 1);
+                const auto& wire = rig.graph().root.wires[0];
+                CHECK (wire.add);
+                CHECK (rig.graph().root.find ("driven")->params == g.root.nodes[0].params);
+                const auto gain = plan::readNumber (wire.gain);
+                REQUIRE (gain);
+                const auto& sheet = *p.sheet;
+                const double now = siOf (paramNow (g, {}, g.root.nodes[0], p).value, sheet), depth = gain->value / of_one;
+                CHECK (depth > 0.0);
+                if (now != 0.0) CHECK (depth == Approx (0.1 * std::abs (now)).epsilon (0.02));
+                const auto compiled = compile (rig.graph(), catalogue());
+                for (const auto& m : compiled.messages)
+                {
+                    INFO (m.where << ": " << m.text);
+                    CHECK (m.id.find ("unit") == std::string::npos);
+                }
+                CHECK (writeGraph (readGraph (rig.text()).graph) == rig.text());
+                CHECK (addedTo (rig.graph().root, "driven", p).isNotEmpty());
+                rig.document.undo();
+                CHECK (rig.graph().root.wires.empty());
+            }
+        }
+}
+
+TEST_CASE ("a modulator with an amplitude keeps its unit, and a second wire replaces nothing that is set", "[app][canvas][sources]")
+{
+    Sketch s;
+    s.node ("drag", "friction.elasto_plastic").node ("shake", "signal.lfo", { { "amplitude", 4 } }).node ("level", "signal.constant");
+    s.wire ("level.out -> drag.d_max");
+    CanvasRig rig { s.graph };
+    const auto join = [&] (const char* param) {
+        rig.canvas->commands().join (rig.canvas->scene().findPort ({ rig.node ("shake").id, Role::output, "out" }),
+                                     rig.canvas->scene().findPort ({ rig.node ("drag").id, Role::param, param }));
+        return rig.graph().root.wires.back();
+    };
+    const auto mu = join ("mu");
+    CHECK (mu.add);
+    const auto* sheet = rig.node ("drag").face->find (Role::param, "mu")->sheet;
+    CHECK (plan::readNumber (mu.gain)->value == Approx (0.1 * sheet->initial[0] / 4.0).epsilon (0.02));
+    const auto d_max = join ("d_max");   // a wire sets it, which the new one replaces
+    CHECK_FALSE (d_max.add);
+    CHECK (rig.graph().root.wires.size() == 2);
 }
