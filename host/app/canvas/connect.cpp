@@ -270,7 +270,8 @@ void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command&
     auto& wire = std::get<graph::AddWire> (commands.front().edit).wire;
     wire.add = true;
     wire.gain = *depth;
-    canvas.hint (filled (TRANS ("%1 moves %2 around its value, by %3 for each unit. Select the wire to set this depth."), graph::toText (wire.from), graph::toText (wire.to),
+    const auto from_text = graph::toText (wire.from), to_text = graph::toText (wire.to);
+    canvas.hint (filled (TRANS ("%1 moves %2 around its value, by %3 for each unit. Select the wire to set this depth."), from_text, to_text,
                          gainText (*depth)));
 }
 

@@ -165,8 +165,9 @@ Messages unfelt (const graph::Graph& g, const Catalogue& catalogue)
         Wired (g, name, patch, catalogue).warn (all);
     for (const auto& b : compose::bypassedBanks (g, catalogue))
     {
-        const auto text = b.mixer.empty() ? filled (TRANS ("%1 goes to '%2' without a mixer, so mute, solo and ceiling miss it"), listText (b.sources), b.sink)
-                                          : filled (TRANS ("%1 goes to '%2' past the mixer '%3', so mute, solo and ceiling miss it"), listText (b.sources), b.sink,
+        const auto sources = listText (b.sources);
+        const auto text = b.mixer.empty() ? filled (TRANS ("%1 goes to '%2' without a mixer, so mute, solo and ceiling miss it"), sources, b.sink)
+                                          : filled (TRANS ("%1 goes to '%2' past the mixer '%3', so mute, solo and ceiling miss it"), sources, b.sink,
                                                     b.mixer);
         all.push_back (Message::warning ("mixer/bypassed", "/nodes/" + pointerPart (graph::firstNameOf (b.sink)), text.toStdString(),
                                          TRANS ("wire it into a layer of a mixer before the motor").toStdString()));

@@ -267,7 +267,7 @@ private:
     StemExport stems { catalogue,
                        { .question = question,
                          .notify = [this] (const juce::String& text) { status.notify (text); },
-                         .chooseFolder = [this] (const std::string& name, std::function<void (const std::filesystem::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); } } };
+                         .chooseFolder = [this] (const auto& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); } } };
     AssetLoad asset_load;
     juce::String loading;                                     // title of the question that offers to cancel
     std::function<void()> after_load;                         // shows the graph whose files are being loaded

@@ -265,7 +265,8 @@ void MainView::randomise()
     auto batch = randomised (edited.graph(), patching.patch(), nodes, catalogue, seed);
     if (batch.commands.empty()) return status.notify (TRANS ("Nothing here has a number with a usual range."));
     const auto count = batch.commands.size();
-    if (edited.perform (std::move (batch))) status.notify (filled (TRANS ("%1 new values, with the seed %2. Ctrl+Z restores the old ones."), count, juce::String (seed)));
+    if (edited.perform (std::move (batch)))
+        status.notify (filled (TRANS ("%1 new values, with the seed %2. Ctrl+Z restores the old ones."), count, juce::String (seed)));
 }
 
 void MainView::saveSettingsSoon()

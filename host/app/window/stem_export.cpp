@@ -17,7 +17,8 @@ void StemExport::ask (const graph::Graph& g)
     const auto name = g.name.empty() ? TRANS ("graph") : fromUtf8 (g.name);
     const auto choice = [&] (const juce::String& label, const StemOptions& options) {
         return Question::Choice { label, [this, graph, name, options] {
-                                     const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();   // an ending would be that of another file
+                                     // A point would begin the ending of another kind of file.
+                                     const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();
                                      window.chooseFolder (legal + " stems", [this, graph, options] (const auto& into) { render (*graph, options, into); });
                                  } };
     };

@@ -37,7 +37,8 @@ bool isPlainName (std::string_view name)
     while (true)
     {
         const auto part = name.substr (0, name.find ('/'));
-        const auto isBad = [] (char c) { return static_cast<unsigned char> (c) < 0x20 || c == 0x7f || std::string_view ("\\:*?\"<>|").find (c) != std::string_view::npos; };
+        static constexpr std::string_view special = "\\:*?\"<>|";   // on some systems
+        const auto isBad = [] (char c) { return static_cast<unsigned char> (c) < 0x20 || c == 0x7f || special.find (c) != special.npos; };
         if (part.empty() || part.front() == '.' || part.back() == '.' || part.back() == ' ' || std::ranges::any_of (part, isBad)) return false;
         if (++parts > deepest_folder) return false;
         if (part.size() == name.size()) return true;
@@ -71,7 +72,8 @@ std::string pathOutside (const Json& value)
     if (value.is_string())
     {
         const auto& text = value.asString();
-        const bool is_absolute = text.starts_with ('/') || text.starts_with ('\\') || (text.size() > 2 && text[1] == ':' && (text[2] == '/' || text[2] == '\\'));
+        const bool has_drive = text.size() > 2 && text[1] == ':' && (text[2] == '/' || text[2] == '\\');
+        const bool is_absolute = text.starts_with ('/') || text.starts_with ('\\') || has_drive;
         auto rest = std::string_view (text).substr (text.starts_with ("file:") ? 5 : 0);
         bool leaves = is_absolute || (text.starts_with ("file:") && rest.starts_with ('/'));
         while (! rest.empty() && ! leaves)

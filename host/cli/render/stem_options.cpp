@@ -81,14 +81,17 @@ std::vector<std::string> graphsIn (const fs::path& folder)
 void StemCommand::addTo (const Command& command)
 {
     const auto stems = command.addOption (
-        "--stems", folder, "Write the mix, each axis or actuator, each layer, and what is not mixed, as WAV files into this folder; the graph may be a folder of graphs");
-    const auto needing = { command.addOption ("--stem-format", format, "The samples of the files; default: float").check (oneOf ({ "float", "pcm16", "pcm24" })),
+        "--stems", folder, "Write the mix, each axis or actuator, each layer, and what is not mixed, as WAV files into this folder; the graph may be a "
+                           "folder of graphs");
+    const auto formats = oneOf ({ "float", "pcm16", "pcm24" });
+    const auto needing = { command.addOption ("--stem-format", format, "The samples of the files; default: float").check (formats),
                            command.addOption ("--stem-rate", rate_hz, "Samples per second; default: those of the run").check (finiteWithin (1.0, 768e3)),
                            command.addOption ("--stem-scale", scale,
-                                              "What a sample of 1 means: an amount such as \"4 N\" (default for float: 1); `together`: the loudest sample of all "
-                                              "files is at -1 dBFS (default for integers); `each`: that of each file"),
+                                              "What a sample of 1 means: an amount such as \"4 N\" (default for float: 1); `together`: the loudest sample "
+                                              "of all files is at -1 dBFS (default for integers); `each`: that of each file"),
                            command.addFlag ("--stem-mono", is_mono, "Vectors become their component in the direction in which the mix moves most"),
-                           command.addOption ("--stem-loop", loop, "Blend the end into the start over this time, as in \"20 ms\", so that the files can be repeated"),
+                           command.addOption ("--stem-loop", loop,
+                                              "Blend the end into the start over this time, as in \"20 ms\", so that the files can be repeated"),
                            command.addFlag ("--no-dither", has_no_dither, "Round to integers without noise") };
     for (const auto& option : needing)
         option.needs (stems);

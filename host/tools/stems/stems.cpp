@@ -411,7 +411,8 @@ struct Stems::Impl
                 s.channels[0][k] = static_cast<float> (sum);
             }
             s.channels.resize (1);
-            s.to.channels = { "along " + numberText (direction->second[0]) + " " + numberText (direction->second[1]) + " " + numberText (direction->second[2]) };
+            const auto& along = direction->second;
+            s.to.channels = { "along " + numberText (along[0]) + " " + numberText (along[1]) + " " + numberText (along[2]) };
         }
     }
 
@@ -573,7 +574,13 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
         auto named = Json::array();
         for (const auto& c : stem.to.channels)
             named.push_back (c);
-        files.push_back (Json { { "file", stem.to.file }, { "kind", stem.to.kind }, { "label", stem.to.label }, { "from", stem.to.from }, { "channels", named }, { "unit", stem.to.unit }, { "full_scale", stem.to.full_scale }, { "peak", stem.to.peak }, { "clipped", static_cast<double> (stem.to.clipped) } });
+        Json file { { "file", stem.to.file }, { "kind", stem.to.kind }, { "label", stem.to.label }, { "from", stem.to.from } };
+        file["channels"] = named;
+        file["unit"] = stem.to.unit;
+        file["full_scale"] = stem.to.full_scale;
+        file["peak"] = stem.to.peak;
+        file["clipped"] = static_cast<double> (stem.to.clipped);
+        files.push_back (std::move (file));
         written.files.push_back (stem.to);
     }
     for (const auto& m : s.mixers)
@@ -581,7 +588,10 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
         written.sums.push_back ({ m.path, m.unit(), m.difference, m.peak });
         sums.push_back (Json { { "mixer", m.path }, { "unit", m.unit() }, { "largest_difference", m.difference }, { "peak", m.peak } });
     }
-    const Json said { { "format", "tactus-stems" }, { "version", 1 }, { "name", name }, { "rate_hz", rate_hz }, { "frames", static_cast<double> (s.frames) }, { "loop_blend_s", s.options.loop_s }, { "files", files }, { "sums", sums } };
+    Json said { { "format", "tactus-stems" }, { "version", 1 }, { "name", name }, { "rate_hz", rate_hz }, { "frames", static_cast<double> (s.frames) } };
+    said["loop_blend_s"] = s.options.loop_s;
+    said["files"] = files;
+    said["sums"] = sums;
     if (auto done = made->write ("stems.json", said.dump (2) + "\n"); ! done) return done.error();
     if (auto done = made->write (list_of_files, list + "stems.json\n"); ! done) return done.error();
     if (auto kept = made->keepOthers(); ! kept) return kept.error();

@@ -152,7 +152,8 @@ TEST_CASE ("a modulator that is wired to a param moves it around its value, with
                 INFO (p.id);
                 CanvasRig rig { g };
                 const auto& scene = rig.canvas->scene();
-                const auto from = scene.findPort ({ rig.node ("source").id, Role::output, port }), to = scene.findPort ({ rig.node ("driven").id, Role::param, p.id });
+                const auto from = scene.findPort ({ rig.node ("source").id, Role::output, port });
+                const auto to = scene.findPort ({ rig.node ("driven").id, Role::param, p.id });
                 REQUIRE (from);
                 REQUIRE (to);
                 rig.canvas->commands().join (from, to);
