@@ -579,7 +579,7 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
         file["unit"] = stem.to.unit;
         file["full_scale"] = stem.to.full_scale;
         file["peak"] = stem.to.peak;
-        file["clipped"] = static_cast<double> (stem.to.clipped);
+        file["clipped"] = stem.to.clipped;
         files.push_back (std::move (file));
         written.files.push_back (stem.to);
     }
@@ -588,7 +588,7 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
         written.sums.push_back ({ m.path, m.unit(), m.difference, m.peak });
         sums.push_back (Json { { "mixer", m.path }, { "unit", m.unit() }, { "largest_difference", m.difference }, { "peak", m.peak } });
     }
-    Json said { { "format", "tactus-stems" }, { "version", 1 }, { "name", name }, { "rate_hz", rate_hz }, { "frames", static_cast<double> (s.frames) } };
+    Json said { { "format", "tactus-stems" }, { "version", 1 }, { "name", name }, { "rate_hz", rate_hz }, { "frames", s.frames } };
     said["loop_blend_s"] = s.options.loop_s;
     said["files"] = files;
     said["sums"] = sums;
