@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compile.hpp"
 #include <tactus/plan/build/build.hpp>
+#include <tactus/plan/prepared_shelf.hpp>
 #include <tactus/plan/rules/examine.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
@@ -130,7 +131,8 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 {
     beginReading();
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
-    const Setup setup { .rate_hz = rate, .services = options.services };
+    Setup setup { .rate_hz = rate, .services = options.services };
+    if (setup.services.prepared == nullptr) setup.services.prepared = &plan::preparedOfAll();
     auto [flattened, units, ordered] = examine (g, catalogue, setup, options.overrides, options.assets);
     auto& flat = flattened.flat;
     auto& top = flattened.top;

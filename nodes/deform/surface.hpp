@@ -9,6 +9,7 @@
 #include <tactus/kit/math/math.hpp>
 #include <tactus/kit/threads/async_query.hpp>
 #include <tactus/node/node.hpp>
+#include <tactus/node/prepared_data.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -237,10 +238,13 @@ struct ElasticSurface
         return problemOf (*settings.surface);
     }
 
-    std::string warning (const Setup&) const
+    std::string warning (const Setup& setup) const
     {
         const auto& surface = *settings.surface;
-        auto all = faultsOf (settings.surface, creaseAngle(), settings.tool_radius);
+        auto numbers = settings.tool_radius;
+        numbers.push_back (creaseAngle());
+        const auto faults = [&] { return std::make_shared<const std::string> (faultsOf (surface, creaseAngle(), settings.tool_radius)); };
+        std::string all = *prepared<std::string> (setup.services.prepared, settings.surface, keyOf (numbers), faults, PreparedData::Until::no_source);
         const auto add = [&] (const std::string& more) { all += (all.empty() ? "" : "; ") + more; };
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             add (std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks");
@@ -250,7 +254,12 @@ struct ElasticSurface
     void prepare (const Setup& setup)
     {
         dt = setup.dt_s();
-        body = placedSurface (settings.surface, settings.scale, settings.origin, settings.rotation, creaseAngle(), settings.tool_radius);
+        const auto &o = settings.origin, &r = settings.rotation;
+        std::vector<double> numbers { settings.scale, o.x(), o.y(), o.z(), r.x(), r.y(), r.z(), creaseAngle() };
+        numbers.insert (numbers.end(), settings.tool_radius.begin(), settings.tool_radius.end());
+        body = prepared<PlacedSurface> (setup.services.prepared, settings.surface, keyOf (numbers), [&] {
+            return std::make_shared<const PlacedSurface> (settings.surface, settings.scale, o, r, creaseAngle(), settings.tool_radius);
+        });
         tool = trial = body->noTool();
         slippery = isSlippery();
         touch = {};

@@ -5,11 +5,14 @@
 #include <tactus/kit/geometry/spline_surface.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
+#include <tactus/node/prepared_data.hpp>
 #include <tactus/node/setting.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -138,14 +141,14 @@ struct HeightMap
         hold = static_cast<int> (hold_s / dt);
         release = math::exp (-dt / release_s);
         last = {};
-        build();
+        build (setup.services.prepared);
         update();
     }
 
     void update() noexcept
     {
         f_max = params.f_max > 0.0 ? std::min (params.f_max, 0.5 / dt) : 1.0 / (alpha * dt);
-        fastest = levels.size() < 2 ? 0.0 : 1.01 * f_max / levels[levels.size() - 2].edge;
+        fastest = ! levels ? 0.0 : 1.01 * f_max / (*levels)[levels->size() - 2].edge;
     }
 
     void adopt (const HeightMap& old) noexcept { last = old.last; }
@@ -168,7 +171,7 @@ struct HeightMap
         else if (p != last.p)
             last.speed *= release;
         last = { .p = p, .speed = std::max (speed, last.speed), .held = last.held, .known = true };
-        if (levels.empty()) return {};
+        if (! levels) return {};
 
         const auto relief = blended (p);
         const Vec3 force { -params.gain * relief.slope_x, -params.gain * relief.slope_y, 0.0 };
@@ -199,29 +202,33 @@ private:
     SplineSurface::Point blended (const Vec3& p) const noexcept
     {
         const double speed = last.speed;
+        const auto& all = *levels;
         std::size_t fine = 0;
-        while (fine + 1 < levels.size() && levels[fine].edge * speed > f_max)
+        while (fine + 1 < all.size() && all[fine].edge * speed > f_max)
             ++fine;
-        const auto a = levels[fine].surface (p.x(), p.y());
-        if (fine + 1 == levels.size()) return a;
+        const auto a = all[fine].surface (p.x(), p.y());
+        if (fine + 1 == all.size()) return a;
 
-        const double end = levels[fine].edge * speed / f_max;   // <= 1
-        const double begin = fine == 0 ? 0.5 : levels[fine].edge / levels[fine - 1].edge;
+        const double end = all[fine].edge * speed / f_max;   // <= 1
+        const double begin = fine == 0 ? 0.5 : all[fine].edge / all[fine - 1].edge;
         if (end <= begin) return a;
         const double w = 1.0 - math::log (end) / math::log (begin);
-        const auto b = levels[fine + 1].surface (p.x(), p.y());
+        const auto b = all[fine + 1].surface (p.x(), p.y());
         return { std::lerp (a.height, b.height, w), std::lerp (a.slope_x, b.slope_x, w), std::lerp (a.slope_y, b.slope_y, w) };
     }
 
+    using Levels = std::vector<Level>;   // each with less detail than the previous one; the last one is flat
+
     MirroredGrid heights() const;
-    void build();
+    Levels made() const;
+    void build (PreparedData*);
 
     double dt = 1.0 / Setup {}.rate_hz;   // s
     double f_max = 0.0, release = 0.0;
     int hold = 0;
-    double fastest = 0.0;              // m/s; from this speed up only the mean is left
-    bool wide = false, deep = false;   // more than one column, more than one row
-    std::vector<Level> levels;         // each with less detail than the previous one; the last one is flat
+    double fastest = 0.0;                   // m/s; from this speed up only the mean is left
+    bool wide = false, deep = false;        // more than one column, more than one row
+    std::shared_ptr<const Levels> levels;   // null without a map
 
     struct Sample
     {
@@ -295,20 +302,27 @@ inline MirroredGrid HeightMap::heights() const
     return m.smooth > 0.0 ? smoothedOver (std::move (to), m.smooth) : to;
 }
 
-inline void HeightMap::build()
+inline void HeightMap::build (PreparedData* shelf)
 {
-    levels.clear();
+    levels = nullptr;
     wide = grid() && grid()->columns > 1;
     deep = grid() && grid()->rows > 1;
     if (! grid()) return;
+    const Map& m = settings.map;
+    levels = prepared<Levels> (shelf, grid(), keyOf (std::array { m.image.grid ? 1.0 : 0.0, m.pitch, m.height, m.smooth }),
+                               [&] { return std::make_shared<const Levels> (made()); });
+}
 
+inline HeightMap::Levels HeightMap::made() const
+{
+    Levels all;
     const double pitch = settings.map.pitch;
     MirroredGrid points = heights();
     const double mean = meanOf (points);
 
     // A sinc that is zero at all other points of the map keeps the value of each point. It leaves little beyond 0.6 / pitch.
     const auto fine = resampled (points, points.x.with (2 * points.x.intervals), points.y.with (2 * points.y.intervals), 0.5 / pitch, 16.0);
-    levels.push_back ({ 0.6 / pitch, SplineSurface { fine } });
+    all.push_back ({ 0.6 / pitch, SplineSurface { fine } });
 
     // Use four points per period at the band edge. The splines then add less than 1 % above it.
     const double length = pitch * std::max (points.x.intervals, points.y.intervals);
@@ -320,21 +334,23 @@ inline void HeightMap::build()
         };
         const double edge = 0.25 / spacing;
         points = resampled (points, coarser (points.x), coarser (points.y), 0.8 * edge, 8.0);
-        levels.push_back ({ edge, SplineSurface { points } });
+        all.push_back ({ edge, SplineSurface { points } });
     }
 
-    levels.push_back ({ 0.0, SplineSurface { MirroredGrid { {}, {}, { mean } } } });
+    all.push_back ({ 0.0, SplineSurface { MirroredGrid { {}, {}, { mean } } } });
+    return all;
 }
 
 inline Claims HeightMap::claims() const
 {
     double steepest = 0.0;
-    for (const Level& level : levels)
-        steepest = std::max (steepest, level.surface.largestCurvature());
+    if (levels)
+        for (const Level& level : *levels)
+            steepest = std::max (steepest, level.surface.largestCurvature());
     return {
         .passive = steepest == 0.0,
         .stiffness = std::abs (params.gain) * steepest,
-        .spatial_frequency = levels.empty() ? 0.0 : levels.front().edge,
+        .spatial_frequency = levels ? levels->front().edge : 0.0,
     };
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "placed_surface.hpp"
-#include "kept_results.hpp"
 
 #include <utility>
 
@@ -138,15 +137,6 @@ double PlacedSurface::ratio (const Foot& foot, double depth, const Tool& tool) c
                 sum += share.amount * tool.shares[at (i)].amount * mu[at (tool.shares[at (i)].shape) * nodes + at (share.node)](depth);
     });
     return sum;
-}
-
-std::shared_ptr<const PlacedSurface> placedSurface (const std::shared_ptr<const Surface>& s, double scale, const Vec3& origin, const Vec3& rotation,
-                                                    double crease, const std::vector<double>& radii)
-{
-    static KeptResults<Surface, std::vector<double>, std::shared_ptr<const PlacedSurface>> kept;
-    std::vector<double> numbers { scale, origin.x(), origin.y(), origin.z(), rotation.x(), rotation.y(), rotation.z(), crease };
-    numbers.insert (numbers.end(), radii.begin(), radii.end());
-    return kept.of (s, numbers, [&] { return std::make_shared<const PlacedSurface> (s, scale, origin, rotation, crease, radii); });
 }
 
 }   // namespace tactus

@@ -150,8 +150,4 @@ void PlacedSurface::mixCurves (const Foot& foot, const Tool& tool, const Use& us
         });
 }
 
-/// The surface at its place. The same one for the same surface, place, crease and radii, as long as it is in use. [any thread]
-std::shared_ptr<const PlacedSurface> placedSurface (const std::shared_ptr<const Surface>&, double scale, const Vec3& origin, const Vec3& rotation,
-                                                    double crease, const std::vector<double>& radii = {});
-
 }   // namespace tactus

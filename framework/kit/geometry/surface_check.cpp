@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
-#include "kept_results.hpp"
 #include "mesh_walk.hpp"
 #include "smooth_body.hpp"
 #include <tactus/kit/math/math.hpp>
@@ -310,22 +309,17 @@ std::string abruptStiffness (const Surface& s)
            + ") of the file; refine the mesh there, or let the stiffness change over more cells";
 }
 
-std::string faultsOf (const std::shared_ptr<const Surface>& surface, double crease, const std::vector<double>& radii)
+std::string faultsOf (const Surface& surface, double crease, const std::vector<double>& radii)
 {
-    static KeptResults<Surface, std::vector<double>, std::string> kept;
-    auto numbers = radii;
-    numbers.push_back (crease);
-    return kept.of (surface, numbers, [&] {
-        auto all = wrongSide (*surface);
-        const auto add = [&] (const std::string& more) { all += (all.empty() || more.empty() ? "" : "; ") + more; };
-        if (all.empty())
-        {
-            add (coarseFaces (*surface, crease));
-            add (sharpEdges (*surface, crease, radii));
-        }
-        add (abruptStiffness (*surface));
-        return all;
-    });
+    auto all = wrongSide (surface);
+    const auto add = [&] (const std::string& more) { all += (all.empty() || more.empty() ? "" : "; ") + more; };
+    if (all.empty())
+    {
+        add (coarseFaces (surface, crease));
+        add (sharpEdges (surface, crease, radii));
+    }
+    add (abruptStiffness (surface));
+    return all;
 }
 
 }   // namespace tactus

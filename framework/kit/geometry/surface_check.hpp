@@ -29,8 +29,7 @@ std::string coarseFaces (const Surface&, double crease);
 /// else empty.
 std::string abruptStiffness (const Surface&);
 
-/// The warnings of a surface: that of wrongSide, or those of coarseFaces and sharpEdges; and that of abruptStiffness. Empty if there is none. Computed once
-/// for each surface, crease and radii, as long as the surface is in use. [any thread]
-std::string faultsOf (const std::shared_ptr<const Surface>&, double crease, const std::vector<double>& radii);
+/// The warnings of a surface: that of wrongSide, or those of coarseFaces and sharpEdges; and that of abruptStiffness. Empty if there is none. [any thread]
+std::string faultsOf (const Surface&, double crease, const std::vector<double>& radii);
 
 }   // namespace tactus

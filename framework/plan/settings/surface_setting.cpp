@@ -2,7 +2,7 @@
 #include "surface_setting.hpp"
 #include "files.hpp"
 
-#include <tactus/kit/geometry/kept_results.hpp>
+#include <tactus/plan/prepared_shelf.hpp>
 
 namespace tactus::plan
 {
@@ -212,10 +212,10 @@ std::shared_ptr<const Surface> surfaceOf (const Json& json, std::shared_ptr<cons
 std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files, const std::string& key)
 {
     objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu", "weights" }, "it", key);
+    const auto make = [&] (std::shared_ptr<const Mesh> mesh) { return surfaceOf (json, std::move (mesh), key); };
+    if (member (json, "mesh") == nullptr) return prepared<Surface> (&preparedOfAll(), nullptr, json.dump(), [&] { return make (meshFrom (json, files, key)); });
     const auto mesh = meshFrom (json, files, key);
-    if (member (json, "mesh") == nullptr) return surfaceOf (json, mesh, key);
-    static KeptResults<Mesh, std::string, std::shared_ptr<const Surface>> kept;   // the same for each plan, so that what is computed from it is, too
-    return kept.of (mesh, json.dump(), [&] { return surfaceOf (json, mesh, key); });
+    return prepared<Surface> (&preparedOfAll(), mesh, json.dump(), [&] { return make (mesh); });
 }
 
 }   // namespace tactus::plan

@@ -7,7 +7,6 @@
 #include <host/app/run/asset_load.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
-#include <tactus/kit/geometry/placed_surface.hpp>
 
 #include <string>
 
@@ -103,17 +102,6 @@ TEST_CASE ("what was loaded on another thread serves the next compilation, and i
     const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } });
     REQUIRE (compiled.plan);
     CHECK (compiled.messages.size() == loaded->compiled.messages.size());
-    const auto surface = std::make_shared<const Surface> (Surface { .mesh = shared, .frames = {}, .curves = { { {} } }, .mu = { {} } });
-    const auto place = [&] (double scale) { return placedSurface (surface, scale, Vec3::Zero(), Vec3::Zero(), 0.5); };
-    auto placed = place (1.0);
-    CHECK (place (1.0) == placed);
-    CHECK (place (2.0) != placed);
-    CHECK (placedSurface (surface, 1.0, Vec3::Zero(), Vec3::Zero(), 0.4) != placed);
-    CHECK (placedSurface (surface, 1.0, Vec3::Zero(), Vec3::Zero(), 0.5, { 1e-3 }) != placed);
-    const std::weak_ptr<const PlacedSurface> watched = placed;
-    placed.reset();
-    CHECK (watched.expired());
-
     load.start (graph, catalogue());
     load.cancel();
     CHECK (load.take() == nullptr);
