@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "measure.hpp"
 #include "bench.hpp"
+#include "side_by_side.hpp"
 #include "slopes.hpp"
 #include "stretches.hpp"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -25,10 +27,8 @@ constexpr double felt_part = 0.1;         // a texture is felt while its force i
 using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
 
 template <typename AfterTick>
-Forces forcesAlong (const Subject& subject, const HandMotion& motion, std::vector<std::size_t> without, AfterTick&& after)
+Forces forcesAlong (Bench& bench, const HandMotion& motion, AfterTick&& after)
 {
-    Bench bench { subject, motion };
-    bench.silence (without);
     Forces forces (motion.roles.size());
     for (std::size_t k = 0; k < motion.ticks; ++k)
     {
@@ -39,6 +39,14 @@ Forces forcesAlong (const Subject& subject, const HandMotion& motion, std::vecto
         after (bench.plan());
     }
     return forces;
+}
+
+template <typename AfterTick>
+Forces forcesAlong (const Subject& subject, const HandMotion& motion, const std::vector<std::size_t>& without, AfterTick&& after)
+{
+    Bench bench { subject, motion };
+    bench.silence (without);
+    return forcesAlong (bench, motion, after);
 }
 
 /// The velocity of a tool at a tick, in m/s.
@@ -429,7 +437,8 @@ private:
     {
         directions.resize (motion.roles.size());
         if (! hasLoop ("")) return;
-        SlopeWork work { .without = struckNodes() };
+        std::vector<SlopeWork> works { { .without = struckNodes() } };
+        auto& work = works.front();
         for (const auto& path : plan->delays())
             work.longest_delay = std::max (work.longest_delay, path.longest);
         std::ranges::copy (findDeadbeats(), std::back_inserter (work.without));
@@ -440,20 +449,24 @@ private:
         }
         else
             work.spots = chooseSpots (subject, motion, placesWithin (how), work.without, how.ticks / 16);
-        auto all = measureSlopes (subject, motion, work);
+        if (! textures.empty())
+        {
+            auto nominal = work;
+            nominal.looks_for_jumps = false;
+            for (const auto& t : textures)
+                nominal.without.push_back (t.node);
+            works.push_back (std::move (nominal));
+        }
+        auto found = measureSlopes (subject, motion, works, how.threads);
+        auto& all = found.front();
         demand.linked = std::move (all.linked);
         demand.jumps = std::move (all.jumps);
         directions = std::move (all.directions);
-        Slopes nominal;
-        for (const auto& t : textures)
-            work.without.push_back (t.node);
-        work.looks_for_jumps = false;
-        if (! textures.empty()) nominal = measureSlopes (subject, motion, work);
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
             if (auto& role = demand.roles[r]; hasLoop (role.role) && (! role.axis.empty() || hasForce (role.role)))
             {
                 role.slopes = std::move (all.by_role[r]);
-                if (! textures.empty()) role.nominal = std::move (nominal.by_role[r]);
+                if (! textures.empty()) role.nominal = std::move (found.back().by_role[r]);
             }
     }
 
@@ -529,15 +542,24 @@ private:
         });
     }
 
-    /// Measures the textures one after another, in a run for each. If a quarter of the ticks does not suffice for that, only the steepest ones
+    /// Measures the textures, in a run for each. If a quarter of the ticks does not suffice for that, only the steepest ones
     /// are, and a last run is for all others.
     void addTextures (const Thoroughness& how)
     {
         const auto runs = std::max<std::size_t> (1, how.ticks / 4 / std::max<std::size_t> (1, motion.ticks));
         const auto alone = steepest (runs < textures.size() ? runs - 1 : textures.size());
         const auto others = alone.size() < textures.size() ? ownSpeeds() : std::vector<std::vector<double>>();
+        std::vector<std::unique_ptr<Bench>> benches;
+        for (const auto t : alone)
+        {
+            benches.push_back (std::make_unique<Bench> (subject, motion));
+            benches.back()->silence ({ textures[t].node });
+        }
+        std::vector<Forces> without (benches.size());
+        sideBySide (benches.size(), how.threads, [&] (std::size_t i) { without[i] = forcesAlong (*benches[i], motion, [] (const Plan&) {}); });
+        auto its = without.begin();
         for (std::size_t t = 0; t < textures.size(); ++t)
-            alone.contains (t) ? addTexture (textures[t]) : addOther (textures[t], others[t]);
+            alone.contains (t) ? addTexture (textures[t], *its++) : addOther (textures[t], others[t]);
     }
 
     /// The indices of so many textures, the steepest ones.
@@ -601,9 +623,9 @@ private:
         }
     }
 
-    void addTexture (const TextureWatch& watched)
+    /// `without`: the forces of the graph without it.
+    void addTexture (const TextureWatch& watched, const Forces& without)
     {
-        const auto without = forcesAlong (subject, motion, { watched.node }, [] (const Plan&) {});
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
             if (! motion.roles[r].axis) addTexture (watched, r, without[r]);
     }
@@ -635,7 +657,7 @@ private:
 std::size_t affordableTicks (const Plan& plan)
 {
     constexpr std::size_t steps_of_nodes = 100'000'000;   // of about 25 ns
-    constexpr std::size_t steps_of_search = 60;           // of a node that looks for the place of the tool on a mesh
+    constexpr std::size_t steps_of_search = 400;          // of a node that looks for the place of the tool on a mesh
     std::size_t steps = 0;
     for (const auto& node : plan.flat().nodes)
         steps += node.runs() && node.type->info.id == "deform.surface" ? steps_of_search : 1;

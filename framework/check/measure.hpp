@@ -154,6 +154,7 @@ struct Thoroughness
     /// About how many ticks measure() may take in all. With fewer than it would take, it measures at fewer places, but at least 8, walks the path
     /// in longer steps, and measures only the steepest textures each on its own; the others count with the force of their node.
     std::size_t ticks = std::numeric_limits<std::size_t>::max();
+    std::size_t threads = 1;   ///< that measure() may use; the result does not depend on them
 };
 
 /// The number of ticks of a graph that take about 3 s if its nodes are as fast as most are. Depends only on the number of nodes.

@@ -17,6 +17,8 @@ struct HeldHand
     double mass = 0.0;        ///< kg
     double damping = 0.0;     ///< N s/m
     double stiffness = 0.0;   ///< N/m
+
+    bool operator== (const HeldHand&) const = default;
 };
 
 /// No hand; the corners of the range of fingertips of Hajian & Howe (1997, "Identification of the mechanical impedance at the human finger tip"): about

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slopes.hpp"
 #include "pair.hpp"
+#include "side_by_side.hpp"
 
 #include <tactus/kit/at.hpp>
 
@@ -9,6 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <memory>
+#include <utility>
 
 namespace tactus::check
 {
@@ -312,6 +316,56 @@ private:
 };
 }   // namespace
 
-Slopes measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work) { return SlopeSurvey (subject, motion, work).measure(); }
+namespace
+{
+/// The parts of the work that run side by side. They do not depend on the number of threads, so the result does not, either.
+std::vector<SlopeWork> partsOf (const SlopeWork& work)
+{
+    constexpr std::size_t least = 16;   // spots; each part follows the whole motion up to its last spot
+    if (work.spots.size() < least) return { work };
+    const auto middle = work.spots.begin() + static_cast<std::ptrdiff_t> (work.spots.size() / 2);
+    auto first = work, second = work;
+    first.spots.assign (work.spots.begin(), middle);
+    second.spots.assign (middle, work.spots.end());
+    return { first, second };
+}
+
+/// Adds the slopes of the next part.
+void add (Slopes& all, Slopes&& more)
+{
+    const auto append = [] (auto& to, auto& from) { std::ranges::move (from, std::back_inserter (to)); };
+    for (std::size_t r = 0; r < all.by_role.size(); ++r)
+    {
+        append (all.by_role[r], more.by_role[r]);
+        for (std::size_t n = 0; n < all.directions[r].size(); ++n)
+            all.directions[r][n] += more.directions[r][n];
+    }
+    append (all.linked, more.linked);
+    append (all.jumps, more.jumps);
+}
+}   // namespace
+
+std::vector<Slopes> measureSlopes (const Subject& subject, const HandMotion& motion, std::span<const SlopeWork> works, std::size_t threads)
+{
+    std::vector<SlopeWork> parts;
+    std::vector<std::size_t> work_of;
+    for (std::size_t w = 0; w < works.size(); ++w)
+        for (auto& part : partsOf (works[w]))
+        {
+            parts.push_back (std::move (part));
+            work_of.push_back (w);
+        }
+    std::vector<std::unique_ptr<SlopeSurvey>> surveys;
+    for (const auto& part : parts)
+        surveys.push_back (std::make_unique<SlopeSurvey> (subject, motion, part));
+    std::vector<Slopes> found (parts.size()), all (works.size());
+    sideBySide (parts.size(), threads, [&] (std::size_t i) { found[i] = surveys[i]->measure(); });
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (i == 0 || work_of[i] != work_of[i - 1])
+            all[work_of[i]] = std::move (found[i]);
+        else
+            add (all[work_of[i]], std::move (found[i]));
+    return all;
+}
 
 }   // namespace tactus::check

@@ -4,6 +4,8 @@
 #include "measure.hpp"
 #include "spots.hpp"
 
+#include <span>
+
 namespace tactus::check
 {
 
@@ -36,6 +38,8 @@ struct Slopes
 /// If the forces change by more along the spot than the slope in its middle explains, the place of the change is narrowed down to
 /// 20 nm. The slope is then measured there, too. A change that remains over these 20 nm is a jump, unless it does not
 /// repeat when the tools go back and forth.
-Slopes measureSlopes (const Subject&, const HandMotion&, const SlopeWork&);
+///
+/// Each work is measured as if it were the only one. The result does not depend on the number of threads that share them.
+std::vector<Slopes> measureSlopes (const Subject&, const HandMotion&, std::span<const SlopeWork>, std::size_t threads);
 
 }   // namespace tactus::check

@@ -2,17 +2,14 @@
 #include "trials.hpp"
 #include "bench.hpp"
 #include "free_tool.hpp"
+#include "side_by_side.hpp"
 
 #include <tactus/run/engine.hpp>
-#include <tactus/text/caught.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <memory>
-#include <thread>
 #include <utility>
 
 namespace tactus::check
@@ -281,7 +278,7 @@ private:
         std::size_t nearest = candidates.empty() ? 0 : candidates.front().place;
         double largest = 0.0;
         for (const auto u : unlike)
-            if (const double radius = worstHand (u).second; radius > largest)
+            if (const double radius = isCalm (u) ? 0.0 : worstHand (u).second; radius > largest)
             {
                 largest = radius;
                 nearest = u;
@@ -354,18 +351,39 @@ private:
         return worst;
     }
 
+    /// The damping that a place asks of the device of a role, over the damping that it has.
+    double loadOf (std::size_t role, std::size_t place) const
+    {
+        const auto& s = demand.roles[role].slopes[place];
+        const auto& device = devices_of[owners[role].tool];
+        const double load = s.stiffness / motion.rate_hz * (0.5 + (device.delay ? device.delay->value : 0.0)) + s.lag + s.damping;
+        return load > 0.0 ? load / (device.damping->value + s.brake) : 0.0;
+    }
+
+    bool isLoopKnown (std::size_t role, std::size_t place) const
+    {
+        return ! demand.roles[role].slopes[place].responses.empty() && ! demand.linked[place].responses.empty();
+    }
+
     /// True if some place is not passive and its loop cannot be computed, as with a friction. Only the trials show then whether the tool rests.
     bool isLoopUnknown() const
     {
         for (std::size_t r = 0; r < demand.roles.size(); ++r)
             for (std::size_t i = 0; i < demand.roles[r].slopes.size() && i < demand.linked.size() && isFree (r) && owners[r].axis == -1; ++i)
-            {
-                const auto& s = demand.roles[r].slopes[i];
-                const auto& device = devices_of[owners[r].tool];
-                const double load = s.stiffness / motion.rate_hz * (0.5 + (device.delay ? device.delay->value : 0.0)) + s.lag + s.damping;
-                if ((s.responses.empty() || demand.linked[i].responses.empty()) && load > device.damping->value + s.brake) return true;
-            }
+                if (! isLoopKnown (r, i) && loadOf (r, i) > 1.0) return true;
         return false;
+    }
+
+    /// True if the loops of all tools are known at a place, and passive with half of the device's damping, or a quarter of it if a friction slips. A few
+    /// trials are enough there.
+    bool isCalm (std::size_t place) const
+    {
+        if (place >= demand.linked.size()) return false;
+        const double most = demand.linked[place].is_smooth ? 0.5 : 0.25;
+        for (std::size_t r = 0; r < demand.roles.size(); ++r)
+            if (! isFree (r) || owners[r].axis != -1 || place >= demand.roles[r].slopes.size() || ! isLoopKnown (r, place) || ! (loadOf (r, place) <= most))
+                return false;
+        return true;
     }
 
     std::vector<Release> releasesAt (std::size_t at) const
@@ -375,6 +393,11 @@ private:
         auto worst = place != demand.linked.end() ? worstHand (static_cast<std::size_t> (place - demand.linked.begin())).first : usualHands()[2];
         if (worst.mass == 0.0) worst = usualHands()[2];   // without a hand, it is let go anyway
         const auto arm = usualHands().back();
+        if (place != demand.linked.end() && isCalm (static_cast<std::size_t> (place - demand.linked.begin())))
+            return { { .along = far_off },
+                     { .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off },
+                     { .across = -far_off, .hand = worst },
+                     { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst } };
         double fastest = 0.0;
         for (std::size_t r = 0; r < tools.size(); ++r)
             fastest = std::max (fastest, speedAt (r, at).norm());
@@ -386,8 +409,8 @@ private:
             { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst },
             { .along = far_off, .hand = worst },
             { .across = -far_off, .hand = worst },
-            { .along = 0.6 * far_off, .across = 0.64 * far_off, .third = 0.48 * far_off, .hand = arm },
         };
+        if (worst != arm) all.push_back ({ .along = 0.6 * far_off, .across = 0.64 * far_off, .third = 0.48 * far_off, .hand = arm });
         if (isLoopUnknown())   // so the worst hand is not known either
             for (const auto& hand : usualHands())
             {
@@ -639,27 +662,7 @@ Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand&
         runs.push_back (std::make_unique<TrialRun> (subject, motion, demand, devices, effort));
 
     std::vector<Trials> found (places.size());
-    std::vector<std::exception_ptr> thrown (places.size());
-    std::atomic<std::size_t> next { 0 };
-    const auto work = [&] {
-        for (std::size_t i = next++; i < places.size(); i = next++)
-            try
-            {
-                found[i] = runs[i]->at (places[i]);
-            }
-            catch (...)
-            {
-                thrown[i] = std::current_exception();
-            }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (unsigned i = 1; i < std::min<std::size_t> (effort.threads, places.size()); ++i)
-            others.emplace_back ([&] { static_cast<void> (caught ("the trials", work)); });
-        work();
-    }
-    for (const auto& e : thrown)
-        if (e) std::rethrow_exception (e);
+    sideBySide (places.size(), effort.threads, [&] (std::size_t i) { found[i] = runs[i]->at (places[i]); });
     for (std::size_t i = 1; i < found.size(); ++i)
         add (found.front(), found[i]);
     return std::move (found.front());

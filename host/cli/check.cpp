@@ -101,12 +101,13 @@ void run (const CheckOptions& options)
 {
     const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
     const auto motion = options.sweep ? graph.sweep (options.duration_s) : graph.motion (options.duration_s);
-    const auto demand = check::measure (graph.subject, motion, { .ticks = check::affordableTicks (*graph.plan) });
+    const std::size_t threads = std::max (1u, std::thread::hardware_concurrency());
+    const auto demand = check::measure (graph.subject, motion, { .ticks = check::affordableTicks (*graph.plan), .threads = threads });
     std::vector<check::RoleDevice> devices;
     for (const auto& r : graph.roles)
         devices.push_back (r.device);
     const auto trials = check::tryLoops (graph.subject, motion, demand, devices,
-                                         { .ticks = check::affordableTicks (*graph.plan) / 6, .threads = std::max (1u, std::thread::hardware_concurrency()) });
+                                         { .ticks = check::affordableTicks (*graph.plan) / 2, .threads = threads });
     auto judge = options.judge;
     judge.trials = &trials;
     const auto conditions = check::judge (demand, devices, judge);

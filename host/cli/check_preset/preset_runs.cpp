@@ -15,6 +15,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -200,12 +201,13 @@ Messages judgePreset (const check::Subject& subject, const fs::path& folder, std
 {
     auto recorded = check::recordMotion (subject, {}, folder);
     if (hasErrors (recorded.messages)) return std::move (recorded.messages);
-    const auto demand = check::measure (subject, recorded.motion, { .ticks = ticks });
+    const std::size_t threads = std::max (1u, std::thread::hardware_concurrency());
+    const auto demand = check::measure (subject, recorded.motion, { .ticks = ticks, .threads = threads });
     std::vector<check::RoleDevice> devices;
     for (const auto& [role, description] : subject.graph.devices)
         devices.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}), "sim", check::simulationOf (description, folder) });
     Messages messages;
-    const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticks / 6 });
+    const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticks / 2, .threads = threads });
     for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
         if (c.isBroken())
             messages.push_back (Message::warning ("preset/condition", c.node.empty() ? "/devices/" + pointerPart (c.role) : "/nodes/" + pointerPart (c.node),
