@@ -46,6 +46,8 @@ struct Appearance
     std::string_view crack {};       ///< length of the crack, m; of scissors: distance from the pivot to its end
     std::string_view thickness {};   ///< thickness of what is cut, m; 0: unlimited
     std::string_view pivot {};       ///< distance from the pivot of scissors to the plate, m
+    std::string_view radius {};      ///< setting: the radius of each round tool, m, or one for all
+    std::string_view choice {};      ///< input: number of the tool that has the radius; between two numbers, it lies between theirs
 };
 
 /// A part of an Appearance by its name, for code that treats all of them alike.
@@ -69,6 +71,7 @@ inline constexpr std::array appearance_parts {
     AppearancePart { "angle", &Appearance::angle, 1 },         AppearancePart { "phase", &Appearance::phase, 1 },
     AppearancePart { "width", &Appearance::width, 1 },         AppearancePart { "crack", &Appearance::crack, 1 },
     AppearancePart { "thickness", &Appearance::thickness, 1 }, AppearancePart { "pivot", &Appearance::pivot, 1 },
+    AppearancePart { "radius", &Appearance::radius, 0 },       AppearancePart { "choice", &Appearance::choice, 1 },
 };
 // clang-format on
 

@@ -211,6 +211,8 @@ struct ElasticSurface
         .scale = "scale",
         .origin = "origin",
         .rotation = "rotation",
+        .radius = "tool_radius",
+        .choice = "tool",
     };
 
     Params params;

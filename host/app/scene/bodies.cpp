@@ -151,6 +151,8 @@ Body bodyOf (const plan::Flat& flat, int number, const Sources& sources)
     }
     if (const auto* value = settingOf (n, looks.surface))
         if (const auto* surface = std::get_if<std::shared_ptr<const Surface>> (value)) body.surface = *surface;
+    if (const auto* value = settingOf (n, looks.radius))
+        if (const auto* radii = std::get_if<std::vector<double>> (value)) body.radii = *radii;
     if (! looks.map.empty()) body.relief = reliefOf (n, looks.map);
     return body;
 }
@@ -170,7 +172,7 @@ std::vector<std::string> portsOf (const std::vector<Body>& bodies, std::size_t m
 {
     constexpr auto number = [] (std::string_view Appearance::*row) { return partNumber (row); };
     constexpr std::array order { number (&Appearance::depth), number (&Appearance::crack), number (&Appearance::angle), number (&Appearance::touch),
-                                 number (&Appearance::stretch), number (&Appearance::tool), number (&Appearance::rotation), number (&Appearance::normal) };
+                                 number (&Appearance::stretch), number (&Appearance::tool), number (&Appearance::rotation), number (&Appearance::normal), number (&Appearance::choice) };
     std::vector<std::string> wanted;
     std::size_t components = 0;
     for (const auto part : order)
@@ -178,8 +180,10 @@ std::vector<std::string> portsOf (const std::vector<Body>& bodies, std::size_t m
         {
             if (body.ports[part].empty()) continue;
             const bool is_texture = body.kind == Appearance::Kind::ridges || body.kind == Appearance::Kind::relief;
-            if (part == number (&Appearance::tool) && ! (is_texture && body.is_placed)) continue;   // all others are where the tool is
-            if (part == number (&Appearance::normal) && body.kind != Appearance::Kind::contact) continue;
+            const bool is_solid = body.kind == Appearance::Kind::body, is_round = is_solid && ! body.radii.empty();
+            if (part == number (&Appearance::tool) && ! (is_texture && body.is_placed) && ! is_round) continue;   // all others are where the tool is
+            if (part == number (&Appearance::normal) && body.kind != Appearance::Kind::contact && ! is_solid) continue;
+            if (part == number (&Appearance::choice) && body.radii.size() < 2) continue;
             if (components + appearance_parts[part].width > most) continue;
             components += appearance_parts[part].width;
             wanted.push_back (body.ports[part]);

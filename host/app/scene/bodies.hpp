@@ -50,6 +50,7 @@ struct Body
     std::array<std::string, appearance_parts.size()> ports {};   ///< names of the ports that hold the other parts: "face.depth"
     std::shared_ptr<const Surface> surface {};
     Relief relief {};
+    std::vector<double> radii {};   ///< m, of its tools; empty: they are points
 
     double number (std::string_view Appearance::*part, double otherwise) const noexcept
     {

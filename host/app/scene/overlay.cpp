@@ -4,8 +4,10 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace tactus::host::scene
 {
@@ -130,6 +132,24 @@ void Overlay::drawPlumb (const Tool& tool, const Scene& scene, const std::vector
     graphics.drawEllipse (juce::Rectangle<float> (7.0f, 4.0f).withCentre (line->getEnd()), 1.2f);
 }
 
+/// The circle within which a contact sticks.
+void Overlay::drawRing (const StuckBound& bound)
+{
+    constexpr int corners = 48;
+    const Vec3 x = perpendicularTo (bound.normal), y = bound.normal.cross (x);
+    juce::Path ring;
+    for (int i = 0; i < corners; ++i)
+    {
+        const double angle = 2.0 * std::numbers::pi * i / corners;
+        const Vec3 p = bound.centre + bound.radius * (std::cos (angle) * x + std::sin (angle) * y);
+        if (! isInFront (p)) return;
+        i == 0 ? ring.startNewSubPath (camera.pixel (p)) : ring.lineTo (camera.pixel (p));
+    }
+    ring.closeSubPath();
+    graphics.setColour (look.theme().of (Quantity::length));
+    graphics.strokePath (ring, juce::PathStrokeType (1.2f));
+}
+
 void Overlay::drawMarks (const Scene& scene, const SceneState& now)
 {
     const auto& theme = look.theme();
@@ -150,6 +170,19 @@ void Overlay::drawMarks (const Scene& scene, const SceneState& now)
         const Vec3 tip = 0.5 * (crack.begin + crack.end) + crack.down;
         label (filled (TRANS ("crack %1"), lengthText (crack.down.norm())), camera.pixel (tip).translated (10.0f, 10.0f), Side::right,
                theme.of (Quantity::length));
+    }
+    for (const auto& bound : scene.stuckBounds (now))
+        drawRing (bound);
+    for (const auto& tool : scene.roundTools (now))
+    {
+        const auto seen = camera.see (tool.centre);
+        if (! (seen.depth > camera.near())) continue;
+        const auto across = static_cast<float> (2.0 * tool.radius * camera.scaleAt (seen.depth));
+        const auto circle = juce::Rectangle<float> (across, across).withCentre ({ seen.x, seen.y });
+        graphics.setColour (theme.text.withAlpha (0.08f));
+        graphics.fillEllipse (circle);
+        graphics.setColour (theme.text.withAlpha (0.55f));
+        graphics.drawEllipse (circle, 1.2f);
     }
     for (const auto& touch : touches)
     {

@@ -54,6 +54,7 @@ private:
 
     void drawForce (const Tool&, bool names_role);
     void drawPlumb (const Tool&, const Scene&, const std::vector<Touch>&);
+    void drawRing (const StuckBound&);
     bool isInFront (const Vec3&) const;
     static juce::Point<float> pixelsPerMetre (const Camera&, const Reach&, int axis);
     enum class Side

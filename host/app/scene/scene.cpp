@@ -191,6 +191,37 @@ std::vector<Crack> Scene::cracks (const SceneState& now) const
     return found;
 }
 
+std::vector<RoundTool> Scene::roundTools (const SceneState& now) const
+{
+    std::vector<RoundTool> found;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& radii = all[i].radii;
+        const auto centre = now.of (i, &Appearance::tool);
+        if (radii.empty() || ! centre) continue;
+        const auto choice = now.of (i, &Appearance::choice);
+        const double number = std::clamp (choice ? choice->x() : 0.0, 0.0, static_cast<double> (radii.size() - 1));
+        const auto lower = static_cast<std::size_t> (number), upper = std::min (lower + 1, radii.size() - 1);
+        const double radius = std::lerp (radii[lower], radii[upper], number - static_cast<double> (lower));
+        if (radius > 0.0) found.push_back ({ *centre, radius });
+    }
+    return found;
+}
+
+std::vector<StuckBound> Scene::stuckBounds (const SceneState& now) const
+{
+    std::vector<StuckBound> found;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& b = all[i];
+        const auto at = now.of (i, &Appearance::touch), depth = now.of (i, &Appearance::depth), normal = now.of (i, &Appearance::normal);
+        if (b.kind != Kind::body || ! b.surface || b.surface->mu.size() != 1 || ! at || ! depth || ! (depth->x() > 0.0) || ! normal) continue;
+        const double radius = b.surface->mu[0](depth->x()) * depth->x();
+        if (radius > 0.0 && ! normal->isZero()) found.push_back ({ *at, direction (*normal), radius });
+    }
+    return found;
+}
+
 void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const SceneState& now) const
 {
     auto sheets = sheetsOf (now);

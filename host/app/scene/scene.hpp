@@ -39,6 +39,21 @@ struct Touch
     Vec3 normal = Vec3::Zero();   ///< of the plane that is touched; 0 for a mesh
 };
 
+/// A round tool, as a body feels it.
+struct RoundTool
+{
+    Vec3 centre = Vec3::Zero();   ///< m
+    double radius = 0.0;          ///< m
+};
+
+/// The bound of a contact that sticks: a circle on the surface around the point that holds the tool. A tool that is pulled past it slides. Hayward 2007,
+/// Fig. 9.
+struct StuckBound
+{
+    Vec3 centre = Vec3::Zero(), normal = Vec3::UnitZ();   ///< m; out of the body
+    double radius = 0.0;                                  ///< m
+};
+
 /// An open crack under a blade: a rectangle that hangs from the surface.
 struct Crack
 {
@@ -69,6 +84,10 @@ public:
 
     std::vector<Touch> touches (const SceneState&) const;
     std::vector<Crack> cracks (const SceneState&) const;
+    std::vector<RoundTool> roundTools (const SceneState&) const;
+
+    /// Only of bodies with one mu for all nodes.
+    std::vector<StuckBound> stuckBounds (const SceneState&) const;
 
     /// Distance of the lines of the ground grid, for a camera: 1, 10 or 100 mm.
     static double gridFor (const Camera&) noexcept;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preset_bodies.hpp"
 
+#include <host/app/scene/scene.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -39,6 +41,44 @@ TEST_CASE ("a mesh is a body with its place and the ports that say where it is t
     CHECK (std::ranges::count (ports, "liver.depth") == 1);
     CHECK (std::ranges::count (ports, "liver.contact") == 1);
     CHECK (scene::portsOf (bodies, 2) == std::vector<std::string> { "liver.depth" });
+}
+
+TEST_CASE ("a round tool has its radius and its middle, and a contact that sticks has a bound", "[app][scene]")
+{
+    auto bodies = bodiesIn ("liver");
+    REQUIRE (bodies.front().radii == std::vector<double> { 8e-3, 2e-3 });
+    const auto ports = scene::portsOf (bodies, 32);
+    for (const auto* port : { "liver.position", "liver.normal", "liver.tool" })
+        CHECK (std::ranges::count (ports, port) == 1);
+    scene::Scene scene;
+    scene.setBodies (bodies);
+    std::map<std::string, double> values;
+    const auto state = [&] {
+        return scene::SceneState { .live = scene::liveOf (bodies, [&] (const std::string& component) -> std::optional<double> {
+                                       const auto at = values.find (component);
+                                       return at == values.end() ? std::nullopt : std::optional (at->second);
+                                   }) };
+    };
+    CHECK (scene.roundTools (state()).empty());
+    CHECK (scene.stuckBounds (state()).empty());
+    values = { { "liver.position.x", 1e-3 }, { "liver.position.y", 0.0 }, { "liver.position.z", 7e-3 }, { "liver.tool", 0.25 } };
+    auto tools = scene.roundTools (state());
+    REQUIRE (tools.size() == 1);
+    CHECK (tools[0].radius == Approx (0.75 * 8e-3 + 0.25 * 2e-3));
+    CHECK (tools[0].centre == Vec3 (1e-3, 0.0, 7e-3));
+    values["liver.tool"] = 9.0;   // beyond the last tool
+    CHECK (scene.roundTools (state()).front().radius == 2e-3);
+    CHECK (scene.stuckBounds (state()).empty());   // nothing is touched
+
+    for (const auto* port : { "liver.contact", "liver.normal" })
+        for (const auto* component : { ".x", ".y", ".z" })
+            values[std::string (port) + component] = component == std::string (".z") ? 1.0 : 0.0;
+    values["liver.depth"] = 2e-3;
+    const auto bounds = scene.stuckBounds (state());
+    REQUIRE (bounds.size() == 1);
+    CHECK (bounds[0].radius == Approx (0.133 * 2e-3));   // mu times the depth
+    CHECK (bounds[0].normal == Vec3::UnitZ());
+    CHECK (bounds[0].centre == Vec3::UnitZ());
 }
 
 TEST_CASE ("ridges have a place only if the position of a tool reaches them", "[app][scene]")
