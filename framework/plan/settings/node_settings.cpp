@@ -87,9 +87,12 @@ void readSettings (const graph::Node& node, Origin here, Assets* assets, const s
         if (auto read = readSetting (value, *sheet, { assets, folder }, within))
             made.settings[at (sheet - made.type->settings.begin())] = *std::move (read);
         else
+        {
+            made.is_whole = false;
             flat.error ("setting/value", flat.asIs (flat.at (here, "settings", key), within),
                         "setting '" + key + "' of '" + made.path + "': " + read.error().text,
                         "`tactus nodes " + node.type + "` lists the settings and their ranges");
+        }
     }
 
     for (std::size_t i = 0; i < made.type->settings.size(); ++i)
