@@ -3,7 +3,6 @@
 #include "framework/check/own_loop.hpp"
 #include "support/rounds.hpp"
 #include "support/sketch.hpp"
-#include "unstable_presets.hpp"
 
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/check/hands.hpp>
@@ -89,7 +88,7 @@ TEST_CASE ("what the check says of the loop of a preset is what a simulation sho
         device.simulated = check::simulationOf (description, file.parent_path());
         const auto compiled = compile (loaded.graph, catalogue(), subject.options);
         const auto demand = check::measure (subject, recorded.motion, { .ticks = check::affordableTicks (*compiled.plan) });
-        const auto trials = check::tryLoops (subject, recorded.motion, demand, { &device, 1 }, { .ticks = check::affordableTicks (*compiled.plan) / 6 });
+        const auto trials = check::tryLoops (subject, recorded.motion, demand, { &device, 1 }, { .ticks = check::affordableTicks (*compiled.plan) / 2 });
         const auto conditions = check::judge (demand, { &device, 1 }, { .trials = &trials });
         const auto row = std::ranges::find (conditions, "stiffness", &check::Condition::id);
         if (row == conditions.end()) continue;
@@ -105,6 +104,6 @@ TEST_CASE ("what the check says of the loop of a preset is what a simulation sho
                                   trial.swings ? own::Grip { trial.hand.mass, trial.hand.damping, trial.hand.stiffness } : own::Grip {}, how);
         INFO (nameOf (row->verdict) << ": " << row->text << "\nat " << t_s << " s: " << how);
         CHECK ((row->verdict == check::Verdict::unstable) == does);
-        CHECK ((row->verdict == check::Verdict::unstable) == test::unstable_presets.contains (file.stem().string()));
+        CHECK (row->verdict != check::Verdict::unstable);
     }
 }

@@ -3,7 +3,6 @@
 
 #include "host/cli/program.hpp"
 #include "support/sketch.hpp"
-#include "unstable_presets.hpp"
 
 #include <host/base/assets/file_assets.hpp>
 #include <host/devices/hid/physics.hpp>
@@ -80,10 +79,9 @@ std::string brokenOn (const std::vector<check::RoleDevice>& devices, const check
 }
 
 /// The same on the simulated devices that the preset describes. Trials decide where the slopes alone break a condition; where they do not,
-/// checked_presets_test.cpp makes the trials, and compares them with the list of unstable presets.
-std::string brokenOnItsOwn (const std::string& preset, const graph::Graph& g, const Measured& m)
+/// checked_presets_test.cpp makes the trials.
+std::string brokenOnItsOwn (const graph::Graph& g, const Measured& m)
 {
-    if (test::unstable_presets.contains (preset)) return "stiffness";
     std::vector<check::RoleDevice> own;
     for (const auto& [role, description] : g.devices)
         own.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}), "sim", check::simulationOf (description, folder) });
@@ -96,14 +94,14 @@ std::string brokenOnItsOwn (const std::string& preset, const graph::Graph& g, co
 /// The devices on which a preset is checked, each with the conditions of docs/check.md that the preset breaks there: the simulated
 /// device that the preset describes, and the devices of the profiles that give a damping. Without a damping, `stiffness` cannot be
 /// judged.
-std::string devicesFor (const std::string& preset, const graph::Graph& g, const host::hid::LoadedProfiles& profiles)
+std::string devicesFor (const graph::Graph& g, const host::hid::LoadedProfiles& profiles)
 {
     const auto all = measured (g, { .places = 32 });
     std::string names;
     const auto add = [&] (const std::string& name, const std::string& broken) {
         names += (names.empty() ? "" : "; ") + name + ": " + (broken.empty() ? "fine" : broken);
     };
-    add ("its own", brokenOnItsOwn (preset, g, all));
+    add ("its own", brokenOnItsOwn (g, all));
     for (const auto& profile : profiles.profiles)
     {
         const auto numbers = host::hid::numbersOf (*profile);
@@ -126,11 +124,8 @@ std::string readme()
                        "The simulated devices have a damping of 0.5 to 3 N s/m, as an arm with dampers has. This is more than a bare arm has: the two "
                        "profiles guess 0.1 N s/m. A device needs at least the stiffness of the contact times half a tick, plus the damping of the contact, so "
                        "on a bare arm nearly every preset breaks `stiffness`. There, turn down the stiffness and the damping of the preset, and raise "
-                       "the rate. On its own device, a preset breaks nothing, with these exceptions:\n\n";
-    for (const auto& [preset, why] : test::unstable_presets)
-        text += "- `" + preset + "` breaks `stiffness`: " + why + ".\n";
-    text += "\n"
-            "| preset | what it feels like | controls | needs | devices | tags |\n|---|---|---|---|---|---|\n";
+                       "the rate. On its own device, no preset breaks a condition.\n\n"
+                       "| preset | what it feels like | controls | needs | devices | tags |\n|---|---|---|---|---|---|\n";
     for (const auto& path : presets())
     {
         const auto g = loadGraph (path).graph;
@@ -141,7 +136,7 @@ std::string readme()
             controls += (controls.empty() ? "" : ", ") + c.name;
         for (const auto& t : g.tags)
             tags += (tags.empty() ? "" : ", ") + t;
-        const auto link = "[" + g.name + "](" + path.filename().string() + ")", devices = devicesFor (path.stem().string(), g, profiles);
+        const auto link = "[" + g.name + "](" + path.filename().string() + ")", devices = devicesFor (g, profiles);
         const std::string cells[] { link, g.about, controls, needs, devices, tags };
         for (const auto& cell : cells)
             text += "| " + cell + " ";
@@ -167,15 +162,14 @@ TEST_CASE ("every preset passes `tactus check-preset`", "[graphs][check_preset]"
         CHECK (ran.out.find (path.string() + ": ok\n") != std::string::npos);
 }
 
-TEST_CASE ("every preset can be rendered by the device that it describes, but for those in the list", "[graphs]")
+TEST_CASE ("every preset can be rendered by the device that it describes", "[graphs]")
 {
     for (const auto& path : presets())
     {
         DYNAMIC_SECTION (path.stem().string())
         {
             const auto g = loadGraph (path).graph;
-            const auto preset = path.stem().string();
-            CHECK (brokenOnItsOwn (preset, g, measured (g, {})) == (test::unstable_presets.contains (preset) ? "stiffness" : ""));
+            CHECK (brokenOnItsOwn (g, measured (g, {})) == "");
         }
     }
 }
