@@ -69,6 +69,13 @@ void PluginDevice::prepare (double dt_s)
     dt = dt_s;
     has_to_rest = true;
     ticks_without = 0.0;
+    restartTime();
+}
+
+void PluginDevice::restartTime() noexcept
+{
+    measured = hid::MeasuredTime { (described.stamps & TACTUS_DEVICE_NUMBERS) != 0, described.rate_hz > 0.0 ? 1.0 / described.rate_hz : dt };
+    lag = 0.0;
 }
 
 void PluginDevice::limitSlews (double force, double torque, double axis) { link->limitSlews (force, torque, axis); }
@@ -82,6 +89,7 @@ Reading PluginDevice::read() noexcept
     {
         episode = current;
         has_to_rest = true;
+        restartTime();
     }
 
     const bool is_new = taken.number != seen;
@@ -90,7 +98,12 @@ Reading PluginDevice::read() noexcept
     const double waited = taken.at == 0 ? 0.0 : std::chrono::duration<double> (now.time_since_epoch() - std::chrono::nanoseconds (taken.at)).count();
     const auto& from = taken.reading;
     Reading reading { .position = Vec3 { from.position }, .rotation = Vec3 { from.rotation }, .pressure = from.pressure, .buttons = from.buttons };
-    reading.age = from.age_s + taken.lag_s + (is_new ? std::max (0.0, waited - dt) : std::max (ticks_without * dt, waited));
+    if (is_new && (described.stamps & TACTUS_DEVICE_TIMES) == 0)
+    {
+        const double passed = (taken.numbered - std::exchange (numbered, taken.numbered)) / (described.rate_hz > 0.0 ? described.rate_hz : 1.0);
+        lag = measured (passed, 1e-9 * static_cast<double> (taken.at), reading.position);
+    }
+    reading.age = from.age_s + taken.lag_s + lag + (is_new ? std::max (0.0, waited - dt) : std::max (ticks_without * dt, waited));
     for (int i = static_cast<int> (from.axis_count) - 1; i >= 0; --i)
         reading.axes.set (i, from.axes[i]);
     for (int i = static_cast<int> (from.signal_count) - 1; i >= 0; --i)

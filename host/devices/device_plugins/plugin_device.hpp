@@ -3,6 +3,7 @@
 
 #include "device_driver.hpp"
 
+#include <host/devices/hid/report/measured_time.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 
@@ -90,16 +91,20 @@ public:
 private:
     class Link;
 
+    void restartTime() noexcept;
+
     const DriverAbout described;
     const std::string called;
     const std::chrono::milliseconds patience;
     std::shared_ptr<Link> link;   // also held by the threads, which may outlive this object
 
     double dt = 1e-3;
-    std::uint64_t episode = 0, seen = 0;   // of the latest tick: what it belongs to, and the number of its reading   [tick thread]
-    double ticks_without = 0.0;            // a new reading   [tick thread]
-    bool has_to_rest = true;               // until the guard has been at zero once   [tick thread]
-    bool is_withheld = false;              // the next effort   [tick thread]
+    std::uint64_t episode = 0, seen = 0;         // of the latest tick: what it belongs to, and the number of its reading   [tick thread]
+    double ticks_without = 0.0;                  // a new reading   [tick thread]
+    hid::MeasuredTime measured { false, 0.0 };   // of readings without a time of the device   [tick thread]
+    double numbered = 0.0, lag = 0.0;            // of the latest new reading   [tick thread]
+    bool has_to_rest = true;                     // until the guard has been at zero once   [tick thread]
+    bool is_withheld = false;                    // the next effort   [tick thread]
     std::atomic<double> age_now = 0.0, oldest = 0.0;
     std::uint64_t offers = 0;   // [tick thread]
 

@@ -263,6 +263,7 @@ void PluginDevice::Link::take (tactus_reading& r, const tactus_device_stamp& sta
                   .number = draft.number + 1,
                   .at = nanoseconds (now),
                   .lag_s = verdict.lag_s,
+                  .numbered = static_cast<double> (stamp.number),
                   .fault = static_cast<std::uint64_t> (told != ReadingFault::none ? told : verdict.fault) };
         last_arrival.store (draft.at, std::memory_order_release);
     }

@@ -2,6 +2,7 @@
 #include "reading_judge.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host::hid
 {
@@ -15,6 +16,7 @@ ReadingJudge::ReadingJudge (HidModel& model)
         for (const auto* report : places)
             heard.push_back ({ .id = *report->id });
     if (heard.empty()) heard.emplace_back();
+    if (places.size() == 1 && ! sendsOnlyChanges (values.profile())) timed = places.front();
 }
 
 void ReadingJudge::prepare() noexcept
@@ -32,11 +34,21 @@ void ReadingJudge::reconnect() noexcept
     record = {};
     restarted = false;
     arrived_last = 0;
+    restartTime();
+}
+
+void ReadingJudge::restartTime() noexcept
+{
+    lag = clock = passed_on_clock = 0.0;
+    timed_at = 0;
+    if (timed == nullptr) return;
+    const double rate = values.profile().rate;
+    measured = MeasuredTime { ! timed->timestamp.empty() || ! timed->sequence.empty(), rate > 0.0 ? 1.0 / rate : 0.0 };
 }
 
 void ReadingJudge::begin() noexcept
 {
-    newest = 0;
+    newest = timed_at = 0;
     came_now.reset();
 }
 
@@ -63,6 +75,12 @@ void ReadingJudge::take (std::span<const std::uint8_t> report, Nanoseconds arriv
     newest = arrival;
     judge (arrival, gap - without_room);
     if (standing != ReadingFault::none) return;
+    if (timed != nullptr && (! timed->id || *timed->id == id))
+    {
+        timed_at = arrival;
+        const double rate = values.profile().rate, before = std::exchange (clock, values.sample().time);
+        passed_on_clock += ! timed->timestamp.empty() ? clock - before : static_cast<double> (gap + 1) / (rate > 0.0 ? rate : 1.0);
+    }
     if (came_now.test (id)) ++tally.skipped;
     came_now.set (id);
 }
@@ -79,6 +97,7 @@ void ReadingJudge::judge (Nanoseconds arrival, std::uint64_t lost) noexcept
         standing = ReadingFault::clock_stopped;
         break;
     case ReportOrder::back:
+        restartTime();
         record.restart();
         restarted = true;
         break;
@@ -90,6 +109,12 @@ void ReadingJudge::judge (Nanoseconds arrival, std::uint64_t lost) noexcept
         break;
     }
     arrived_last = arrival;
+}
+
+/// Finds out when the newest report was measured. Those that have come with it in this tick tell nothing more.
+void ReadingJudge::time() noexcept
+{
+    if (timed_at != 0) lag = measured (std::exchange (passed_on_clock, 0.0), 1e-9 * static_cast<double> (timed_at), values.sample().position);
 }
 
 /// The fault that keeps the reading from being valid, other than its content.
@@ -104,19 +129,24 @@ ReadingFault ReadingJudge::fault (bool is_connected) const noexcept
 
 /// By the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one that ticks too fast makes an old report
 /// seem new.
-double ReadingJudge::ReportArrival::age (bool comes, Nanoseconds arrival, double period_s, Nanoseconds now) noexcept
+double ReadingJudge::ReportArrival::age (bool comes, Nanoseconds arrival, double lag_s, double period_s, Nanoseconds now) noexcept
 {
     ticks_without = comes ? 0 : ticks_without + 1;
-    if (comes) at = arrival;
-    if (comes) return 0.0;
-    return std::max (static_cast<double> (ticks_without) * period_s, at == 0 ? 0.0 : static_cast<double> (now - at) / 1e9);
+    if (comes)
+    {
+        at = arrival;
+        lag = lag_s;
+    }
+    if (comes) return lag;
+    return lag + std::max (static_cast<double> (ticks_without) * period_s, at == 0 ? 0.0 : static_cast<double> (now - at) / 1e9);
 }
 
 Reading ReadingJudge::reading (const Tick& tick) noexcept
 {
+    time();
     double age = 0.0;
     for (auto& each : heard)
-        age = std::max (age, each.age (tick.is_usable && (each.id ? came_now.test (*each.id) : came_now.any()), newest, tick.period_s, tick.now));
+        age = std::max (age, each.age (tick.is_usable && (each.id ? came_now.test (*each.id) : came_now.any()), newest, lag, tick.period_s, tick.now));
 
     auto reading = values.reading (tick.driven_s);
     if (const auto why = fault (tick.is_connected); why != ReadingFault::none)

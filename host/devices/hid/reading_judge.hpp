@@ -3,6 +3,7 @@
 
 #include "hid_model.hpp"
 #include "report_record.hpp"
+#include <host/devices/hid/report/measured_time.hpp>
 
 #include <tactus/node/device.hpp>
 
@@ -72,16 +73,19 @@ public:
 
 private:
     void judge (Nanoseconds arrival, std::uint64_t lost) noexcept;
+    void restartTime() noexcept;
+    void time() noexcept;
     ReadingFault fault (bool is_connected) const noexcept;
 
     /// The last arrival of a report.
     struct ReportArrival
     {
-        double age (bool comes, Nanoseconds arrival, double period_s, Nanoseconds now) noexcept;   // in s; call once per tick
+        double age (bool comes, Nanoseconds arrival, double lag_s, double period_s, Nanoseconds now) noexcept;   // in s; call once per tick
 
         std::optional<std::size_t> id {};   // empty: any report
         std::uint64_t ticks_without = 0;
         Nanoseconds at = 0;   // 0: never
+        double lag = 0.0;     // how much older it was then, in s
     };
 
     HidModel& values;
@@ -100,6 +104,11 @@ private:
     bool restarted = false;         // a report's number or time went backwards; true until enough new reports have arrived to trust the record again
     ReadingFault standing {};       // why the newest report is not a new reading: repeated or clock_stopped
     Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
+
+    const InputReport* timed = nullptr;   // the only kind of report that says where the tool is; null: there are several, or none
+    MeasuredTime measured { false, 0.0 };
+    Nanoseconds timed_at = 0;                               // arrival of the newest of this kind since begin(); 0: none
+    double clock = 0.0, passed_on_clock = 0.0, lag = 0.0;   // its time, the time since the one that time() took last, and its lag, in s
 };
 
 }   // namespace tactus::host::hid
