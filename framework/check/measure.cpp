@@ -448,7 +448,7 @@ private:
             work.spots = { { tick, tick } };
         }
         else
-            work.spots = chooseSpots (subject, motion, placesWithin (how), work.without, how.ticks / 16);
+            work.spots = chooseSpots (subject, motion, placesWithin (how), work.without, how.ticks / 32);
         if (! textures.empty())
         {
             auto nominal = work;

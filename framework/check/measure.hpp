@@ -157,7 +157,7 @@ struct Thoroughness
     std::size_t threads = 1;   ///< that measure() may use; the result does not depend on them
 };
 
-/// The number of ticks of a graph that take about 3 s if its nodes are as fast as most are. Depends only on the number of nodes.
+/// The number of ticks of a graph that take about 3 s if its nodes are as fast as most are. Depends only on which nodes there are.
 std::size_t affordableTicks (const Plan&);
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
