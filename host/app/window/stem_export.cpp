@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace tactus::host
 {
@@ -27,14 +28,14 @@ void StemExport::ask (const graph::Graph& g)
     auto small = integers, looped = integers;
     small.format = SampleFormat::pcm16;
     looped.loop_s = 0.05;
-    window.question.ask (filled (TRANS ("Export the stems of %1"), name),
-                         TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device feels them. "
-                                "`tactus render --stems` has more choices."),
-                         { choice (TRANS ("24 bit, 48 kHz"), integers),
-                           choice (TRANS ("16 bit, 48 kHz"), small),
-                           choice (TRANS ("24 bit, 48 kHz, to be looped"), looped),
-                           choice (TRANS ("Float: a sample of 1 is 1 N"), {}),
-                           { TRANS ("Cancel"), {} } });
+    const auto about = TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device "
+                              "feels them.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end is blended into "
+                              "its start. Float: as many samples as the run has, and 1 is 1 N.");
+    std::vector<Question::Choice> choices { choice (TRANS ("24 bit"), integers), choice (TRANS ("16 bit"), small) };
+    choices.push_back (choice (TRANS ("24 bit loop"), looped));
+    choices.push_back (choice (TRANS ("Float"), {}));
+    choices.push_back ({ TRANS ("Cancel"), {} });
+    window.question.ask (filled (TRANS ("Export the stems of %1"), name), about, std::move (choices));
 }
 
 void StemExport::render (const graph::Graph& g, const StemOptions& options, const std::filesystem::path& into)
