@@ -63,13 +63,17 @@ private:
     const std::vector<Lead>& leads;
     bool is_careful = true;
 
-    /// The next box to place. A box that feeds a placed one comes first, then one that a placed box feeds.
+    /// The next box to place. A box that feeds a placed one comes first, then one whose sources are all placed, so that it gets to their right.
     std::size_t next() const
     {
         for (const auto& l : leads)
             if (! placed[at (l.from)] && placed[at (l.to)]) return at (l.from);
-        for (const auto& l : leads)
-            if (placed[at (l.from)] && ! placed[at (l.to)]) return at (l.to);
+        const auto waits = [&] (int box) {
+            return std::ranges::any_of (leads, [&] (const Lead& l) { return l.to == box && l.from != box && ! placed[at (l.from)]; });
+        };
+        for (const bool may_wait : { false, true })   // true: a loop
+            for (const auto& l : leads)
+                if (placed[at (l.from)] && ! placed[at (l.to)] && (may_wait || ! waits (l.to))) return at (l.to);
         return at (static_cast<int> (std::ranges::find (placed, false) - placed.begin()));
     }
 

@@ -262,7 +262,14 @@ void LayersPanel::add (const std::string& type, const std::filesystem::path& cli
     if (! document.perform (std::move (batch))) return;
     if (added->node != 0 && onAdded) onAdded (place.patch, added->node);
     if (onHint && ! added->missing.empty()) onHint (juce::String (added->missing));
-    scroll.setViewPosition (row.getWidth(), scroll.getViewPositionY());
+    showNewest();
+}
+
+/// The last layer comes into view, with what reaches the motor past the mixer behind it.
+void LayersPanel::showNewest()
+{
+    const int hidden = std::max (0, static_cast<int> (strips.size()) * LayerStrip::width - scroll.getViewWidth());
+    scroll.setViewPosition ((hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width, scroll.getViewPositionY());
 }
 
 void LayersPanel::addMixerNow()
@@ -297,7 +304,7 @@ void LayersPanel::addClip (const std::filesystem::path& file, std::optional<doub
     batch.commands.push_back (std::move (layer->command));
     if (! document.perform (std::move (batch))) return;
     say (filled (TRANS ("%1 is a layer now. It plays over and over."), printableName (file.filename().string())));
-    scroll.setViewPosition (row.getWidth(), scroll.getViewPositionY());
+    showNewest();
 }
 
 bool LayersPanel::isInterestedInFileDrag (const juce::StringArray& files)

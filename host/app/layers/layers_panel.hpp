@@ -67,6 +67,7 @@ private:
     void rebuildStrips (std::size_t layers);
     void rebuildUnmixed();
     void placeStrips();
+    void showNewest();
     void requestTraces();
     void openMenu();
     void layOutHead (juce::Rectangle<int>);

@@ -171,7 +171,7 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
         has_unit = has_unit || ! size->unit.empty();
     }
     const auto symbol = is_fixed ? std::string (sheet.unit.unit.symbol) : std::string();
-    const bool is_number = symbol.empty() || symbol == "1";
+    const bool is_number = symbol.empty() || symbol == "1" || symbol == unit::decibel.symbol;   // a factor has no dB
     if (is_speed && carried != (is_fixed ? sheet.unit.unit.quantity : Quantity::any))
         return Json (numberText (value.moved (depth / slow).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
     if (has_unit && is_fixed && carried != Quantity::any && carried != sheet.unit.unit.quantity) return std::nullopt;

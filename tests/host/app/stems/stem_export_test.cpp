@@ -93,6 +93,7 @@ TEST_CASE ("a user who cancels the export gets no folder, and a refused folder i
     CHECK_FALSE (w.view->asked().isOpen());
     CHECK_FALSE (std::filesystem::exists (into));
 
+    std::filesystem::create_directories (folder / "full");
     folder.write ("full/mine.txt", "mine");
     into = folder / "full";
     begin();

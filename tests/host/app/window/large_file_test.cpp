@@ -16,10 +16,12 @@ using tactus::host::test::WindowRig;
 
 namespace
 {
-/// A graph with a bumpy plate of 2 n n triangles.
+/// A graph with a bumpy plate of 2 n n triangles. Its file is large.
 void writePlate (const TemporaryFolder& folder, int n)
 {
     std::string mesh;
+    for (int line = 0; line < 20'000; ++line)
+        mesh += "# " + std::string (60, '-') + "\n";
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i)
             mesh += "v " + std::to_string (0.1 * i / n) + " " + std::to_string (0.1 * j / n) + " " + std::to_string (1e-3 * ((i + j) % 3)) + "\n";
@@ -52,7 +54,7 @@ bool until (F&& isSo)
 TEST_CASE ("a graph with a large mesh opens when its files are there, and the open graph goes on until then", "[app][files]")
 {
     const TemporaryFolder folder;
-    writePlate (folder, 160);
+    writePlate (folder, 50);
     WindowRig w ("dry_wood.json", 1280, 720, false);
     REQUIRE (until ([&] { return w.view->run().isRunning(); }));
     w.view->open (folder / "plate.json");
@@ -69,7 +71,7 @@ TEST_CASE ("a graph with a large mesh opens when its files are there, and the op
 TEST_CASE ("a user who cancels the loading of a large mesh keeps the open graph", "[app][files]")
 {
     const TemporaryFolder folder;
-    writePlate (folder, 160);
+    writePlate (folder, 50);
     WindowRig w ("dry_wood.json");
     w.view->open (folder / "plate.json");
     REQUIRE (w.view->asked().isOpen());
@@ -84,7 +86,7 @@ TEST_CASE ("a user who cancels the loading of a large mesh keeps the open graph"
 TEST_CASE ("what was loaded on another thread serves the next compilation, and its memory is given back", "[app][files]")
 {
     const TemporaryFolder folder;
-    writePlate (folder, 160);
+    writePlate (folder, 50);
     const auto graph = loadGraph (folder / "plate.json").graph;
     CHECK (assetBytes (graph) > 1e6);
     AssetLoad load;

@@ -74,7 +74,7 @@ graph::Graph silenced (graph::Graph g)
     const auto quiet = [&] (graph::Patch& p) {
         std::erase_if (p.wires, [&] (const graph::Wire& w) { return std::ranges::count (gone, w.id) > 0; });
         for (auto& n : p.nodes)
-            if (n.type.starts_with ("layer.mix")) n.params["mute"] = Json::array ({ 1, 1, 1, 1 });
+            if (n.type.starts_with ("layer.mix")) n.params["mute"] = Json::array ({ 1 });   // each mixer here has one layer
     };
     quiet (g.root);
     for (auto& [name, p] : g.graphs)
