@@ -255,6 +255,12 @@ std::vector<std::string> Run::start (TickClock& clock, Runner::Options how)
 {
     how.hooks = this;
     runner = std::make_unique<Runner> (*running, clock, rate(), how);
+    if (log)
+        log->beginsAt ([this]() -> std::optional<Json> {
+            const auto begun = runner->firstTick();
+            if (! begun) return std::nullopt;
+            return Json { { "wall", begun->wall_s }, { "monotonic", begun->monotonic_s } };
+        });
     return runner->start();
 }
 

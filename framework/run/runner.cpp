@@ -72,6 +72,11 @@ bool Runner::tick (double late_s) noexcept
 {
     const auto k = ticks_so_far.ticks();
     const double begin = clock.now();
+    if (k == 0 && clock.isRealTime())
+    {
+        first_wall_s = std::chrono::duration<double> (std::chrono::system_clock::now().time_since_epoch()).count();
+        first_monotonic_s = std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
     is_real_time = clock.isRealTime();
@@ -91,6 +96,13 @@ bool Runner::tick (double late_s) noexcept
     const bool more = goesOn();
     publish();
     return more;
+}
+
+std::optional<TwoClocks> Runner::firstTick() const noexcept
+{
+    const double monotonic_s = first_monotonic_s;
+    if (monotonic_s == 0.0) return std::nullopt;
+    return TwoClocks { first_wall_s, monotonic_s };
 }
 
 RunStatus::End Runner::whyItEnds() const noexcept

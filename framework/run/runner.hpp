@@ -34,6 +34,12 @@ public:
     virtual void after (std::uint64_t tick, bool halts) noexcept = 0;
 };
 
+/// A moment in s: since 1970 (UTC), and by the steady clock of the computer.
+struct TwoClocks
+{
+    double wall_s, monotonic_s;
+};
+
 /// A run of an engine, in real time or as fast as possible, on a thread ticked by a clock, with statistics of its timing. It
 /// ends after its length, on request, or when the graph takes longer than a tick period; it then keeps ticking until the guards
 /// have brought all forces to zero.
@@ -77,6 +83,9 @@ public:
     RunStatus status() const noexcept { return published.load(); }         ///< [any thread]
     const TickAccount& account() const noexcept { return ticks_so_far; }   ///< [any thread]
 
+    /// When the first tick began; empty before it, and if ticks have no deadlines. [any thread]
+    std::optional<TwoClocks> firstTick() const noexcept;
+
     /// Call it many times a second: frees plans that are no longer used, and collects node costs. [main thread]
     void poll();
 
@@ -96,6 +105,7 @@ private:
     const double period_s;
     const std::uint64_t longest_halt;   // in ticks
     std::atomic<bool> asked = false;
+    std::atomic<double> first_wall_s = 0.0, first_monotonic_s = 0.0;   // 0: not yet
     TickAccount ticks_so_far;
     PassedTime passed_time;
     NodeCosts node_costs;

@@ -285,6 +285,8 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
         add ("feed", listOf (values));
     feed = std::move (values);
 
+    if (now == 0 && first_tick)
+        if (const auto clocks = first_tick()) add ("clocks", textOf (*clocks));
     if (! line.empty()) endLine();
     ++now;
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,6 +40,9 @@ public:
     /// Call it before a plan is submitted, with the plan, the snapshot of its graph, and the guards and devices of new roles.
     void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {},
                  const std::map<std::string, DeviceLayout>& devices = {});
+
+    /// A function that tells when the first tick began, as JSON, or nothing if it has no time of a clock. It is asked once, after that tick.
+    void beginsAt (std::function<std::optional<Json>()> f) { first_tick = std::move (f); }
 
     /// Writes what the tick thread has recorded. Call it many times a second, and once more after the last tick. If writing fails, the log ends
     /// after the last complete line, and nothing more is written.
@@ -79,6 +83,7 @@ private:
     std::map<std::string, DeviceLayout> joined_devices;
     std::map<std::string, LoggedReading> readings;
     std::vector<double> feed;
+    std::function<std::optional<Json>()> first_tick;
     std::uint64_t now = 0;   // tick number
 
     // Parts of the line for this tick.
