@@ -31,6 +31,8 @@ void addCheckPlugin (const Command&);
 void addExport (const Command&);
 void addConvert (const Command&);
 void addImportData (const Command&);
+void addExperiment (const Command&);
+void addMark (const Command&);
 void addCapture (const Command&);
 void addTest (const Command&);
 void addReport (const Command&);

@@ -41,6 +41,7 @@ constexpr auto examples =
     "  tactus export graphs/dry_wood.json -o dry_wood   C++ code for other programs\n"
     "  tactus convert effect.haptic effect.ahap         a haptic clip in another format\n"
     "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
+    "  tactus experiment roughness.json --web           a session with a participant\n"
     "  tactus capture run.jsonl --test run_test.jsonl   make a clip, gesture or test from a logged run\n"
     "  tactus test run_test.jsonl                       does it still give the same bits?\n"
     "  tactus report                                    details for a problem report\n"
@@ -82,6 +83,8 @@ int main (int argc, char** argv)
     addExport (app);
     addConvert (app);
     addImportData (app);
+    addExperiment (app);
+    addMark (app);
     addCapture (app);
     addTest (app);
     addReport (app);
