@@ -46,7 +46,7 @@ class Types(unittest.TestCase):
         return [(pathlib.Path(file).name, int(line)) for file, line in re.findall(r"^(\S+?):(\d+): error:", done.stdout, re.M)], done.stdout + done.stderr
 
     def test_the_package_and_the_examples_have_no_errors(self):
-        errors, said = self.mypy(PACKAGE, *sorted(EXAMPLES.glob("*.py")))
+        errors, said = self.mypy(PACKAGE, *sorted(EXAMPLES.glob("*.py")), *sorted(EXAMPLES.with_name("lab").glob("*.py")))
         self.assertEqual(errors, [], said)
         self.assertIn("Success", said)
 

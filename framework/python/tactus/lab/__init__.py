@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""Experiments with graphs: protocols, procedures, sessions that survive a crash, analysis, and files that labs read. See docs/lab.md.
+
+    from tactus import lab
+
+    protocol = lab.Protocol.load("roughness.json")
+    data = lab.Experiment(protocol, "data", window=lab.Simulated(lab.Observer(threshold=0.3, width=0.1))).run()
+    data.fit()               # threshold and width with intervals
+    data.trials["level"]     # shape (n,)
+
+Levels are in the unit of what varies, times in s. Problems raise tactus.Error.
+"""
+
+from ._analysis import (Detection, Interval, PowerLaw, Psychometric, d_prime_of_two_intervals, detection, plot_staircase, power_law, psychometric,
+                        save_plot)
+from ._experiment import Experiment
+from ._functions import probability
+from ._marks import Receiver, mark
+from ._observers import Observer
+from ._procedures import Constant, Psi, Staircase, mean_of_turns
+from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
+from ._stages import Live, Moment, Silent
+from ._tables import SessionData, load
+from ._trials import Plan, Text, Trial
+from ._web import Browser
+from ._windows import Aborted, Simulated, Terminal, Window
+from ._writers import Table, table_of
+
+__all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "HandAnswer", "Interval", "Live", "Moment", "Observer", "Plan",
+           "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "SessionData", "Silent", "Simulated", "Staircase", "Table", "Terminal", "Text", "Trial",
+           "Triggers", "Varies", "Window", "d_prime_of_two_intervals", "detection", "load", "mark", "mean_of_turns", "plot_staircase", "power_law",
+           "probability", "psychometric", "save_plot", "schema", "table_of"]

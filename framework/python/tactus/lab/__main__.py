@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""python3 -m tactus.lab experiment|mark|tables|schema: what `tactus experiment` and `tactus mark` start."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from typing import List, Optional
+
+from .._messages import Error
+from . import (Browser, Experiment, Live, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, load, mark, schema)
+from ._marks import PORT
+from ._schema import read
+
+
+def observer_of(text: str) -> Observer:
+    """threshold=0.3,width=0.1,function=weibull: an observer."""
+    given = {}
+    for part in text.split(","):
+        name, _, value = part.partition("=")
+        given[name] = value if name == "function" else int(value) if name == "seed" and value.isdigit() else float(value)
+    return read(Observer, given, "--observer")
+
+
+def experiment(given: argparse.Namespace) -> int:
+    """Runs a session, and prints its results."""
+    protocol = Protocol.load(given.file)
+    browser = Browser() if given.web else None
+    window = browser or (Simulated(observer_of(given.observer)) if given.observer else Terminal())
+    receiver = None if given.osc == "off" else Receiver(int(given.osc))
+    stage = Silent() if given.no_devices else None
+    made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver)
+    if isinstance(made.stage, Live):
+        made.stage.use_session(given.devices)
+    if browser:
+        print(f"participant:  {browser.participant}\nexperimenter: {browser.experimenter}", flush=True)
+    try:
+        data = made.run()
+    finally:
+        if receiver:
+            receiver.close()
+    if browser:
+        time.sleep(0.5)   # the pages learn that it is over
+        browser.end()
+    print(told(data))
+    return 0
+
+
+def told(data: SessionData) -> str:
+    """A sentence about each block."""
+    said = [f"{data.folder}: {data.trials.rows} trials, " + ("complete" if data.is_complete else "not complete; go on with --resume")]
+    for block in data.protocol.blocks if data.is_complete else []:
+        for condition in block.conditions or [c.name for c in data.protocol.all_conditions()]:
+            try:
+                said.append(f"{block.name}, {condition}: {describe(data, block.name, condition)}")
+            except Error as why:
+                said.append(f"{block.name}, {condition}: no fit: {why.text}")
+    return "\n".join(said)
+
+
+def describe(data: SessionData, block: str, condition: str) -> str:
+    """The fit of a block in a sentence."""
+    task = next(b for b in data.protocol.blocks if b.name == block).task
+    if task in ("adjust", "match"):
+        levels = data.chosen(block, condition)["outcomes"]
+        if len(levels) < 2:
+            return "fewer than two settings"
+        return f"mean {levels.mean():.4g}, standard deviation {levels.std(ddof=1):.4g} of {len(levels)} settings"
+    fit = data.fit(block, condition)
+    if isinstance(fit, PowerLaw):
+        return f"exponent {fit.exponent:.4g} (95 % {fit.exponent_interval.low:.4g} to {fit.exponent_interval.high:.4g})"
+    ends = fit.threshold_interval
+    return f"threshold {fit.threshold:.4g} {fit.unit} (95 % {ends.low:.4g} to {ends.high:.4g}), width {fit.width:.4g}, {fit.function}"
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """The commands. Returns the exit status: 0 fine, 1 the input is at fault, 2 wrong usage."""
+    parser = argparse.ArgumentParser(prog="tactus", description="Experiments with graphs; see docs/lab.md.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    run = commands.add_parser("experiment", help="run a session of an experiment", description="Runs a session of an experiment.")
+    run.add_argument("file", help="the protocol file")
+    run.add_argument("--out", default="data", help="the folder of the study; default: data")
+    run.add_argument("--participant", default="01", help="its label, letters and digits; default: 01")
+    run.add_argument("--session", default="01", help="the label of the session; default: 01")
+    run.add_argument("--resume", action="store_true", help="go on with a session that was not completed")
+    who = run.add_mutually_exclusive_group()
+    who.add_argument("--web", action="store_true", help="pages for the participant and the experimenter, for a browser on this computer")
+    who.add_argument("--observer", help="a simulated observer: threshold=0.3,width=0.1[,lapse=…,function=…,exponent=…,noise=…,seed=…]")
+    run.add_argument("--no-devices", action="store_true", help="play no graph: nothing is felt")
+    run.add_argument("--devices", help="the session file that binds roles to devices, or \"off\"")
+    run.add_argument("--osc", default=str(PORT), help=f"UDP port for marks and answers, 0 for any, or \"off\"; default: {PORT}")
+    note = commands.add_parser("mark", help="mark a moment of the experiment that runs", description="Marks a moment of the experiment that runs.")
+    note.add_argument("text", help="the name of the mark")
+    note.add_argument("value", nargs="?", default="", help="more about it")
+    note.add_argument("--osc", type=int, default=PORT, help=f"the port of the experiment; default: {PORT}")
+    tables = commands.add_parser("tables", help="write the tables of a session again", description="Writes the tables of a session, which its journal holds.")
+    tables.add_argument("folder", help="the folder of the session")
+    tables.add_argument("--name", default="", help="the name of the experiment, if the folder has several")
+    tables.add_argument("--to", nargs="*", default=[], choices=["csv", "h5", "mat", "xdf"], help="further formats")
+    commands.add_parser("schema", help="print the JSON schema of protocol files")
+    given = parser.parse_args(arguments)
+    try:
+        if given.command == "experiment":
+            return experiment(given)
+        if given.command == "tables":
+            for path in load(given.folder, given.name).write(*given.to):
+                print(path)
+            return 0
+        if given.command == "schema":
+            print(json.dumps(schema(), indent=2, ensure_ascii=False))
+            return 0
+        if not mark(given.text, given.value, given.osc):
+            print(f"error: no experiment has answered at port {given.osc}\n    start one, or name its port with --osc", file=sys.stderr)
+            return 1
+        return 0
+    except Error as why:
+        print(f"error: {why}", file=sys.stderr)
+        return 1
+    except ValueError as why:
+        print(f"error: {why}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("stopped; go on with --resume", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: MIT
+"""A session of an experiment: it shows stimuli, asks, and writes the folder of the session."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import pathlib
+import platform
+import queue
+import time
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+from .. import _tactus
+from .._messages import Error, fail
+from . import _journal, _tables
+from ._analysis import psychometric
+from ._marks import Receiver, TriggerLine
+from ._protocol import ANSWERS, Block, Protocol, checked
+from ._stages import Live, Moment, Silent
+from ._trials import Answer, Plan, Text, Trial
+from ._windows import Aborted, Simulated, Window
+
+
+class Experiment:
+    """A session of a participant. Everything that happens is in its journal before the next thing begins, so nothing is lost if the process is killed;
+    `resume` goes on with the next trial, in the same order.
+
+        experiment = lab.Experiment(protocol, "data", participant="01", window=lab.Simulated(lab.Observer(threshold=0.3, width=0.1)))
+        session = experiment.run()
+    """
+
+    def __init__(self, protocol: Protocol, out: Union[str, "os.PathLike[str]"], participant: str = "01", session: str = "01", *, window: Window,
+                 stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None):
+        """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.
+        stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC."""
+        self.protocol, self.window, self.receiver = checked(protocol), window, receiver
+        for name, label in (("participant", participant), ("session", session)):
+            if not label.isalnum() or not label.isascii():
+                fail("lab/value", name, f"'{label}' has other characters than letters and digits", "give a label such as '01'")
+        self.participant, self.session = participant, session
+        self.folder = pathlib.Path(out) / f"sub-{participant}" / f"ses-{session}" / "beh"
+        self.stem = f"sub-{participant}_ses-{session}_task-{protocol.name}"
+        self.plan = Plan(protocol, participant, session)
+        path = self.folder / f"{self.stem}_journal.jsonl"
+        past = _journal.read(path) if resume else []
+        self._replay(past)
+        self._triggers = TriggerLine(protocol.triggers) if protocol.triggers else None
+        if not resume:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        self._journal = _journal.Journal(path, None if resume else self._header())
+        if resume:
+            self._journal.add({"event": "resumed", **Silent().now()._asdict()})
+        else:
+            (self.folder / f"{self.stem}_protocol.json").write_text(protocol.text(), encoding="utf-8")
+        self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
+        self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.jsonl"
+        self.stage = stage if stage is not None else Live(protocol, str(self.log)) if protocol.graph or protocol.conditions else Silent()
+        window.stop = self.stage.stop
+        if receiver is not None:
+            receiver.now = self.stage.now
+        self._done = sum(event.get("event") == "trial" for event in past)
+        self._last: Dict[str, Any] = {}
+        self._history: Dict[str, List[Tuple[float, float]]] = {}
+        for event in past:
+            if event.get("event") == "trial":
+                self._remember(event["block"], event["kind"], event["level"], event["outcome"])
+
+    def _remember(self, block: str, kind: str, level: float, outcome: Optional[float]) -> None:
+        if kind == "main" and outcome is not None:
+            self._history.setdefault(block, []).append((level, outcome))
+
+    def _header(self) -> _journal.Event:
+        graphs = {}
+        for condition in self.protocol.all_conditions():
+            graph = self.protocol.graph_of(condition)
+            if graph is not None:
+                graphs[condition.name] = hashlib.sha256(graph.text.encode()).hexdigest()
+        if self.protocol.graph_hash and self.protocol.graph_hash not in graphs.values():
+            fail("lab/graph", "/graph_hash", "no graph of the conditions has this hash",
+                 f"the hashes: {graphs}; the graph has changed, or this version writes it differently")
+        return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
+                "seed": self.protocol.seed, "graphs": graphs, "devices": self.protocol.devices,
+                "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
+                "started": {"wall": time.time(), "monotonic": time.monotonic()}}
+
+    def _replay(self, past: List[_journal.Event]) -> None:
+        """Goes to where the journal ends."""
+        if not past:
+            return
+        if past[0]["protocol"] != self.protocol.hash():
+            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give its own: {self.stem}_protocol.json in this folder")
+        for event in past:
+            if event.get("event") == "end":
+                fail("lab/exists", str(self.folder), "the session is complete", "choose another session")
+            if event.get("event") != "trial":
+                continue
+            while isinstance(self.plan.step, Text):
+                self.plan.answer()
+            trial = self.plan.step
+            if not isinstance(trial, Trial) or (trial.number, trial.block.name, trial.kind, trial.condition) != tuple(
+                    event[key] for key in ("number", "block", "kind", "condition")) or abs(trial.level - event["level"]) > 1e-9 * max(1.0, abs(trial.level)):
+                fail("lab/order", str(self.folder), f"trial {event['number']} of the journal is not the one that follows from its answers",
+                     "resume with the version of tactus with which the session began")
+            answer = event["answer"]
+            self.plan.answer(float(answer) if isinstance(answer, (int, float)) else answer)
+
+    # ------------------------------------------------------------------------ The run
+
+    def run(self) -> "_tables.SessionData":
+        """Runs the session to its end, and returns its data. A window may raise Aborted; then, and after each other exception, the journal stays, and the
+        forces go to zero."""
+        why = "error"
+        try:
+            self.mark("run", str(self.run_number))
+            while (step := self.plan.step) is not None:
+                if isinstance(step, Text):
+                    self.window.show(step.text)
+                    self.plan.answer()
+                else:
+                    self._trial(step)
+            why = "end"
+        except (Aborted, KeyboardInterrupt) as reason:
+            why = "aborted"
+            if isinstance(reason, KeyboardInterrupt):
+                raise
+        finally:
+            self.stage.close()
+            self._journal.add({"event": why, **Silent().now()._asdict()})
+            self._journal.close()
+            if self._triggers:
+                self._triggers.close()
+            self.window.close()
+        data = _tables.load(self.folder, self.protocol.name)
+        data.write()
+        return data
+
+    def _trial(self, trial: Trial) -> None:
+        self._report(trial)
+        self._take_marks()
+        self.stage.events()   # those of before do not belong to this trial
+        condition, varies = self.protocol.condition(trial.condition), trial.block.varies
+        begin = self.mark("trial", str(trial.number))
+        for i, interval in enumerate(trial.intervals):
+            if i > 0 and trial.block.gap > 0.0:
+                if varies.rest is not None:
+                    self.stage.show(condition, varies.target, varies.rest)
+                self.window.say("")
+                self.stage.wait(trial.block.gap)
+            self.stage.show(condition, varies.target, interval.level)
+            self.window.say(interval.label)
+            self.mark("stimulus", f"{interval.level!r}")
+            self.stage.wait(trial.block.interval)
+        if varies.rest is not None and trial.block.task not in ("adjust", "match"):
+            self.stage.show(condition, varies.target, varies.rest)
+        asked = self.stage.now().monotonic
+        answer = self._answer(trial, trial.level)
+        end = self.mark("answer", "" if answer is None else str(answer))
+        outcome = trial.outcome(answer)
+        self._journal.add({"event": "trial", "number": trial.number, "block": trial.block.name, "kind": trial.kind, "condition": trial.condition,
+                           "track": trial.track, "level": trial.level, "intervals": [interval.level for interval in trial.intervals],
+                           "expected": trial.expected, "answer": answer, "outcome": outcome, "response_time": end.monotonic - asked,
+                           "guard": self.stage.events(), "begin": begin._asdict(), "end": end._asdict()})
+        self._done += 1
+        self._remember(trial.block.name, trial.kind, trial.level, outcome)
+        self._last = {"trial": trial.number, "answer": answer, "outcome": outcome}
+        self.plan.answer(answer)
+        if trial.kind == "practice" or trial.block.feedback:
+            if trial.expected:
+                self.window.say("No answer" if answer is None else "Right" if outcome else "Wrong")
+                self.stage.wait(trial.block.gap)
+
+    def _answer(self, trial: Trial, level: float) -> Answer:
+        names = ANSWERS[trial.block.task]
+        keys = {name: self.protocol.key(name) for name in names}
+        condition, block = self.protocol.condition(trial.condition), trial.block
+        while True:
+            answer = self.window.ask(trial, level, keys, block.time_limit, self._by_hand)
+            if block.task not in ("adjust", "match") or answer is None:
+                return answer
+            if answer == "done":
+                return float(level)
+            moved = level + (block.step if answer == "more" else -block.step)
+            try:
+                self.stage.show(condition, block.varies.target, moved)
+            except Error:   # out of the range of the parameter
+                continue
+            level = moved
+            self.mark("stimulus", f"{level!r}")
+
+    def _by_hand(self) -> Optional[str]:
+        self._take_marks()
+        return self.stage.hand() or (self.receiver.answer() if self.receiver else None)
+
+    # ------------------------------------------------------------------------ Marks
+
+    def mark(self, name: str, value: str = "", at: Optional[Moment] = None) -> Moment:
+        """Writes a mark with the tick and the wall and monotonic time (in s), and sends its trigger if it has one. at: when it was; without it, now.
+        Returns the moment."""
+        code = self._triggers.send(name) if self._triggers else None
+        now = at if at is not None else self.stage.now()
+        self._journal.add({"event": "mark", "name": name, "value": value, **({"code": code} if code is not None else {}), **now._asdict()})
+        return now
+
+    def _take_marks(self) -> None:
+        while self.receiver is not None:
+            try:
+                self.mark(*self.receiver.marks.get_nowait())
+            except queue.Empty:
+                return
+
+    def _report(self, trial: Trial) -> None:
+        self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": trial.block.name,
+                            "kind": trial.kind, "trial": trial.number, "done": self._done, "left": self.plan.left(), "level": trial.level,
+                            "unit": trial.block.varies.unit, "last": self._last, "health": self.stage.health(),
+                            "history": self._history.get(trial.block.name, []), "fit": self._running_fit(trial.block)})
+
+    def _running_fit(self, block: Block) -> str:
+        data = np.array(self._history.get(block.name, [])).reshape(-1, 2)
+        if len(data) < 10 or block.task in ("magnitude", "adjust", "match") or isinstance(self.window, Simulated):
+            return ""
+        try:
+            fit = psychometric(data[:, 0], data[:, 1], guess=block.guess_rate, method="posterior")
+        except Error:   # one level so far
+            return ""
+        low, high = fit.threshold_interval
+        return f"threshold {fit.threshold:.4g} {block.varies.unit} ({low:.4g} to {high:.4g}), all conditions together"

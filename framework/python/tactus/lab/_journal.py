@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""The journal of a session: one line of JSON for each event, on the disk before the next one begins. Nothing in it is ever changed."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+from typing import Any, BinaryIO, Dict, List, Optional
+
+from .._messages import fail
+
+try:
+    import fcntl
+except ImportError:   # Windows
+    fcntl = None   # type: ignore[assignment]
+
+Event = Dict[str, Any]
+
+
+def read(path: pathlib.Path) -> List[Event]:
+    """The events of a journal, the header first. A line that was cut off by a crash is left out: it is the last one, or a line `resumed` follows it."""
+    events: List[Event] = []
+    lines = path.read_bytes().split(b"\n")
+    for i, line in enumerate(lines):
+        if not line:
+            continue
+        try:
+            event = json.loads(line.decode())
+            if not isinstance(event, dict):
+                raise ValueError("it is no object")
+        except ValueError as why:
+            after = next((other for other in lines[i + 1:] if other), None)
+            if after is None or after.startswith(b'{"event": "resumed"'):
+                continue
+            fail("lab/journal", f"{path}:{i + 1}", f"the line cannot be read: {why}", "restore the file from a copy: no line of a journal is ever changed")
+        events.append(event)
+    if not events or events[0].get("format") != "tactus-journal" or events[0].get("version") != 1:
+        fail("lab/journal", str(path), "the file is no journal of version 1", "give the journal of a session")
+    return events
+
+
+class Journal:
+    """A journal to which events are added. One process at a time may."""
+
+    def __init__(self, path: pathlib.Path, header: Optional[Event]):
+        """header: the first line of a new file; None to go on with one."""
+        self.path = path
+        try:
+            self._file: BinaryIO = open(path, "xb" if header is not None else "ab", buffering=0)
+        except FileExistsError:
+            fail("lab/exists", str(path), "the session exists", "resume it (--resume), or choose another session")
+        if fcntl is not None:
+            try:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                self._file.close()
+                fail("lab/busy", str(path), "another process runs this session", "wait for it, or end it")
+        if header is None:
+            with open(path, "rb") as file:
+                whole = file.read()[-1:] == b"\n"
+            if not whole:
+                self._file.write(b"\n")
+        else:
+            self.add({"format": "tactus-journal", "version": 1, **header})
+            if os.name == "posix":
+                folder = os.open(path.parent, os.O_RDONLY)
+                os.fsync(folder)   # the name of the file, too
+                os.close(folder)
+
+    def add(self, event: Event) -> None:
+        """Writes an event; returns once it is on the disk."""
+        data = json.dumps(event, ensure_ascii=False, allow_nan=False).encode() + b"\n"
+        while data:
+            data = data[self._file.write(data):]
+        os.fsync(self._file.fileno())
+
+    def close(self) -> None:
+        """Closes the file."""
+        self._file.close()

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: MIT
+"""Which level comes next: constant stimuli, staircases, and the psi method (QUEST+)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._messages import fail
+from ._draw import Draw
+from ._functions import Function, probability
+
+Array = NDArray[np.float64]
+
+
+def note(text: str, **more: Any) -> Any:
+    """The metadata of a field: what it means, and its bounds, for the schema."""
+    return {"about": text, **more}
+
+
+@dataclass(frozen=True)
+class Constant:
+    """Constant stimuli: every level `repeats` times, in rounds; each round has every level once, in a random order."""
+
+    kind: Literal["constant"] = field(default="constant", metadata=note("constant stimuli"))
+    levels: Tuple[float, ...] = field(default=(), metadata=note("levels of the stimulus, in the unit of what varies", fewest=1))
+    repeats: int = field(default=10, metadata=note("trials of each level", low=1, high=10000))
+
+
+@dataclass(frozen=True)
+class Staircase:
+    """An up-down staircase (Levitt 1971; weighted: Kaernbach 1991). After `down` answers "yes" or right ones in a row the level falls by a step, after
+    `up` others in a row it rises by up_factor steps. 1 up, 1 down converges to 50 %, 1 up, 2 down to 70.7 %; with weights, to up_factor / (1 + up_factor)."""
+
+    kind: Literal["staircase"] = field(default="staircase", metadata=note("an up-down staircase"))
+    start: float = field(default=1.0, metadata=note("the first level, in the unit of what varies"))
+    steps: Tuple[float, ...] = field(default=(0.1,), metadata=note("the size of a step before the first reversal, after it, …; the last one stays. "
+                                                                    "With the scale linear, a difference; with ratio, a factor above 1", fewest=1))
+    up: int = field(default=1, metadata=note("wrong answers in a row for a step up", low=1, high=10))
+    down: int = field(default=2, metadata=note("right answers in a row for a step down", low=1, high=10))
+    up_factor: float = field(default=1.0, metadata=note("a step up, in steps down", above=0.0, high=100.0))
+    scale: Literal["linear", "ratio"] = field(default="linear", metadata=note("linear: steps are added; ratio: levels are multiplied"))
+    low: float = field(default=0.0, metadata=note("the lowest level"))
+    high: float = field(default=1e300, metadata=note("the highest level"))
+    reversals: int = field(default=0, metadata=note("it ends after this many reversals; 0: not by reversals", low=0, high=1000))
+    trials: int = field(default=80, metadata=note("it ends after this many trials", low=1, high=100000))
+    tracks: int = field(default=1, metadata=note("interleaved staircases of each condition", low=1, high=20))
+
+
+@dataclass(frozen=True)
+class Psi:
+    """The psi method (Kontsevich and Tyler 1999), also with lapses as in QUEST+ (Watson 2017): each trial has the level after which the expected entropy
+    of threshold, slope and lapse rate is least."""
+
+    kind: Literal["psi"] = field(default="psi", metadata=note("the psi method, QUEST+"))
+    levels: Tuple[float, ...] = field(default=(), metadata=note("the levels to choose from, in the unit of what varies", fewest=2))
+    thresholds: Tuple[float, ...] = field(default=(), metadata=note("possible thresholds, in the same unit; without them, the levels"))
+    widths: Tuple[float, ...] = field(default=(), metadata=note("possible widths of the function, in the same unit (for weibull: exponents)", fewest=1))
+    lapses: Tuple[float, ...] = field(default=(0.02,), metadata=note("possible lapse rates", fewest=1))
+    guess: float = field(default=0.5, metadata=note("the rate of \"yes\" or right answers without a stimulus", low=0.0, high=0.99))
+    function: Literal["logistic", "normal", "weibull"] = field(default="logistic", metadata=note("the psychometric function"))
+    trials: int = field(default=60, metadata=note("it ends after this many trials", low=1, high=100000))
+
+
+Procedure = Union[Constant, Staircase, Psi]
+
+
+def check(procedure: Procedure, where: str) -> None:
+    """Refuses what no single field can show."""
+    if isinstance(procedure, Staircase):
+        if not procedure.low <= procedure.start <= procedure.high:
+            fail("lab/value", f"{where}/start", f"the level {procedure.start:g} is not from low ({procedure.low:g}) to high ({procedure.high:g})",
+                 "give a start between them")
+        if procedure.scale == "ratio" and (min(procedure.steps) <= 1.0 or procedure.start <= 0.0):
+            fail("lab/value", f"{where}/steps", "steps of the scale ratio are factors above 1, and levels are above 0",
+                 "give factors such as 1.25, or scale linear")
+        if procedure.scale == "linear" and min(procedure.steps) <= 0.0:
+            fail("lab/value", f"{where}/steps", "a step is not above 0", "give steps above 0")
+    if isinstance(procedure, Psi):
+        positive = (*procedure.widths, *((*procedure.levels, *procedure.thresholds) if procedure.function == "weibull" else ()))
+        if min(positive) <= 0.0:
+            fail("lab/value", where, "widths, and levels and thresholds of the function weibull, are above 0", "leave out what is 0 or less")
+        if not all(0.0 <= lapse < 1.0 - procedure.guess for lapse in procedure.lapses):
+            fail("lab/value", f"{where}/lapses", "a lapse rate is less than 0, or guess and lapse are 1 or more together", "give lapse rates such as [0, 0.02]")
+
+
+class Track:
+    """A procedure that runs: `level` is the next one, or None at its end; `answer` takes what came out of it."""
+
+    def level(self) -> Optional[float]:
+        """The level of the next trial, in the unit of what varies; None once the procedure is over. Asking changes nothing."""
+        raise NotImplementedError
+
+    def answer(self, level: float, outcome: float) -> None:
+        """Takes the outcome of a trial at this level: 1 for "yes" or right, 0 for the others."""
+        raise NotImplementedError
+
+    def left(self) -> int:
+        """The largest number of trials that are left."""
+        raise NotImplementedError
+
+
+class ConstantTrack(Track):
+    def __init__(self, given: Constant, draw: Draw):
+        self._levels = [level for _ in range(given.repeats) for level in draw.order(given.levels)]
+        self._done = 0
+
+    def level(self) -> Optional[float]:
+        return self._levels[self._done] if self._done < len(self._levels) else None
+
+    def answer(self, level: float, outcome: float) -> None:
+        self._done += 1
+
+    def left(self) -> int:
+        return len(self._levels) - self._done
+
+
+class StaircaseTrack(Track):
+    """turns: the levels at which the direction changed."""
+
+    def __init__(self, given: Staircase):
+        self._given, self._level, self._trials, self._right, self._wrong, self._direction = given, given.start, 0, 0, 0, 0
+        self.turns: List[float] = []
+
+    def level(self) -> Optional[float]:
+        over = self._trials >= self._given.trials or (self._given.reversals > 0 and len(self.turns) >= self._given.reversals)
+        return None if over else self._level
+
+    def answer(self, level: float, outcome: float) -> None:
+        self._trials += 1
+        self._right, self._wrong = (self._right + 1, 0) if outcome else (0, self._wrong + 1)
+        if self._right == self._given.down:
+            self._move(-1)
+        elif self._wrong == self._given.up:
+            self._move(1)
+
+    def _move(self, direction: int) -> None:
+        self._right = self._wrong = 0
+        if self._direction == -direction:
+            self.turns.append(self._level)
+        self._direction = direction
+        step = self._given.steps[min(len(self.turns), len(self._given.steps) - 1)]
+        count = self._given.up_factor if direction > 0 else 1.0
+        moved = self._level * step ** (direction * count) if self._given.scale == "ratio" else self._level + direction * count * step
+        self._level = min(max(moved, self._given.low), self._given.high)
+
+    def left(self) -> int:
+        return self._given.trials - self._trials
+
+
+class PsiTrack(Track):
+    """posterior: shape (thresholds, widths, lapses), its sum is 1."""
+
+    def __init__(self, given: Psi):
+        self._given, self._trials = given, 0
+        self._levels = np.array(given.levels)
+        self._thresholds = np.array(given.thresholds or given.levels)
+        axes = self._thresholds[:, None, None], np.array(given.widths)[None, :, None], np.array(given.lapses)[None, None, :]
+        self._yes = np.stack([probability(given.function, np.array(x), axes[0], axes[1], given.guess, axes[2]) for x in self._levels])
+        self.posterior: Array = np.full(self._yes.shape[1:], 1.0 / self._yes[0].size)
+        self._next: Optional[float] = None
+
+    def level(self) -> Optional[float]:
+        if self._trials >= self._given.trials:
+            return None
+        if self._next is None:
+            self._next = float(self._levels[int(np.argmin(self._expected()))])
+        return self._next
+
+    def _expected(self) -> Array:
+        """The expected entropy after a trial at each level, in nats."""
+        total = np.zeros(len(self._levels))
+        for yes in (self._yes, 1.0 - self._yes):
+            joint = yes * self.posterior
+            chance = joint.sum(axis=(1, 2, 3))
+            logs = np.log(np.where(joint > 0.0, joint, 1.0))
+            total += -(joint * logs).sum(axis=(1, 2, 3)) + np.where(chance > 0.0, chance * np.log(np.where(chance > 0.0, chance, 1.0)), 0.0)
+        return np.round(total, 12)   # a tie is one on every computer
+
+    def answer(self, level: float, outcome: float) -> None:
+        yes = self._yes[int(np.argmin(np.abs(self._levels - level)))]
+        self.posterior = self.posterior * (yes if outcome else 1.0 - yes)
+        self.posterior = self.posterior / self.posterior.sum()
+        self._trials += 1
+        self._next = None
+
+    def left(self) -> int:
+        return self._given.trials - self._trials
+
+    def estimate(self) -> Dict[str, float]:
+        """The means of threshold and width, and the standard deviation of the threshold, in the unit of what varies."""
+        over = self.posterior.sum(axis=(1, 2))
+        mean = float(over @ self._thresholds)
+        return {"threshold": mean, "threshold_sd": float(np.sqrt(over @ (self._thresholds - mean) ** 2)),
+                "width": float(self.posterior.sum(axis=(0, 2)) @ np.array(self._given.widths))}
+
+
+def start(procedure: Procedure, draw: Draw) -> List[Track]:
+    """The tracks of a procedure for one condition."""
+    if isinstance(procedure, Constant):
+        return [ConstantTrack(procedure, draw)]
+    if isinstance(procedure, Staircase):
+        return [StaircaseTrack(procedure) for _ in range(procedure.tracks)]
+    return [PsiTrack(procedure)]
+
+
+def mean_of_turns(levels: Sequence[float], drop: int = 2, ratio: bool = False) -> float:
+    """The classic estimate of a staircase: the mean of the levels at its reversals, geometric with `ratio`, without the first `drop` and, if their number is
+    odd then, without one more. NaN if none is left."""
+    kept = list(levels)[drop:]
+    kept = kept[len(kept) % 2:]
+    if not kept:
+        return float("nan")
+    return float(np.exp(np.mean(np.log(kept)))) if ratio else float(np.mean(kept))
+
+
+__all__ = ["Constant", "Function", "Procedure", "Psi", "Staircase"]

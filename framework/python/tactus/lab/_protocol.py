@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: MIT
+"""An experiment as data: the protocol, in a JSON file or in Python."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import pathlib
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Literal, Optional, Tuple, Union
+
+from .._graph import Graph
+from .._messages import fail, placed
+from . import _schema
+from ._procedures import Constant, Procedure, Psi, Staircase, check, note
+
+Task = Literal["yes_no", "2ifc", "greater", "abx", "magnitude", "adjust", "match"]
+ANSWERS: Dict[str, Tuple[str, ...]] = {"yes_no": ("yes", "no"), "2ifc": ("first", "second"), "greater": ("first", "second"), "abx": ("a", "b"),
+                                       "magnitude": (), "adjust": ("less", "more", "done"), "match": ("less", "more", "done")}
+KEYS = {"yes": "y", "no": "n", "first": "1", "second": "2", "a": "1", "b": "2", "less": "-", "more": "+", "done": "Enter"}
+QUESTIONS = {"yes_no": "Did you feel it?", "2ifc": "Which one was stronger?", "greater": "Which one was greater?",
+             "abx": "Was the last one like the first or the second?",
+             "magnitude": "How strong was it? Give any number.", "adjust": "Set it.", "match": "Make it like the other one."}
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a participant feels: a graph with values."""
+
+    name: str = field(metadata=note("its name, in tables"))
+    graph: str = field(default="", metadata=note("a graph file, or the name of a preset; without it, that of the protocol"))
+    set: Dict[str, Any] = field(default_factory=dict, metadata=note("values of parameters, as in a graph file: {\"drag.mu\": 0.3}"))
+    controls: Dict[str, float] = field(default_factory=dict, metadata=note("values of controls, from 0 to 1"))
+    snapshot: str = field(default="", metadata=note("a JSON file with such `set` and `controls`, relative to the protocol; those given here come on top"))
+
+
+@dataclass(frozen=True)
+class Varies:
+    """What a level sets."""
+
+    target: str = field(metadata=note("a parameter, such as \"wall.stiffness\", or a control of the graph"))
+    unit: str = field(default="1", metadata=note("the unit of the levels, for tables and plots; levels of parameters are in SI units"))
+    standard: float = field(default=0.0, metadata=note("the level of the other interval in comparisons, and of catch trials"))
+    rest: Optional[float] = field(default=None, metadata=note("the level between intervals; without it, the last one stays"))
+
+
+@dataclass(frozen=True)
+class HandAnswer:
+    """An answer by the hand itself: a port passes a value, such as a position that enters a region, or a button."""
+
+    port: str = field(metadata=note("one component of a port: \"hand.position.x\""))
+    above: float = field(metadata=note("the answer is given while the value is above this, in the unit of the port"))
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of an experiment: trials of one task and one procedure."""
+
+    name: str = field(metadata=note("its name, in tables"))
+    task: Task = field(metadata=note("yes_no; 2ifc and greater: two intervals, in which one is stronger, or greater; abx; magnitude: a number; "
+                                      "adjust: the participant sets the level; match: the same, beside a standard"))
+    procedure: Procedure = field(metadata=note("which level comes next"))
+    varies: Varies = field(metadata=note("what a level sets"))
+    conditions: List[str] = field(default_factory=list, metadata=note("names of conditions, each with a procedure of its own; without them, all"))
+    question: str = field(default="", metadata=note("what the participant is asked"))
+    instructions: str = field(default="", metadata=note("what the participant reads before the block"))
+    practice: int = field(default=0, metadata=note("trials before the block, with feedback, which do not count", low=0, high=1000))
+    catch: float = field(default=0.0, metadata=note("the share of additional trials at the standard, which do not count", low=0.0, high=0.5))
+    break_every: int = field(default=0, metadata=note("a break after this many trials; 0: none", low=0))
+    feedback: bool = field(default=False, metadata=note("whether the participant is told what was right"))
+    interval: float = field(default=1.0, metadata=note("how long an interval lasts, in s", low=0.0, high=3600.0))
+    gap: float = field(default=0.3, metadata=note("the time between intervals, in s", low=0.0, high=3600.0))
+    time_limit: float = field(default=0.0, metadata=note("for an answer, in s; 0: none. A trial without an answer is repeated later", low=0.0, high=86400.0))
+    step: float = field(default=0.0, metadata=note("of adjust and match: what one key press adds, in the unit of what varies", low=0.0))
+    guess: Optional[float] = field(default=None, metadata=note("for the analysis: the rate of \"yes\" or right answers without a stimulus; "
+                                                                "by default 0.5 for 2ifc and abx, else 0", low=0.0, high=0.99))
+
+    @property
+    def guess_rate(self) -> float:
+        """The guess rate of the analysis."""
+        return self.guess if self.guess is not None else 0.5 if self.task in ("2ifc", "abx") else 0.0
+
+
+@dataclass(frozen=True)
+class Triggers:
+    """8-bit codes over a serial line, for EEG amplifiers and the like."""
+
+    port: str = field(metadata=note("the serial line, such as \"/dev/ttyUSB0\""))
+    baud: int = field(default=115200, metadata=note("bits per second", low=300, high=4000000))
+    codes: Dict[str, int] = field(default_factory=lambda: {"trial": 1, "stimulus": 2, "answer": 4}, metadata=note("codes of marks, from 1 to 255"))
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """An experiment."""
+
+    name: str = field(metadata=note("letters and digits, for the names of files"))
+    blocks: List[Block] = field(metadata=note("its parts", fewest=1))
+    format: Literal["tactus-experiment"] = field(default="tactus-experiment", metadata=note("the format of the file"))
+    version: Literal[1] = field(default=1, metadata=note("the version of the format"))
+    about: str = field(default="", metadata=note("what it is about, and its sources"))
+    seed: int = field(default=1, metadata=note("all orders follow from it and from the participant", low=0))
+    graph: str = field(default="", metadata=note("a graph file relative to this one, or the name of a preset"))
+    devices: Dict[str, str] = field(default_factory=dict, metadata=note("devices of roles, as for `tactus play --device`; without one, those of the session"))
+    conditions: List[Condition] = field(default_factory=list, metadata=note("what is compared; without any, there is one: the graph as it is"))
+    order: Literal["given", "random", "latin_square"] = field(
+        default="given", metadata=note("the order of the blocks; latin_square: balanced over participants"))
+    instructions: str = field(default="", metadata=note("what the participant reads first"))
+    keys: Dict[str, str] = field(default_factory=dict, metadata=note("other keys for answers: {\"first\": \"ArrowLeft\"}"))
+    hand: Dict[str, HandAnswer] = field(default_factory=dict, metadata=note("answers that the hand gives itself"))
+    triggers: Optional[Triggers] = field(default=None, metadata=note("codes that go out with marks"))
+    graph_hash: str = field(default="", metadata=note("sha256 of the text of the graph; if it is given and differs, the experiment does not start"))
+    folder: str = field(default="", compare=False, repr=False, metadata=note("of files with relative paths; the file's own, if it is left out"))
+
+    def key(self, answer: str) -> str:
+        """The key that gives an answer."""
+        return self.keys.get(answer, KEYS.get(answer, answer))
+
+    def condition(self, name: str) -> Condition:
+        """The condition with this name."""
+        return next(c for c in self.all_conditions() if c.name == name)
+
+    def all_conditions(self) -> List[Condition]:
+        """The conditions; if there are none, the graph as it is."""
+        return self.conditions or [Condition(name="graph")]
+
+    def graph_of(self, condition: Condition) -> Optional[Graph]:
+        """The graph of a condition, with its values set; None if no graph is given."""
+        named = condition.graph or self.graph
+        if not named:
+            return None
+        beside = os.path.join(self.folder, named)
+        graph = Graph(beside if os.path.isfile(beside) else named)
+        for name, value in self.values_of(condition)[0].items():
+            with placed(f"condition {condition.name}: {name}"):
+                _set(graph, name, value)
+        return graph
+
+    def values_of(self, condition: Condition) -> Tuple[Dict[str, Any], Dict[str, float]]:
+        """The values of parameters and of controls of a condition."""
+        values, controls = {}, {}
+        if condition.snapshot:
+            held = _load(os.path.join(self.folder, condition.snapshot))
+            kept = _schema.read(Condition, {"name": condition.name, **held}, condition.snapshot)
+            values, controls = dict(kept.set), dict(kept.controls)
+        return {**values, **condition.set}, {**controls, **condition.controls}
+
+    def text(self) -> str:
+        """The protocol as the text of a file."""
+        return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
+                          indent=2, ensure_ascii=False) + "\n"
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the file."""
+        pathlib.Path(path).write_text(self.text(), encoding="utf-8")
+
+    def hash(self) -> str:
+        """sha256 of what the protocol says: a session goes on only with the protocol that it began with."""
+        return hashlib.sha256(self.text().encode()).hexdigest()
+
+    @staticmethod
+    def load(path: Union[str, "os.PathLike[str]"]) -> "Protocol":
+        """Reads and checks a file. Errors name the place in it as a JSON pointer."""
+        data = _load(os.fspath(path))
+        if isinstance(data, dict):
+            data.setdefault("folder", os.path.dirname(os.path.abspath(path)))
+        with placed(os.fspath(path)):
+            return checked(_schema.read(Protocol, data))
+
+
+def _set(graph: Graph, name: str, value: Any) -> None:
+    node, _, param = name.rpartition(".")
+    patch, _, inner = node.rpartition("/")
+    graph.set_param(inner, param, value, patch=patch)
+
+
+def _load(path: str) -> Any:
+    try:
+        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as why:
+        fail("lab/unreadable", path, f"the file cannot be read: {why}", "give a JSON file")
+
+
+def checked(protocol: Protocol) -> Protocol:
+    """Refuses what the types of single values cannot show: names without a counterpart, levels that a graph does not take."""
+    if not protocol.name.isalnum() or not protocol.name.isascii():
+        fail("lab/value", "/name", f"'{protocol.name}' has other characters than letters and digits", "choose a name for files, such as 'roughness'")
+    known = [c.name for c in protocol.all_conditions()]
+    for kind, names in (("conditions", known), ("blocks", [b.name for b in protocol.blocks])):
+        if twice := [name for name in names if names.count(name) > 1]:
+            fail("lab/value", f"/{kind}", f"there are two {kind} called '{twice[0]}'", "give each a name of its own")
+    for i, block in enumerate(protocol.blocks):
+        where = f"/blocks/{i}"
+        check(block.procedure, f"{where}/procedure")
+        for name in block.conditions:
+            if name not in known:
+                fail("lab/value", f"{where}/conditions", f"there is no condition '{name}'", f"the conditions: {', '.join(known)}")
+        if block.task in ("magnitude", "adjust", "match") and not isinstance(block.procedure, Constant):
+            fail("lab/value", f"{where}/procedure", f"the task {block.task} has no right answers that a {block.procedure.kind} could follow",
+                 "use the procedure constant; for adjust and match, its levels are those to begin with")
+        if block.task in ("adjust", "match") and block.step <= 0.0:
+            fail("lab/missing", f"{where}/step", "the step of one key press is missing", "give a step above 0, in the unit of what varies")
+    for answer in protocol.hand:
+        if answer not in KEYS:
+            fail("lab/value", f"/hand/{answer}", f"there is no answer '{answer}'", f"the answers: {', '.join(KEYS)}")
+    for name, code in (protocol.triggers.codes if protocol.triggers else {}).items():
+        if not 1 <= code <= 255:
+            fail("lab/value", f"/triggers/codes/{name}", f"{code} is no code of 8 bits", "give a code from 1 to 255")
+    _check_targets(protocol)
+    return protocol
+
+
+def _check_targets(protocol: Protocol) -> None:
+    for i, block in enumerate(protocol.blocks):
+        for condition in (protocol.condition(name) for name in block.conditions or [c.name for c in protocol.all_conditions()]):
+            graph = protocol.graph_of(condition)
+            if graph is None:
+                continue
+            for name, value in [*protocol.values_of(condition)[1].items(), *((block.varies.target, x) for x in levels_of(block))]:
+                if name in graph.controls:
+                    if not 0.0 <= value <= 1.0:
+                        fail("lab/value", f"/blocks/{i}", f"the control {name} would be {value:g}", "give levels from 0 to 1")
+                elif "." in name:
+                    with placed(f"/blocks/{i}: {name}"):
+                        _set(graph, name, value)
+                else:
+                    fail("lab/value", f"/blocks/{i}", f"the graph of '{condition.name}' has no control '{name}'",
+                         f"its controls: {', '.join(graph.controls) or 'none'}; a parameter is written NODE.PARAMETER")
+
+
+def levels_of(block: Block) -> List[float]:
+    """The levels that a block can be known to use: all of constant stimuli and psi, the first and the bounds of a staircase; and the standard and the rest."""
+    procedure, varies = block.procedure, block.varies
+    found = list(procedure.levels) if isinstance(procedure, (Constant, Psi)) else [procedure.start, procedure.low, procedure.high]
+    return found + [varies.standard] + ([varies.rest] if varies.rest is not None else [])
+
+
+def schema() -> Dict[str, Any]:
+    """The JSON schema of protocol files, made from the dataclasses."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Experiment of tactus.lab", **_schema.schema(Protocol)}
+
+
+__all__ = ["Block", "Condition", "Constant", "HandAnswer", "Protocol", "Psi", "Staircase", "Triggers", "Varies", "checked", "schema"]

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""Where stimuli are felt: on the devices of this computer, or nowhere."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from typing import Any, Dict, List, NamedTuple, Optional
+
+from .._messages import fail
+from .._play import Session, play
+from ._protocol import Condition, Protocol
+
+
+class Moment(NamedTuple):
+    """A point in time. tick: of the graph, None if none plays. wall: s since 1970 (UTC). monotonic: s of the clock of time.monotonic()."""
+
+    tick: Optional[int]
+    wall: float
+    monotonic: float
+
+
+class Silent:
+    """A stage without a graph: nothing is felt, and no time passes."""
+
+    def show(self, condition: Condition, target: str, level: float) -> None:
+        """From now on, the condition is felt, with this level (in the unit of the target)."""
+
+    def wait(self, duration: float) -> None:
+        """Lets the participant feel it for a duration in s."""
+
+    def now(self) -> Moment:
+        """The present moment."""
+        return Moment(None, time.time(), time.monotonic())
+
+    def hand(self) -> Optional[str]:
+        """The answer that the hand gives at this moment."""
+        return None
+
+    def events(self) -> List[str]:
+        """Ids of the messages since the last call: stops of the guards, trouble with devices."""
+        return []
+
+    def health(self) -> Dict[str, Any]:
+        """The state of the run and of its devices, as JSON."""
+        return {}
+
+    def stop(self) -> None:
+        """All forces go to zero, and stay there. [any thread]"""
+
+    def close(self) -> None:
+        """Ends the run: all forces go to zero first."""
+
+
+class Live(Silent):
+    """A stage on devices: a session of tactus.play. When the condition changes, the graph is edited while it plays and values ramp, so no force jumps."""
+
+    def __init__(self, protocol: Protocol, log: Optional[str] = None, session: Optional[str] = None):
+        """log: the new file for the log of all inputs. session: as in tactus.play."""
+        self._protocol, self._shown, self._session_file, self._log = protocol, "", session, log
+        self._session: Optional[Session] = None
+        self._text = ""
+        self._seen: List[str] = []
+
+    def use_session(self, session: Optional[str]) -> None:
+        """Another file that binds roles to devices, or "off"; before the first stimulus."""
+        self._session_file = session
+
+    def show(self, condition: Condition, target: str, level: float) -> None:
+        graph = self._protocol.graph_of(condition)
+        if graph is None:
+            fail("lab/no_graph", f"condition {condition.name}", "there is no graph to play", "give the protocol a graph, or run it without devices")
+        if self._session is None:
+            if self._log is not None and os.path.exists(self._log):
+                fail("lab/exists", self._log, "the log exists", "choose another file: a log is never replaced")
+            self._session = play(graph, self._protocol.devices, session=self._session_file, log=self._log)
+            if self._protocol.hand:
+                self._session.probe(*sorted({answer.port for answer in self._protocol.hand.values()}))
+        elif graph.text != self._text:
+            self._session.edit(graph)
+        self._text = graph.text
+        values, controls = self._protocol.values_of(condition)
+        for name, value in [*values.items(), *controls.items(), (target, level)]:
+            self._session.control(name, value) if name in graph.controls else self._session.set(name, value)
+
+    def wait(self, duration: float) -> None:
+        until = time.monotonic() + duration
+        while (left := until - time.monotonic()) > 0.0:
+            self._look()
+            time.sleep(min(0.01, left))
+        self._look()
+
+    def _look(self) -> None:
+        if self._session is None:
+            return
+        self._seen += [message.id for message in self._session.events()]
+        status = self._session.status()
+        if status.phase == "over" or status.is_emergency:
+            fail("lab/stopped", "", "the forces are stopped: " + (", ".join(self._seen[-3:]) or "the run is over"), "find the cause, then resume the session")
+
+    def now(self) -> Moment:
+        before = time.monotonic()
+        tick = self._session.status().ticks if self._session is not None else None
+        return Moment(tick, time.time(), 0.5 * (before + time.monotonic()))
+
+    def hand(self) -> Optional[str]:
+        self._look()
+        if self._session is None or not self._protocol.hand:
+            return None
+        values = self._session.values()
+        for answer, given in self._protocol.hand.items():
+            value = float(values.get(given.port, math.nan))
+            if value > given.above:
+                return answer
+        return None
+
+    def events(self) -> List[str]:
+        self._look()
+        seen, self._seen = self._seen, []
+        return seen
+
+    def health(self) -> Dict[str, Any]:
+        if self._session is None:
+            return {}
+        status = self._session.status()
+        return {"phase": status.phase, "ticks": status.ticks, "late_ticks": status.late_ticks, "force_N": status.force, "peak_force_N": status.peak_force,
+                "rate_hz": self._session.rate, "devices": [health._asdict() for health in self._session.health()]}
+
+    def stop(self) -> None:
+        if self._session is not None:
+            self._session.emergency_stop()
+
+    def close(self) -> None:
+        if self._session is not None:
+            self._session.close()

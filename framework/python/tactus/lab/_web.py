@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: MIT
+"""The windows in a browser of this computer: a plain one for the participant, and one for the experimenter with progress, the running fit, the health of the
+devices, and STOP."""
+
+from __future__ import annotations
+
+import http.server
+import json
+import math
+import queue
+import secrets
+import threading
+import time
+from typing import Any, Callable, Dict, Optional, Tuple
+
+from ._trials import Answer, Trial
+from ._windows import Aborted, Window, number_of
+
+_STYLE = "body{background:#111;color:#eee;font:5vmin sans-serif;margin:0;text-align:center}button{font:inherit;margin:.3em;padding:.2em .8em}"
+
+_PARTICIPANT = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experiment</title><style>STYLE
+main{min-height:100vh;display:flex;flex-direction:column;justify-content:center;white-space:pre-line}#typed{min-height:1.5em;font-size:8vmin}</style>
+<main><div id="text">…</div><div id="typed"></div><div id="keys"></div></main><script>
+let now = {}, typed = "", held = {};
+function send(key) { const id = now.id; if (id === undefined) return; fetch("answer", {method: "POST", body: JSON.stringify({id, key})}).catch(() => {}); }
+function press(key) {
+  if (now.number) {
+    if (key === "Enter") { if (typed) send(typed); typed = ""; }
+    else if (key === "Backspace") typed = typed.slice(0, -1); else if (/^[0-9.,]$/.test(key)) typed += key;
+    document.getElementById("typed").textContent = typed;
+  } else send(key);
+}
+addEventListener("keydown", e => { if (e.repeat && !["+", "-"].includes(e.key)) return; if (e.key === "F11") return; e.preventDefault(); press(e.key); });
+addEventListener("dblclick", () => document.documentElement.requestFullscreen().catch(() => {}));
+if (navigator.requestMIDIAccess) navigator.requestMIDIAccess().then(m => m.inputs.forEach(i => i.onmidimessage = e => {
+  if ((e.data[0] & 0xf0) === 0x90 && e.data[2] > 0) press("Midi" + e.data[1]); })).catch(() => {});
+function pads() { for (const pad of navigator.getGamepads ? navigator.getGamepads() : []) if (pad) pad.buttons.forEach((b, i) => {
+  if (b.pressed && !held[pad.index + "/" + i]) press("Pad" + i); held[pad.index + "/" + i] = b.pressed; }); }
+function draw(next) {
+  if (next.id !== now.id) { typed = ""; document.getElementById("typed").textContent = ""; }
+  if (JSON.stringify(next) === JSON.stringify(now)) return;
+  now = next;
+  document.getElementById("text").textContent = next.text;
+  const keys = document.getElementById("keys"); keys.replaceChildren();
+  for (const [answer, key] of Object.entries(next.keys || {})) { const b = document.createElement("button"); b.textContent = `${answer} (${key})`;
+    b.onclick = () => send(key); keys.append(b); }
+}
+async function loop() { try { draw(await (await fetch("state")).json()); } catch { document.getElementById("text").textContent = "The connection is lost."; }
+  setTimeout(loop, 50); }
+loop(); setInterval(pads, 20);
+</script></html>"""
+
+_EXPERIMENTER = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experimenter</title><style>STYLE
+body{font-size:16px;text-align:left;padding:1em;box-sizing:border-box}#stop{background:#c00;color:#fff;font-size:40px;width:100%;padding:.4em;margin:0 0 .5em}
+table{border-collapse:collapse}td{padding:.15em .8em .15em 0}progress{width:100%;height:1.5em}svg{background:#fff;width:100%;max-width:50em}</style>
+<button id="stop">STOP</button><div id="state">waiting</div><progress id="bar" value="0" max="1"></progress><table id="facts"></table>
+<svg id="plot" viewBox="0 0 600 200" preserveAspectRatio="none"></svg><table id="health"></table><script>
+document.getElementById("stop").onclick = () => fetch("stop", {method: "POST"});
+function rows(table, facts) { table.replaceChildren(); for (const [k, v] of facts) {
+  const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = v; } }
+function draw(s) {
+  const r = s.report; document.getElementById("state").textContent = s.stopped ? "STOPPED" : s.over ? "over" : s.text;
+  if (!r.name) return;
+  const bar = document.getElementById("bar"); bar.max = r.done + r.left || 1; bar.value = r.done;
+  rows(document.getElementById("facts"), [["experiment", `${r.name}, sub-${r.participant} ses-${r.session}`], ["block", `${r.block} (${r.kind})`],
+    ["trial", `${r.trial}; ${r.left} left at most`], ["level", `${r.level} ${r.unit}`],
+    ["last answer", JSON.stringify(r.last)], ["running fit", r.fit || "not yet"]]);
+  const h = r.health || {}; rows(document.getElementById("health"), [...Object.entries(h).filter(([k]) => k !== "devices"),
+    ...(h.devices || []).map(d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
+  const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0])), svg = document.getElementById("plot");
+  svg.replaceChildren(); levels.forEach(([level, outcome], i) => { const c = document.createElementNS("http://www.w3.org/2000/svg", "circle");
+    c.setAttribute("cx", 10 + 580 * i / Math.max(1, levels.length - 1)); c.setAttribute("cy", 190 - 180 * (top > low ? (level - low) / (top - low) : 0.5));
+    c.setAttribute("r", 4); c.setAttribute("fill", outcome ? "#06c" : "#fff"); c.setAttribute("stroke", "#06c"); svg.append(c); });
+}
+async function loop() { try { draw(await (await fetch("report")).json()); }
+  catch { document.getElementById("state").textContent = "The connection is lost."; } setTimeout(loop, 200); }
+loop();
+</script></html>"""
+
+
+class Browser(Window):
+    """Two pages on 127.0.0.1, whose addresses hold a secret, so other users of the computer cannot open them. Keys of pads are called Pad0, Pad1, …, those of
+    MIDI keyboards Midi60, …"""
+
+    def __init__(self, port: int = 0):
+        """port: TCP port; 0: any free one."""
+        self._token = secrets.token_urlsafe(12)
+        self._state: Dict[str, Any] = {"text": "Please wait."}
+        self._report: Dict[str, Any] = {}
+        self._given: "queue.Queue[Tuple[int, str]]" = queue.Queue(1000)
+        self._id, self._stopped, self._over = 0, threading.Event(), False
+        window = self
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def log_message(self, format: str, *args: Any) -> None:
+                pass
+
+            def _send(self, kind: str, text: str, status: int = 200) -> None:
+                data = text.encode()
+                self.send_response(status)
+                self.send_header("Content-Type", kind)
+                self.send_header("Content-Length", str(len(data)))
+                self.send_header("Cache-Control", "no-store")
+                self.end_headers()
+                self.wfile.write(data)
+
+            def _place(self) -> str:
+                """The page that is meant; "" if the secret is wrong, or another name led here."""
+                host = self.headers.get("Host", "").rsplit(":", 1)[0]
+                parts = self.path.split("/")
+                is_known = len(parts) == 3 and secrets.compare_digest(parts[1].encode(), window._token.encode()) and host in ("127.0.0.1", "localhost")
+                return parts[2] or "participant" if is_known else ""
+
+            def do_GET(self) -> None:
+                place = self._place()
+                pages = {"participant": _PARTICIPANT, "experimenter": _EXPERIMENTER}
+                if place in pages:
+                    self._send("text/html; charset=utf-8", pages[place].replace("STYLE", _STYLE))
+                elif place in ("state", "report"):
+                    told = {**window._state, "report": window._report, "stopped": window._stopped.is_set(), "over": window._over}
+                    self._send("application/json", json.dumps(window._state if place == "state" else told))
+                else:
+                    self._send("text/plain", "not here", 404)
+
+            def do_POST(self) -> None:
+                place, length = self._place(), self.headers.get("Content-Length", "0")
+                body = self.rfile.read(min(int(length), 4096)) if length.isdigit() else b""
+                if place == "stop":
+                    window._stopped.set()
+                    window.stop()
+                elif place == "answer":
+                    try:
+                        given = json.loads(body)
+                        window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
+                    except (ValueError, TypeError, KeyError, queue.Full):
+                        self._send("text/plain", "no answer", 400)
+                        return
+                else:
+                    self._send("text/plain", "not here", 404)
+                    return
+                self._send("application/json", "{}")
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
+        self._server.daemon_threads = True
+        self.participant = f"http://127.0.0.1:{self._server.server_address[1]}/{self._token}/"
+        self.experimenter = self.participant + "experimenter"
+        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.05}, name="tactus.lab pages", daemon=True)
+        self._thread.start()
+
+    def show(self, text: str) -> None:
+        self._question(text, {"go on": " "}, False)
+        self._wait({" ", "Enter", "Pad0"}, math.inf, lambda: None)
+
+    def say(self, text: str) -> None:
+        self._state = {"text": text}
+        self._check()
+
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+        is_number = trial.block.task == "magnitude"
+        self._question(trial.question, keys, is_number)
+        until = time.monotonic() + limit if limit > 0.0 else math.inf
+        by_key = {**{f"Pad{i}": name for i, name in enumerate(keys)}, **{key: name for name, key in keys.items()}}
+        found = self._wait(None if is_number else set(by_key), until, hand)
+        self._state = {"text": ""}
+        return number_of(found) if is_number and found is not None else None if found is None else by_key.get(found, found)
+
+    def _question(self, text: str, keys: Dict[str, str], is_number: bool) -> None:
+        self._id += 1
+        self._state = {"text": text, "keys": keys, "id": self._id, "number": is_number}
+
+    def _wait(self, keys: Optional[set[str]], until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
+        while True:
+            self._check()
+            if (answer := hand()) is not None:
+                return answer
+            if time.monotonic() >= until:
+                return None
+            try:
+                number, key = self._given.get(timeout=0.02)
+            except queue.Empty:
+                continue
+            if number == self._id and (key in keys if keys is not None else number_of(key) is not None):
+                return key
+
+    def _check(self) -> None:
+        if self._stopped.is_set():
+            raise Aborted("STOP was pressed")
+
+    def report(self, state: Dict[str, Any]) -> None:
+        self._report = json.loads(json.dumps(state, default=str).replace("NaN", "null").replace("Infinity", "null"))
+
+    def close(self) -> None:
+        self._state, self._over = {"text": "The experiment is over. Thank you."}, True
+
+    def end(self) -> None:
+        """Closes the pages."""
+        self._server.shutdown()
+        self._server.server_close()
+        self._thread.join()

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Who is asked: a simulated observer, or a person at a terminal. The window in the browser is in _web.py."""
+
+from __future__ import annotations
+
+import math
+import os
+import select
+import sys
+import time
+from typing import Any, Callable, Dict, Optional, TextIO
+
+from ._observers import Observer
+from ._trials import Answer, Trial
+
+
+class Aborted(Exception):
+    """A person ends the session. It can be resumed."""
+
+
+class Window:
+    """What the participant and the experimenter see. A derived class says how. stop: the experiment sets it: all forces go to zero. [any thread]"""
+
+    stop: Callable[[], None] = staticmethod(lambda: None)
+
+    def show(self, text: str) -> None:
+        """Shows a page, and returns when the participant has read it."""
+
+    def say(self, text: str) -> None:
+        """Shows a few words, such as the number of an interval, and goes on."""
+
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+        """Asks, and waits for the answer: one of the keys of `keys`, whose values are the keys of a keyboard, or a number for magnitude.
+        level: what is felt, in the unit of what varies. limit: in s, 0 without one; None after it. hand: the answer of the hand, to be asked regularly."""
+        raise NotImplementedError
+
+    def report(self, state: Dict[str, Any]) -> None:
+        """Tells the experimenter how things are."""
+
+    def close(self) -> None:
+        """The experiment is over."""
+
+
+class Simulated(Window):
+    """An observer that needs no time."""
+
+    def __init__(self, observer: Observer):
+        self.observer = observer
+
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+        return self.observer.answer(trial, level)
+
+
+class Terminal(Window):
+    """Lines of text: an answer is its key or its name, then Enter; "stop" ends the session."""
+
+    def __init__(self, source: TextIO = sys.stdin, out: TextIO = sys.stdout):
+        self._source, self._out, self._held = source, out, b""
+
+    def show(self, text: str) -> None:
+        self.say(f"{text}\n(Enter goes on)")
+        self._line(math.inf, lambda: None)
+
+    def say(self, text: str) -> None:
+        print(text, file=self._out, flush=True)
+
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+        self.say(trial.question + (f" ({', '.join(f'{key}: {answer}' for answer, key in keys.items())})" if keys else ""))
+        until = time.monotonic() + limit if limit > 0.0 else math.inf
+        while (line := self._line(until, hand)) is not None:
+            answer = next((a for a, key in keys.items() if line in (a, key) or key == "Enter" and line == ""), None)
+            if answer is not None:
+                return answer
+            if trial.block.task == "magnitude" and (number := number_of(line)) is not None:
+                return number
+            self.say("Give " + (f"one of {', '.join(keys.values())}" if keys else "a number"))
+        return None
+
+    def _line(self, until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
+        while b"\n" not in self._held:
+            if (answer := hand()) is not None:
+                return answer
+            if time.monotonic() >= until:
+                return None
+            if select.select([self._source], [], [], 0.02)[0]:
+                read = os.read(self._source.fileno(), 4096)
+                if not read:
+                    raise Aborted("the input has ended")
+                self._held += read
+        line, self._held = self._held.split(b"\n", 1)
+        text = line.decode(errors="replace").strip()
+        if text == "stop":
+            raise Aborted("stopped at the terminal")
+        return text
+
+
+def number_of(text: str) -> Optional[float]:
+    """The finite number that a participant gives, from 0; None if it is none."""
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and value >= 0.0 else None

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: MIT
+"""Tables in files that other programs read: CSV and TSV, HDF5, MAT (version 5) and XDF."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import math
+import os
+import pathlib
+import struct
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from .._messages import fail
+from .._records import Records, names_of
+
+Column = Any   # an array of numbers, or a list of texts
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Table(Dict[str, Column]):
+    """Columns of one length by name: arrays of shape (n,), or lists of texts. units: SI units of columns. about: what else is known, for the sidecar.
+    rate_hz: of rows that are ticks, 0 otherwise."""
+
+    def __init__(self, columns: Mapping[str, Column], units: Optional[Mapping[str, str]] = None, about: Optional[Mapping[str, Any]] = None,
+                 rate_hz: float = 0.0):
+        super().__init__({name: values if isinstance(values, list) else np.asarray(values) for name, values in columns.items()})
+        self.units, self.about, self.rate_hz = dict(units or {}), dict(about or {}), rate_hz
+        lengths = {len(values) for values in self.values()}
+        if len(lengths) > 1:
+            fail("lab/shape", "columns", f"the columns have {sorted(lengths)} rows", "give columns of one length")
+
+    @property
+    def rows(self) -> int:
+        """The number of rows."""
+        return len(next(iter(self.values()), []))
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{escape(name)}{f' ({escape(self.units[name])})' if self.units.get(name, '1') not in ('', '1') else ''}</th>" for name in self)
+        body = "".join("<tr>" + "".join(f"<td>{escape(_shown(values[i]))}</td>" for values in self.values()) + "</tr>" for i in range(min(self.rows, 20)))
+        return f"<table><tr>{head}</tr>{body}</table><p>{self.rows} rows</p>"
+
+    def write(self, path: Path) -> None:
+        """Writes the table; the extension selects the format: .csv, .tsv, .h5, .mat or .xdf. Numbers keep all their bits. A .csv and a .tsv get a sidecar .json
+        with units; the others hold it. After a crash, either the old file or the new one exists."""
+        target = pathlib.Path(path)
+        kind = target.suffix.lower()
+        if kind not in _WRITERS:
+            fail("lab/format", str(path), f"the extension '{target.suffix}' is not known", f"use one of {', '.join(_WRITERS)}")
+        part = target.with_name(target.name + ".part")
+        try:
+            _WRITERS[kind](part, self)
+            if kind in (".csv", ".tsv"):
+                sidecar = target.with_suffix(".json")
+                beside = sidecar.with_name(sidecar.name + ".part")
+                beside.write_text(json.dumps(self.sidecar(), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+                os.replace(beside, sidecar)
+            os.replace(part, target)
+        finally:
+            part.unlink(missing_ok=True)
+
+    def sidecar(self) -> Dict[str, Any]:
+        """What is known about the table, as JSON."""
+        return {**({"SamplingFrequency": self.rate_hz} if self.rate_hz else {}), **self.about,
+                **{name: {"Units": self.units[name]} for name in self if self.units.get(name)}}
+
+
+def table_of(records: Records, about: Optional[Mapping[str, Any]] = None) -> Table:
+    """Records of a run as a table with one column for each component: "drag.force.x"."""
+    columns: Dict[str, Column] = {}
+    units: Dict[str, str] = {}
+    for port, values in records.items():
+        for i, name in enumerate(names_of(port, 1 if values.ndim == 1 else 3)):
+            columns[name] = values if values.ndim == 1 else values[:, i]
+            units[name] = records.units.get(port, "")
+    return Table(columns, units, about, records.rate_hz)
+
+
+def _is_text(values: Column) -> bool:
+    return isinstance(values, list) or np.asarray(values).dtype.kind in "OSU"
+
+
+def _shown(value: Any) -> str:
+    """A cell as BIDS has it: numbers as the shortest text that reads back as the same number."""
+    if value is None or (isinstance(value, (float, np.floating)) and math.isnan(value)):
+        return "n/a"
+    if isinstance(value, (np.generic,)):
+        value = value.item()
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def _write_text(path: pathlib.Path, table: Table, separator: str) -> None:
+    def cell(value: Any) -> str:
+        text = _shown(value)
+        if separator == "\t":
+            return " ".join(text.split()) if any(c in text for c in "\t\r\n") else text
+        return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\r\n') else text
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        file.write(separator.join(map(cell, table)) + "\n")
+        columns = list(table.values())
+        for i in range(table.rows):
+            file.write(separator.join(cell(values[i]) for values in columns) + "\n")
+
+
+def _write_hdf5(path: pathlib.Path, table: Table) -> None:
+    try:
+        h5py = importlib.import_module("h5py")
+    except ImportError as why:
+        fail("lab/no_h5py", str(path), f"h5py cannot be imported: {why}", "install it: on Debian, python3-h5py; or use .mat, .csv or .xdf")
+    with h5py.File(path, "w") as file:
+        file.attrs["about"] = json.dumps(table.sidecar(), ensure_ascii=False)
+        for name, values in table.items():
+            if _is_text(values):
+                made = file.create_dataset(name, data=[str(v) for v in values], dtype=h5py.string_dtype())
+            else:
+                made = file.create_dataset(name, data=np.asarray(values))
+            made.attrs["units"] = table.units.get(name, "")
+
+
+# ------------------------------------------------------------------------ MAT, version 5 (MathWorks, "MAT-File Format")
+
+def _element(kind: int, data: bytes) -> bytes:
+    return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
+
+
+def _matrix(name: str, mat_class: int, shape: Sequence[int], content: bytes) -> bytes:
+    head = _element(6, struct.pack("<II", mat_class, 0)) + _element(5, struct.pack(f"<{len(shape)}i", *shape)) + _element(1, name.encode())
+    return _element(14, head + content)
+
+
+def _characters(name: str, text: str) -> bytes:
+    data = text.encode("utf-16-le")
+    return _matrix(name, 4, (1 if data else 0, len(data) // 2), _element(17, data))
+
+
+def mat_name(name: str, taken: Sequence[str] = ()) -> str:
+    """A name of a variable that MATLAB and Octave take: letters, digits and _, at most 63."""
+    plain = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
+    plain = (plain if plain[:1].isalpha() else "x" + plain)[:59]
+    found, count = plain, 1
+    while found in taken:
+        count += 1
+        found = f"{plain}_{count}"
+    return found
+
+
+def _write_mat(path: pathlib.Path, table: Table) -> None:
+    names: List[str] = []
+    with open(path, "wb") as file:
+        file.write(b"MATLAB 5.0 MAT-file, written by tactus.lab".ljust(116) + b"\0" * 8 + struct.pack("<H", 0x0100) + b"IM")
+        for column, values in table.items():
+            names.append(mat_name(column, [*names, "about"]))
+            if _is_text(values):
+                file.write(_matrix(names[-1], 1, (table.rows, 1), b"".join(_characters("", str(v)) for v in values)))
+            else:
+                file.write(_matrix(names[-1], 6, (table.rows, 1), _element(9, np.asarray(values, "<f8").tobytes())))
+        file.write(_characters("about", json.dumps({**table.sidecar(), "columns": dict(zip(names, table))}, ensure_ascii=False)))
+
+
+# ------------------------------------------------------------------------ XDF (https://github.com/sccn/xdf, version 1.0)
+
+def _chunk(tag: int, content: bytes) -> bytes:
+    data = struct.pack("<H", tag) + content
+    return b"\x08" + struct.pack("<Q", len(data)) + data
+
+
+def _stream(number: int, name: str, kind: str, channels: Sequence[str], units: Sequence[str], rate: float, form: str,
+            times: Any, rows: bytes, about: str) -> bytes:
+    described = "".join(f"<channel><label>{escape(c)}</label><unit>{escape(u)}</unit></channel>" for c, u in zip(channels, units))
+    head = (f'<?xml version="1.0"?><info><name>{escape(name)}</name><type>{kind}</type><channel_count>{len(channels)}</channel_count>'
+            f"<nominal_srate>{rate!r}</nominal_srate><channel_format>{form}</channel_format><source_id>tactus</source_id><version>1.1</version>"
+            f"<desc><channels>{described}</channels><about>{escape(about)}</about></desc></info>")
+    first, last = (times[0], times[-1]) if len(times) else (0.0, 0.0)
+    foot = (f'<?xml version="1.0"?><info><first_timestamp>{float(first)!r}</first_timestamp>'
+            f'<last_timestamp>{float(last)!r}</last_timestamp><sample_count>{len(times)}</sample_count></info>')
+    number_of = struct.pack("<I", number)
+    return (_chunk(2, number_of + head.encode()) + (_chunk(3, number_of + b"\x08" + struct.pack("<Q", len(times)) + rows) if len(times) else b"")
+            + _chunk(6, number_of + foot.encode()))
+
+
+def _samples(times: Any, values: Any) -> bytes:
+    """Rows of doubles, each with its time."""
+    table = np.zeros(len(times), dtype=[("flag", "u1"), ("time", "<f8"), ("values", "<f8", (values.shape[1],))])
+    table["flag"], table["time"], table["values"] = 8, times, values
+    return table.tobytes()
+
+
+def _texts(times: Any, rows: Sequence[Sequence[str]]) -> bytes:
+    parts = []
+    for time, row in zip(times, rows):
+        parts.append(b"\x08" + struct.pack("<d", time))
+        for text in row:
+            data = text.encode()
+            parts.append(b"\x04" + struct.pack("<I", len(data)) + data)
+    return b"".join(parts)
+
+
+def _write_xdf(path: pathlib.Path, table: Table) -> None:
+    """One stream of numbers, and one of texts (marks) if there are any. The times are those of the column monotonic, t or onset, in s."""
+    clock = next((name for name in ("monotonic", "t", "onset") if name in table), None)
+    if clock is None:
+        fail("lab/no_times", str(path), "the table has no times", "give it a column 't', 'onset' or 'monotonic', in s")
+    times = np.asarray(table[clock], dtype=float)
+    numbers = [name for name in table if not _is_text(table[name])]
+    texts = [name for name in table if _is_text(table[name])]
+    about = json.dumps(table.sidecar(), ensure_ascii=False)
+    with open(path, "wb") as file:
+        file.write(b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'))
+        values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
+        file.write(_stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64",
+                           times, _samples(times, values), about))
+        if texts:
+            rows = [[str(table[name][i]) for name in texts] for i in range(table.rows)]
+            file.write(_stream(2, "tactus marks", "Markers", texts, [""] * len(texts), 0.0, "string", times, _texts(times, rows), about))
+
+
+_WRITERS = {".csv": lambda path, table: _write_text(path, table, ","), ".tsv": lambda path, table: _write_text(path, table, "\t"),
+            ".h5": _write_hdf5, ".mat": _write_mat, ".xdf": _write_xdf}

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""How often nominal 95 % intervals of tactus.lab hold the truth, over simulated experiments.
+
+    lab_coverage.py [--runs 2000] [--seed SEED] [METHOD...]
+
+Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials) or staircase (80 trials, 1 up, 2 down), logistic, normal or
+weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals held the true threshold (or d', or
+exponent), and the true width (or criterion). The truth of an interval is asked by the profile at the truth, which is the same question: the test lab_fit
+compares the two."""
+
+import argparse
+import math
+import secrets
+
+import numpy as np
+from tactus import lab
+from tactus.lab import _analysis
+from tactus.lab._draw import Draw
+from tactus.lab._procedures import StaircaseTrack
+
+DROP = 0.5 * 1.959963984540054 ** 2
+THRESHOLD, WIDTH = {"logistic": 10.0, "normal": 10.0, "weibull": 10.0}, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
+LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
+LAPSE = 0.02
+
+
+def holds(function, levels, yes, trials, guess):
+    """Whether the profile intervals hold the true threshold and the true width."""
+    x, k, n = _analysis._gathered(levels, yes, trials)
+    given = _analysis._Likelihood(function, x, k, n, guess, None)
+    best, log = given.climb(given.begin())
+    found = []
+    for index, truth in ((0, THRESHOLD[function]), (1, math.log(WIDTH[function]))):
+        found.append(max(given.profile(index, truth, start)[1] for start in (best, np.array([THRESHOLD[function], math.log(WIDTH[function]), LAPSE])))
+                     >= log - DROP)
+    return found
+
+
+def believes(function, levels, yes, trials, guess):
+    """Whether the intervals of the posterior hold the true threshold and the true width."""
+    given = _analysis._Likelihood(function, *_analysis._gathered(levels, yes, trials), guess, None)
+    return [low <= truth <= high for (low, _, high), truth in zip(given.posterior(0.95), (THRESHOLD[function], math.log(WIDTH[function])))]
+
+
+def constant(function, draw, guess=0.0):
+    chances = lab.probability(function, LEVELS, THRESHOLD[function], WIDTH[function], guess, LAPSE)
+    yes = np.array([sum(draw.uniform() < p for _ in range(40)) for p in chances])
+    return LEVELS, yes, np.full(7, 40), guess
+
+
+def staircase(function, draw):
+    track = StaircaseTrack(lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80))
+    levels, yes = [], []
+    while (level := track.level()) is not None:
+        right = draw.uniform() < float(lab.probability(function, level, THRESHOLD[function], WIDTH[function], 0.5, LAPSE))
+        track.answer(level, right)
+        levels.append(level)
+        yes.append(right)
+    return levels, yes, None, 0.5
+
+
+def run(method, draw):
+    if method == "detection":
+        d, c = 1.5, 0.3
+        rates = [float(lab.probability("normal", x, 0.0, 1.0)) for x in (0.5 * d - c, -0.5 * d - c)]
+        hits, alarms = (sum(draw.uniform() < rate for _ in range(100)) for rate in rates)
+        found = lab.detection(hits, 100, alarms, 100)
+        return [found.d_prime_interval.low <= d <= found.d_prime_interval.high, found.criterion_interval.low <= c <= found.criterion_interval.high]
+    if method == "power":
+        levels = np.repeat([1.0, 2.0, 4.0, 8.0, 16.0], 10)
+        answers = [5.0 * level ** 0.8 * math.exp(0.3 * draw.normal()) for level in levels]
+        low, high = lab.power_law(levels, answers).exponent_interval
+        return [low <= 0.8 <= high]
+    procedure, function, *how = method.split("/")
+    return (believes if how else holds)(function, *(constant if procedure == "constant" else staircase)(function, draw))
+
+
+METHODS = [f"{p}/{f}" for p in ("constant", "staircase") for f in ("logistic", "normal", "weibull")]
+METHODS += [f"{method}/posterior" for method in METHODS] + ["detection", "power"]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--runs", type=int, default=2000)
+    parser.add_argument("--seed", type=int)
+    parser.add_argument("methods", nargs="*", default=METHODS)
+    given = parser.parse_args()
+    seed = secrets.randbits(32) if given.seed is None else given.seed
+    for method in given.methods:
+        shares = np.mean([run(method, Draw(seed, method, i)) for i in range(given.runs)], axis=0)
+        print(f"{method}: " + ", ".join(f"{share:.1%}" for share in shares) + f" of {given.runs} runs, seed {seed}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

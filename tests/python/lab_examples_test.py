@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""The examples, the notebook and the experiments of the literature, with simulated observers."""
+
+import ast
+import contextlib
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from support import ROOT, TestCase
+from tactus import lab
+
+EXAMPLES = ROOT / "docs/examples/lab"
+NOTEBOOK = ROOT / "docs/tutorials/lab.ipynb"
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+except ImportError:
+    matplotlib = None
+
+
+def run_cell(source, names):
+    """What a cell prints, and then the value of its last expression, as Jupyter shows them."""
+    tree = ast.parse(source)
+    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        exec(compile(tree, "cell", "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
+            if value is not None:
+                said.write(repr(value))
+    return said.getvalue()
+
+
+class Literature(TestCase):
+    def run_one(self, name, observer):
+        protocol = lab.Protocol.load(EXAMPLES / f"{name}.json")
+        with tempfile.TemporaryDirectory() as out:
+            return lab.Experiment(protocol, out, window=lab.Simulated(observer), stage=lab.Silent()).run()
+
+    def test_the_stiffness_jnd(self):
+        data = self.run_one("stiffness", lab.Observer(threshold=500.0, width=105.0, lapse=0.01, seed=3))
+        fit = data.fit()
+        self.assertEqual(int(fit.trials.sum()), 280)
+        self.assertTrue(fit.threshold_interval.low < 500.0 < fit.threshold_interval.high, fit)
+        self.assertTrue(fit.width_interval.low < 105.0 < fit.width_interval.high, fit)
+        self.assertLess(abs(fit.jnd / 500.0 - 0.23), 0.07)   # ln (3) * 105 / 500
+
+    def test_the_magnitude_of_roughness(self):
+        law = self.run_one("roughness", lab.Observer(threshold=1.0, width=1.0, gain=40.0, exponent=0.6, noise=0.2, seed=3)).fit()
+        self.assertTrue(law.exponent_interval.low < 0.6 < law.exponent_interval.high, law)
+
+    def test_the_detection_of_a_grating(self):
+        data = self.run_one("grating", lab.Observer(threshold=0.02, width=0.004, seed=3))
+        fit = data.fit()
+        self.assertTrue(fit.threshold_interval.low < 0.02 < fit.threshold_interval.high, fit)
+        self.assertLess(abs(lab.mean_of_turns(data.turns()["graph/0"], ratio=True) - 0.0185), 0.006)
+
+
+class Examples(TestCase):
+    def test_they_have_forty_lines_at_most(self):
+        for path in EXAMPLES.glob("*.py"):
+            self.assertLessEqual(len(path.read_text(encoding="utf-8").splitlines()), 40, path.name)
+            ast.parse(path.read_text(encoding="utf-8"))
+
+    def run_script(self, name, *words):
+        return subprocess.run([sys.executable, "-B", str(EXAMPLES / name), *words], capture_output=True, text=True, check=True,
+                              env={**os.environ, "MPLBACKEND": "Agg"}).stdout
+
+    def test_the_staircase_finds_the_threshold(self):
+        with tempfile.TemporaryDirectory() as out:
+            said = self.run_script("staircase.py", *([out] if matplotlib else []))
+            low, high = (float(x.rstrip("),")) for x in said.split("95 % ")[1].split(",")[0].split(" to "))
+            self.assertTrue(low < 0.4 < high, said)
+            if matplotlib:
+                self.assertTrue((pathlib.Path(out) / "fit.svg").read_text(encoding="utf-8").startswith("<?xml"))
+
+    def test_the_participant_learns_the_wall_twice(self):
+        sys.path.insert(0, str(EXAMPLES))
+        import learns_a_wall
+        forces = learns_a_wall.learn()
+        self.assertTrue(forces[0] > 1.5 and abs(forces[5] - 1.0) < 0.05, forces)   # it overshoots, and learns
+        self.assertTrue(forces[6] > 1.5 and abs(forces[11] - 1.0) < 0.05, forces)  # a stiffer wall
+        self.assertIn("<td>12</td>", self.run_script("learns_a_wall.py"))
+
+
+@unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")
+class Notebook(TestCase):
+    def test_its_outputs_are_those_of_this_program(self):
+        cells = [cell for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
+        names, before = {}, os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                for cell in cells:
+                    stored = "".join(text for output in cell["outputs"] for text in output.get("text", output.get("data", {}).get("text/plain", [])))
+                    self.assertEqual(run_cell("".join(cell["source"]), names), stored, cell["id"])
+            finally:
+                os.chdir(before)
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--write"]:   # writes the outputs of this program into the notebook
+        notebook, known = json.loads(NOTEBOOK.read_text(encoding="utf-8")), {}
+        with tempfile.TemporaryDirectory() as place:
+            os.chdir(place)
+            for one in notebook["cells"]:
+                if one["cell_type"] == "code":
+                    shown = run_cell("".join(one["source"]), known)
+                    one["outputs"] = [{"name": "stdout", "output_type": "stream", "text": shown.splitlines(keepends=True)}] if shown else []
+            os.chdir("/")
+        NOTEBOOK.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    else:
+        unittest.main()

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: MIT
+"""The analysis of tactus.lab, against closed forms, scipy and brute force."""
+
+import importlib.util
+import math
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+import lab_coverage
+from support import TestCase
+from tactus import lab
+from tactus.lab import _analysis, _functions
+from tactus.lab._draw import Draw
+
+LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
+YES = np.array([1, 4, 11, 19, 30, 37, 39])
+
+
+class Functions(TestCase):
+    def test_the_normal_distribution_is_that_of_the_library(self):
+        z = np.concatenate([np.linspace(-9.0, 9.0, 4001), np.random.default_rng(1).normal(0, 3, 2000), [-40.0, 40.0]])
+        exact = np.array([0.5 * math.erfc(-v / math.sqrt(2.0)) for v in z])
+        self.assertLess(np.abs(_functions.phi(z) - exact).max(), 1e-13)
+
+    def test_values_at_the_threshold_and_far_away(self):
+        for function, at in (("logistic", 0.5), ("normal", 0.5), ("weibull", 1.0 - math.exp(-1.0))):
+            ends = lab.probability(function, [1e-9, 10.0, 1e9], 10.0, 2.0, 0.5, 0.02)
+            self.assertAlmostEqual(float(ends[1]), 0.5 + 0.48 * at, 12)
+            self.assertAlmostEqual(float(ends[2]), 0.98, 12)
+            if function == "weibull":
+                self.assertAlmostEqual(float(ends[0]), 0.5, 12)
+
+    def test_level_jnd_and_slope_follow_from_the_function(self):
+        for function in ("logistic", "normal", "weibull"):
+            fit = lab.psychometric(LEVELS, YES, np.full(7, 40), function=function, lapse=0.02)
+            self.assertAlmostEqual(float(fit(fit.level(0.7))), 0.7, 9)
+            self.assertTrue(math.isnan(fit.level(0.99)))
+            shares = _functions.core(function, [fit.level(0.98 * 0.5), fit.level(0.98 * 0.5) + fit.jnd], fit.threshold, fit.width)
+            self.assertTrue(np.allclose(shares, [0.5, 0.75], atol=1e-9), shares)
+            step = 1e-5
+            self.assertAlmostEqual(fit.slope, float(fit(fit.threshold + step) - fit(fit.threshold - step)) / (2 * step), 6)
+
+
+class Fits(TestCase):
+    def test_the_fit_is_the_most_likely_one(self):
+        """Against a search of scipy, where it is installed, and against its neighbours."""
+        for function in ("logistic", "normal", "weibull"):
+            for guess, lapse in ((0.0, 0.0), (0.0, None), (0.1, 0.03)):
+                fit = lab.psychometric(LEVELS, np.maximum(YES, 5 * (guess > 0)), np.full(7, 40), function=function, guess=guess, lapse=lapse)
+                given = _analysis._Likelihood(function, fit.levels, fit.yes, fit.trials, guess, lapse)
+                at = np.array([fit.threshold, math.log(fit.width), fit.lapse])
+                for step in np.random.default_rng(3).normal(0, 1e-3, (200, 3)):
+                    self.assertLessEqual(given.log(np.clip(at + step, given.low, given.high)), given.log(at) + 1e-9)
+                if importlib.util.find_spec("scipy"):
+                    from scipy.optimize import differential_evolution
+                    bounds = [(a, b) if b > a else (a, a + 1e-12) for a, b in zip(given.low, given.high)]
+                    best = differential_evolution(lambda x: -given.log(x), bounds, seed=1, tol=1e-10)
+                    self.assertLess(-best.fun - given.log(at), 1e-5, (function, guess, lapse))
+
+    def test_the_logistic_without_guess_and_lapse_has_the_closed_form_of_its_scores(self):
+        """At the maximum of a logistic regression, the sums of residuals, and of residuals times levels, are 0."""
+        fit = lab.psychometric(LEVELS, YES, np.full(7, 40), lapse=0.0)
+        residuals = YES - 40 * fit(LEVELS)
+        self.assertLess(abs(residuals.sum()), 1e-4)
+        self.assertLess(abs((residuals * LEVELS).sum()), 1e-3)
+        parts = [y * math.log(y / (40 * p)) + (40 - y) * math.log((40 - y) / (40 - 40 * p)) for y, p in zip(YES, fit(LEVELS))]
+        self.assertAlmostEqual(fit.deviance, 2 * sum(parts), 8)
+
+    def test_the_ends_of_an_interval_are_where_the_profile_has_fallen(self):
+        for function in ("logistic", "normal", "weibull"):
+            fit = lab.psychometric(LEVELS, YES, np.full(7, 40), function=function)
+            given = _analysis._Likelihood(function, fit.levels, fit.yes, fit.trials, 0.0, None)
+            best, log = given.climb(given.begin())
+            for index, interval in ((0, fit.threshold_interval), (1, [math.log(x) for x in fit.width_interval])):
+                for end in interval:
+                    self.assertAlmostEqual(log - given.profile(index, end, best)[1], lab_coverage.DROP, 2)
+                self.assertTrue(interval[0] < best[index] < interval[1])
+
+    def test_the_posterior_is_that_of_a_sum_over_many_points(self):
+        levels = np.repeat(LEVELS, 6)
+        yes = np.array([Draw(2, i).uniform() < p for i, p in enumerate(lab.probability("logistic", levels, 10.0, 1.0, 0.5, 0.02))], dtype=float)
+        fit = lab.psychometric(levels, yes, guess=0.5, method="posterior")
+        given = _analysis._Likelihood("logistic", *_analysis._gathered(levels, yes, None), 0.5, None)
+        t, w = np.linspace(given.low[0], given.high[0], 400), np.linspace(given.middle - 4, given.middle + 4, 120)
+        mass = np.array([[sum(math.exp(given.log(np.array([a, b, lapse])) + 20.0) for lapse in np.linspace(0.0, 0.06, 5))
+                          * math.exp(-0.5 * (b - given.middle) ** 2)
+                          for b in w] for a in t]).sum(axis=1)
+        below = (np.cumsum(mass) - 0.5 * mass) / mass.sum()
+        for end, share in ((fit.threshold_interval.low, 0.025), (fit.threshold, 0.5), (fit.threshold_interval.high, 0.975)):
+            self.assertLess(abs(np.interp(end, t, below) - share), 0.012, (end, share))
+
+    def test_data_that_do_not_bound_it_give_infinite_intervals(self):
+        flat = lab.psychometric([1, 2, 3, 4], [5, 5, 5, 5], [10] * 4)
+        self.assertTrue(math.isinf(flat.threshold_interval.low) or math.isinf(flat.threshold_interval.high), flat)
+        steep = lab.psychometric([1, 2, 3, 4], [0, 0, 10, 10], [10] * 4)
+        self.assertEqual(steep.width_interval.low, 0.0)
+        self.assertTrue(2.0 < steep.threshold < 3.0)
+
+    def test_wrong_data_are_errors(self):
+        for id, arguments, more in (("lab/shape", ([1, 2], [1]), {}), ("lab/data", ([1, 1], [0, 1]), {}), ("lab/value", ([1, 2], [0, 2]), {}),
+                                    ("lab/value", ([1, math.nan], [0, 1]), {}), ("lab/value", ([-1, 2], [0, 1]), {"function": "weibull"}),
+                                    ("lab/value", ([1, 2], [0, 1]), {"function": "cubic"}), ("argument/value", ([1, 2], [0, 1]), {"guess": 1.0})):
+            self.fails(id, lambda: lab.psychometric(*arguments, **more))
+
+    def test_intervals_hold_the_truth_about_as_often_as_they_say(self):
+        """A few runs with fixed seeds; lab_coverage.py makes the 2000 of docs/lab.md."""
+        for method, least in (("constant/logistic", 0.88), ("constant/normal", 0.88), ("constant/weibull", 0.88), ("staircase/logistic/posterior", 0.9),
+                              ("detection", 0.88), ("power", 0.88)):
+            shares = np.mean([lab_coverage.run(method, Draw(11, method, i)) for i in range(60)], axis=0)
+            self.assertTrue((shares >= least).all(), (method, shares))
+
+
+class Others(TestCase):
+    def test_d_prime_and_criterion_of_table_values(self):
+        found = lab.detection(69, 100, 31, 100)   # 2 z (0.6881)
+        self.assertAlmostEqual(found.d_prime, 0.9811, 3)
+        self.assertAlmostEqual(found.criterion, 0.0, 10)
+        self.assertTrue(math.isfinite(lab.detection(100, 100, 0, 100).d_prime))
+        self.assertAlmostEqual(lab.d_prime_of_two_intervals(76, 100), math.sqrt(2) * 0.6986, 2)
+        self.fails("argument/value", lab.detection, 11, 10, 0, 10)
+
+    def test_quantiles_of_student_are_those_of_the_tables(self):
+        for free, value in ((1, 12.7062), (2, 4.3027), (5, 2.5706), (30, 2.0423), (1000, 1.9623)):
+            self.assertAlmostEqual(_analysis.t_quantile(free), value, 3)
+
+    def test_a_power_law_without_noise_is_found(self):
+        law = lab.power_law([1.0, 2.0, 4.0, 8.0], [3.0 * x ** 0.7 for x in (1.0, 2.0, 4.0, 8.0)])
+        self.assertAlmostEqual(law.exponent, 0.7, 12)
+        self.assertAlmostEqual(law.gain, 3.0, 12)
+        self.fails("lab/data", lab.power_law, [1, 2, 3], [1, 0, 2])
+
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
+    def test_plots_are_the_same_bytes_each_time(self):
+        fit = lab.psychometric(LEVELS, YES, np.full(7, 40), unit="N/m")
+        with tempfile.TemporaryDirectory() as folder:
+            for end, head in (("svg", b"<?xml"), ("pdf", b"%PDF")):
+                written = []
+                for i in range(2):
+                    path = pathlib.Path(folder) / f"{i}.{end}"
+                    lab.save_plot(fit.plot(), path)
+                    written.append(path.read_bytes())
+                self.assertTrue(written[0].startswith(head) and written[0] == written[1])
+        ax = lab.plot_staircase([3.0, 2.0, 1.0, 2.0], [1, 1, 0, 1], unit="N")
+        self.same_bits(ax.get_lines()[0].get_ydata(), [3.0, 2.0, 1.0, 2.0])
+        self.assertIn("threshold", fit._repr_html_())
+
+
+if __name__ == "__main__":
+    unittest.main()

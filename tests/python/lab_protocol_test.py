@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: MIT
+"""Protocols of tactus.lab, the order of their trials, and their procedures."""
+
+import collections
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+import tactus
+from support import TestCase
+from tactus import lab
+from tactus.lab._draw import Draw, latin_square
+from tactus.lab._procedures import PsiTrack, StaircaseTrack
+
+
+def block(name="main", task="2ifc", procedure=None, **more):
+    return lab.Block(name=name, task=task, procedure=procedure or lab.Constant(levels=(1.0, 2.0, 3.0), repeats=4),
+                     varies=lab.Varies(target="x", unit="N"), **more)
+
+
+def protocol(*blocks, **more):
+    return lab.Protocol(name="tried", blocks=list(blocks) or [block()], **more)
+
+
+def trials_of(plan, answer):
+    """Goes through a plan, with the answers of a function."""
+    found = []
+    while (step := plan.step) is not None:
+        if isinstance(step, lab.Trial):
+            found.append(step)
+            plan.answer(answer(step))
+        else:
+            plan.answer()
+    return found
+
+
+class Files(TestCase):
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+
+    def load(self, data):
+        (self.folder / "p.json").write_text(json.dumps(data), encoding="utf-8")
+        return lab.Protocol.load(self.folder / "p.json")
+
+    def data(self):
+        return json.loads(protocol(block(procedure=lab.Staircase(start=2.0, high=5.0))).text())
+
+    def test_a_file_and_python_say_the_same(self):
+        made = protocol(block("a", conditions=["rough"]), block("b", "yes_no", lab.Staircase(start=2.0, high=5.0), catch=0.2),
+                        block("c", procedure=lab.Psi(levels=(1.0, 2.0), widths=(0.5, 1.0))),
+                        conditions=[lab.Condition(name="rough", controls={"roughness": 0.5})],
+                        seed=7, order="latin_square", triggers=lab.Triggers(port="/dev/null"), hand={"yes": lab.HandAnswer(port="hand.x", above=0.1)})
+        made.save(self.folder / "p.json")
+        read = lab.Protocol.load(self.folder / "p.json")
+        self.assertEqual(read, made)
+        self.assertEqual(read.hash(), made.hash())
+
+    def test_each_mistake_names_its_place_and_the_remedy(self):
+        def with_change(change):
+            data = self.data()
+            change(data)
+            return data
+        cases = [("lab/unknown_key", "/seeed", lambda d: d.update(seeed=1)), ("lab/missing", "/", lambda d: d.pop("name")),
+                 ("lab/type", "/blocks/0/task", lambda d: d["blocks"][0].update(task="4afc")),
+                 ("lab/type", "/blocks/0/procedure", lambda d: d["blocks"][0]["procedure"].update(kind="quest")),
+                 ("lab/value", "/blocks/0/procedure/down", lambda d: d["blocks"][0]["procedure"].update(down=0)),
+                 ("lab/type", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start="1")),
+                 ("lab/type", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start=math.nan)),
+                 ("lab/type", "/blocks/0/practice", lambda d: d["blocks"][0].update(practice=1.5)),
+                 ("lab/type", "/blocks/0/practice", lambda d: d["blocks"][0].update(practice=True)),
+                 ("lab/value", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start=9.0)),
+                 ("lab/type", "/blocks", lambda d: d.update(blocks=[])), ("lab/value", "/name", lambda d: d.update(name="a/b")),
+                 ("lab/value", "/blocks/0/conditions", lambda d: d["blocks"][0].update(conditions=["none"])),
+                 ("lab/value", "/hand/maybe", lambda d: d.update(hand={"maybe": {"port": "a.b", "above": 1}})),
+                 ("lab/value", "/triggers/codes/trial", lambda d: d.update(triggers={"port": "x", "codes": {"trial": 256}})),
+                 ("lab/value", "/blocks/0/procedure", lambda d: d["blocks"][0].update(task="magnitude"))]
+        for id, where, change in cases:
+            with self.subTest(id + where):
+                self.assertEqual(self.fails(id, self.load, with_change(change)).where, where)
+        for text in ("", "[1]", "{", '{"format": 3}', "[" * 100000):
+            (self.folder / "p.json").write_text(text, encoding="utf-8")
+            with self.assertRaises(tactus.Error):
+                lab.Protocol.load(self.folder / "p.json")
+
+    def test_levels_must_fit_the_graph(self):
+        data = {"name": "wood", "graph": "dry_wood", "blocks": [{"name": "a", "task": "greater", "varies": {"target": "roughness"},
+                                                               "procedure": {"kind": "constant", "levels": [0.2, 0.9]}}]}
+        self.assertEqual(self.load(data).graph_of(lab.Condition(name="a")).name, "Dry wood")
+        data["blocks"][0]["procedure"]["levels"] = [0.2, 1.5]
+        self.fails("lab/value", self.load, data)
+        data["blocks"][0]["varies"]["target"] = "no_such_control"
+        self.fails("lab/value", self.load, data)
+        data["blocks"][0]["varies"]["target"] = "drag.nothing"
+        self.fails("param/unknown", self.load, data)
+
+    def test_the_schema_has_every_field_with_its_meaning(self):
+        schema = lab.schema()
+        self.assertEqual(set(schema["properties"]), {f for f in lab.Protocol.__dataclass_fields__})
+        blocks = schema["properties"]["blocks"]["items"]
+        kinds = [option["properties"]["kind"]["enum"] for option in blocks["properties"]["procedure"]["oneOf"]]
+        self.assertEqual(kinds, [["constant"], ["staircase"], ["psi"]])
+        for part in (schema, blocks, *blocks["properties"]["procedure"]["oneOf"]):
+            for name, field in part["properties"].items():
+                self.assertTrue(field.get("description") or "oneOf" in field, name)
+            self.assertFalse(part["additionalProperties"])
+
+    def test_a_snapshot_gives_values_and_the_condition_overrides_them(self):
+        (self.folder / "s.json").write_text('{"set": {"drag.mu": 0.2}, "controls": {"roughness": 0.1}}', encoding="utf-8")
+        made = protocol(folder=str(self.folder))
+        values = made.values_of(lab.Condition(name="a", snapshot="s.json", controls={"roughness": 0.7}))
+        self.assertEqual(values, ({"drag.mu": 0.2}, {"roughness": 0.7}))
+
+
+class Order(TestCase):
+    def test_it_follows_from_the_seed_and_the_participant(self):
+        def order(seed, participant):
+            return [(t.level, t.expected) for t in trials_of(lab.Plan(protocol(seed=seed), participant), lambda t: "first")]
+        self.assertEqual(order(1, "01"), order(1, "01"))
+        self.assertNotEqual(order(1, "01"), order(2, "01"))
+        self.assertNotEqual(order(1, "01"), order(1, "02"))
+
+    def test_the_draws_are_those_of_every_version(self):
+        self.assertEqual(Draw(1, "01", "main").order(range(8)), [0, 6, 5, 4, 1, 7, 3, 2])
+        z = [Draw(9, i).normal() for i in range(4000)]
+        self.assertLess(abs(np.mean(z)), 4.0 / math.sqrt(4000))
+        self.assertLess(abs(np.std(z) - 1.0), 0.05)
+
+    def test_constant_stimuli_come_equally_often_in_rounds_and_the_position_of_the_comparison_varies(self):
+        made = protocol(block(conditions=["a", "b"], procedure=lab.Constant(levels=(1.0, 2.0, 3.0), repeats=20)),
+                        conditions=[lab.Condition(name="a"), lab.Condition(name="b")])
+        trials = trials_of(lab.Plan(made), lambda t: "first")
+        self.assertEqual(set(collections.Counter((t.condition, t.level) for t in trials).values()), {20})
+        of_a = [t.level for t in trials if t.condition == "a"]
+        self.assertTrue(all(sorted(of_a[i:i + 3]) == [1.0, 2.0, 3.0] for i in range(0, 60, 3)))
+        firsts = sum(t.expected == "first" for t in trials)
+        self.assertTrue(40 < firsts < 80, firsts)
+        self.assertEqual({t.expected: t.intervals[0].level == t.level for t in trials}, {"first": True, "second": False})
+
+    def test_practice_catch_trials_breaks_and_missed_trials(self):
+        made = protocol(block(practice=3, catch=0.25, break_every=6, instructions="read this", procedure=lab.Constant(levels=(1.0, 2.0), repeats=30)),
+                        instructions="welcome")
+        plan, texts, trials, missed = lab.Plan(made), [], [], 0
+        while (step := plan.step) is not None:
+            if isinstance(step, lab.Text):
+                texts.append(step.text)
+                plan.answer()
+                continue
+            trials.append(step)
+            answer = None if step.number % 7 == 0 else step.expected
+            missed += answer is None and step.kind == "main"
+            plan.answer(answer)
+        self.assertEqual(texts[:3], ["welcome", "read this", "The practice is over."])
+        self.assertGreaterEqual(texts.count("Take a break."), 9)
+        self.assertEqual([t.kind for t in trials[:3]], ["practice"] * 3)
+        counts = collections.Counter(t.kind for t in trials)
+        self.assertEqual(counts["main"], 60 + missed)   # a missed trial comes again
+        self.assertTrue(0.1 < counts["catch"] / (counts["catch"] + counts["main"]) < 0.4, counts)
+        self.assertEqual({t.level for t in trials if t.kind == "catch"}, {0.0})
+
+    def test_abx_and_match_have_their_intervals(self):
+        for t in trials_of(lab.Plan(protocol(block(task="abx"))), lambda t: "a"):
+            self.assertEqual(t.intervals[2].level, t.intervals["ab".index(t.expected)].level)
+        for t in trials_of(lab.Plan(protocol(block(task="match", step=0.1))), lambda t: 2.0):
+            self.assertEqual([i.label for i in t.intervals], ["standard", "yours"])
+
+    def test_a_latin_square_is_balanced(self):
+        for n in (2, 3, 4, 5, 6):
+            rows = [latin_square(n, i) for i in range(n if n % 2 == 0 else 2 * n)]
+            for place in range(n):
+                self.assertEqual(set(collections.Counter(row[place] for row in rows).values()), {len(rows) // n})
+            follows = collections.Counter((row[i], row[i + 1]) for row in rows for i in range(n - 1))
+            self.assertEqual((len(follows), len(set(follows.values()))), (n * (n - 1), 1))
+        made = protocol(block("a"), block("b"), order="latin_square")
+        firsts = [trials_of(lab.Plan(made, participant), lambda t: "first")[0].block.name for participant in ("01", "02", "03")]
+        self.assertEqual(firsts, ["a", "b", "a"])
+
+
+class Procedures(TestCase):
+    def run_track(self, track, chance, seed=1):
+        draw, levels = Draw(seed, "answers"), []
+        while (level := track.level()) is not None:
+            levels.append(level)
+            track.answer(level, float(draw.uniform() < chance(level)))
+        return levels
+
+    def test_a_staircase_steps_as_its_rule_says(self):
+        track = StaircaseTrack(lab.Staircase(start=10.0, steps=(4.0, 2.0, 1.0), low=0.0, trials=12))
+        levels = []
+        for outcome in (1, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1):
+            levels.append(track.level())
+            track.answer(track.level(), float(outcome))
+        self.assertEqual(levels, [10, 10, 6, 6, 2, 4, 4, 3, 4, 4, 3, 3])
+        self.assertEqual(track.turns, [2, 4, 3, 4])
+        self.assertIsNone(track.level())
+        weighted = StaircaseTrack(lab.Staircase(start=10.0, steps=(1.0,), down=1, up_factor=3.0))
+        weighted.answer(10.0, 0.0)
+        self.assertEqual(weighted.level(), 13.0)
+        ratio = StaircaseTrack(lab.Staircase(start=8.0, steps=(2.0,), down=1, scale="ratio", reversals=2))
+        for outcome, after in ((1, 4.0), (1, 2.0), (0, 4.0), (1, None)):
+            ratio.answer(ratio.level(), float(outcome))
+            self.assertEqual(ratio.level(), after)
+
+    def test_staircases_converge_where_they_should(self):
+        """1 up 1 down at 50 %, 2 down at 70.7 %, weighted 3:1 at 75 % (Levitt 1971, Kaernbach 1991)."""
+        for rule, aim in (({"down": 1}, 0.5), ({"down": 2}, math.sqrt(0.5)), ({"down": 1, "up_factor": 3.0}, 0.75)):
+            track = StaircaseTrack(lab.Staircase(start=3.0, steps=(0.5, 0.1), low=-100.0, trials=4000, **rule))
+            levels = self.run_track(track, lambda x: 1.0 / (1.0 + math.exp(-x)))
+            there = 1.0 / (1.0 + math.exp(-np.mean(levels[100:])))
+            self.assertLess(abs(there - aim), 0.02, rule)
+
+    def test_the_psi_method_finds_the_threshold_and_asks_near_it(self):
+        given = lab.Psi(levels=tuple(np.linspace(1.0, 10.0, 19)), widths=(0.25, 0.5, 1.0, 2.0), lapses=(0.0, 0.02, 0.05), trials=150)
+        track = PsiTrack(given)
+        levels = self.run_track(track, lambda x: float(lab.probability("logistic", x, 4.0, 0.5, 0.5, 0.02)))
+        found = track.estimate()
+        self.assertLess(abs(found["threshold"] - 4.0), 3.0 * found["threshold_sd"] + 0.1)
+        self.assertLess(found["threshold_sd"], 0.6)
+        self.assertLess(np.median(np.abs(np.array(levels) - 4.0)), 1.6)
+        self.assertAlmostEqual(float(track.posterior.sum()), 1.0, 12)
+
+    def test_the_next_level_of_psi_is_that_of_the_least_expected_entropy(self):
+        """Written again, with loops over answers and hypotheses."""
+        given = lab.Psi(levels=(1.0, 2.0, 4.0), thresholds=(1.0, 3.0), widths=(0.5, 1.0), lapses=(0.0, 0.04), trials=9)
+        track = PsiTrack(given)
+        hypotheses = [(t, w, lapse) for t in given.thresholds for w in given.widths for lapse in given.lapses]
+        belief = {h: 1.0 / len(hypotheses) for h in hypotheses}
+        for outcome in (1.0, 0.0, 1.0, 1.0, 0.0):
+            def chance(x, h):
+                return 0.5 + (0.5 - h[2]) / (1.0 + math.exp(-(x - h[0]) / h[1]))
+            expected = []
+            for x in given.levels:
+                total = 0.0
+                for right in (True, False):
+                    joint = [belief[h] * (chance(x, h) if right else 1.0 - chance(x, h)) for h in hypotheses]
+                    total -= sum(j * math.log(j / sum(joint)) for j in joint if j > 0.0)
+                expected.append(total)
+            level = track.level()
+            self.assertAlmostEqual(expected[given.levels.index(level)], min(expected), 9)
+            track.answer(level, outcome)
+            belief = {h: b * (chance(level, h) if outcome else 1.0 - chance(level, h)) for h, b in belief.items()}
+            belief = {h: b / sum(belief.values()) for h, b in belief.items()}
+
+    def test_the_mean_of_reversals(self):
+        self.assertEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 3.0, 2.0]), 2.5)
+        self.assertAlmostEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 4.0], ratio=True), 2.0)
+        self.assertTrue(math.isnan(lab.mean_of_turns([1.0])))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: MIT
+"""Sessions of tactus.lab: their journals, and how they go on after a crash; marks; windows; the commands."""
+
+import dataclasses
+import io
+import json
+import math
+import os
+import pathlib
+import pty
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import tty
+import unittest
+import urllib.error
+import urllib.request
+
+import numpy as np
+import tactus
+from lab_protocol_test import block, protocol
+from support import PROGRAM, ROOT, TestCase
+from tactus import lab
+from tactus.lab import _marks
+from waiting import eventually
+
+OBSERVER = lab.Observer(threshold=2.0, width=0.3)
+
+DIES = """
+import os, signal, sys
+from tactus import lab
+out, resume, dies, torn = sys.argv[1], sys.argv[2] == "1", int(sys.argv[3]), sys.argv[4] == "1"
+class Dying(lab.Simulated):
+    asked = 0
+    def ask(self, trial, level, keys, limit, hand):
+        Dying.asked += 1
+        if Dying.asked == dies:
+            if torn:   # as if the power had failed in the middle of a line
+                os.write(experiment._journal._file.fileno(), b'{"event": "trial", "numb')
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().ask(trial, level, keys, limit, hand)
+experiment = lab.Experiment(lab.Protocol.load(out + "/p.json"), out, window=Dying(lab.Observer(threshold=2.0, width=0.3)), resume=resume)
+experiment.run()
+"""
+
+
+class Case(TestCase):
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.out = pathlib.Path(made.name)
+
+    def run_session(self, made, window=None, **more):
+        return lab.Experiment(made, self.out, window=window or lab.Simulated(OBSERVER), **more).run()
+
+    def answers(self, data):
+        return list(zip(*(list(data.trials[key]) for key in ("number", "kind", "condition", "level", "intervals", "answer"))))
+
+
+class Sessions(Case):
+    made = protocol(block(procedure=lab.Staircase(start=4.0, steps=(1.0, 0.5), trials=30, tracks=2), practice=2, catch=0.1, break_every=10,
+                          instructions="feel it"))
+
+    def test_nothing_is_lost_and_the_order_stays_after_three_kills(self):
+        self.made.save(self.out / "p.json")
+        for resume, dies, torn in ((0, 9, 0), (1, 14, 1), (1, 1, 1)):
+            done = subprocess.run([sys.executable, "-B", "-c", DIES, str(self.out), str(resume), str(dies), str(torn)], check=False, capture_output=True)
+            self.assertEqual(done.returncode, -signal.SIGKILL, done.stderr.decode())
+        folder = self.out / "sub-01/ses-01/beh"
+        before = next(folder.glob("*journal.jsonl")).read_bytes()
+        self.assertEqual(lab.load(folder).trials.rows, 8 + 13)
+        resumed = self.run_session(lab.Protocol.load(self.out / "p.json"), resume=True)
+        self.assertTrue(next(folder.glob("*journal.jsonl")).read_bytes().startswith(before))   # append-only
+        with tempfile.TemporaryDirectory() as other:
+            whole = lab.Experiment(self.made, other, window=lab.Simulated(OBSERVER)).run()
+        self.assertEqual(self.answers(resumed), self.answers(whole))
+        self.assertTrue(resumed.is_complete)
+        self.assertEqual([resumed.turns(), [e for e in resumed.events["trial_type"]].count("run")], [whole.turns(), 4])
+
+    def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol(self):
+        class Leaves(lab.Simulated):
+            def ask(self, trial, *rest):
+                if trial.number == 5:
+                    raise lab.Aborted("enough")
+                return super().ask(trial, *rest)
+        data = self.run_session(self.made, Leaves(OBSERVER))
+        self.assertEqual((data.trials.rows, data.is_complete), (4, False))
+        self.fails("lab/exists", self.run_session, self.made)
+        self.fails("lab/protocol", self.run_session, protocol(block()), resume=True)
+        self.assertTrue(self.run_session(self.made, resume=True).is_complete)
+        self.fails("lab/exists", self.run_session, self.made, resume=True)
+        self.fails("lab/value", self.run_session, self.made, participant="../x")
+
+    def test_one_process_at_a_time(self):
+        held = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))
+        self.fails("lab/busy", lab.Experiment, self.made, self.out, window=lab.Simulated(OBSERVER), resume=True)
+        held.run()
+
+    def test_a_changed_line_is_an_error_not_a_loss(self):
+        self.run_session(self.made)
+        path = next(self.out.rglob("*journal.jsonl"))
+        lines = path.read_bytes().split(b"\n")
+        for change in (lambda: lines[:9] + [lines[9][:20]] + lines[10:], lambda: [b"{}"] + lines[1:], lambda: [b"\xff"]):
+            path.write_bytes(b"\n".join(change()))
+            self.fails("lab/journal", lab.load, path.parent)
+
+    def test_adjusting_matching_and_magnitudes(self):
+        observer = lab.Observer(threshold=2.0, width=0.0, gain=3.0, exponent=0.5, noise=0.05)
+        made = protocol(block("set", "adjust", lab.Constant(levels=(1.0, 3.0), repeats=2), step=0.25),
+                        block("like", "match", lab.Constant(levels=(0.5,), repeats=2), step=0.5),
+                        block("how", "magnitude", lab.Constant(levels=(1.0, 4.0, 16.0), repeats=6)))
+        data = self.run_session(made, lab.Simulated(observer))
+        self.assertEqual(list(data.chosen("set")["outcomes"]), [2.0] * 4)
+        self.assertEqual(list(data.chosen("like")["outcomes"]), [2.0] * 2)
+        law = data.fit("how")
+        self.assertTrue(law.exponent_interval.low < 0.5 < law.exponent_interval.high and abs(law.gain - 3.0) < 0.3, law)
+        self.fails("lab/data", data.fit, "set")
+        self.fails("lab/unknown", data.fit, "none")
+
+    def test_detection_uses_catch_trials_as_noise(self):
+        data = self.run_session(protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=200), catch=0.5)),
+                                lab.Simulated(lab.Observer(threshold=1.0, width=1.0, function="normal")))
+        found = data.detection()
+        self.assertTrue(found.d_prime_interval.low < 2.0 < found.d_prime_interval.high, found)   # z (Phi (1)) - z (Phi (-1))
+        self.assertTrue(found.criterion_interval.low < 0.0 < found.criterion_interval.high, found)
+
+    def test_tables_have_times_and_what_others_must_know(self):
+        data = self.run_session(self.made)
+        names = sorted(p.name for p in data.folder.iterdir())
+        stem = "sub-01_ses-01_task-tried"
+        self.assertEqual(names, sorted(f"{stem}_{end}" for end in ("beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json")))
+        self.assertTrue((self.out / "dataset_description.json").exists())
+        about = json.loads((data.folder / f"{stem}_events.json").read_text())
+        self.assertEqual((about["seed"], about["onset"]["Units"], about["protocol_sha256"]), (1, "s", self.made.hash()))
+        self.assertLessEqual({"tactus", "python", "numpy"}, set(about["versions"]))
+        onset = np.asarray(data.events["onset"])
+        self.assertTrue((np.diff(onset) >= 0.0).all() and onset[0] >= 0.0)
+        self.same_bits(np.asarray(data.events["wall"]) > 1.7e9, np.ones(data.events.rows))
+
+
+class Marks(Case):
+    def test_marks_and_answers_come_by_osc_and_wrong_packets_do_nothing(self):
+        receiver = lab.Receiver(0)
+        self.addCleanup(receiver.close)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+            for packet in (b"x", b"/tactus/mark\0\0\0\0,q\0\0", b"/tactus/mark\0\0\0\0,s\0\0", b"#bundle\0" + b"\0" * 12, b"\xff" * 64,
+                           _marks.osc("/tactus/other", "a")):
+                other.sendto(packet, ("127.0.0.1", receiver.port))
+        self.assertTrue(lab.mark("blink", "left", receiver.port))
+
+        class Sends(lab.Simulated):
+            def ask(self, trial, level, keys, limit, hand):
+                if trial.number == 2:
+                    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+                        own.sendto(_marks.osc("/tactus/answer", "second"), ("127.0.0.1", receiver.port))
+                    found = []
+                    assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
+                    return found[0]
+                return super().ask(trial, level, keys, limit, hand)
+        data = self.run_session(protocol(), Sends(OBSERVER), receiver=receiver)
+        row = list(data.events["trial_type"]).index("blink")
+        self.assertEqual(data.events["value"][row], "left")
+        self.assertEqual(data.trials["answer"][1], "second")
+        self.assertFalse(lab.mark("nobody", port=1, wait=0.05))
+
+    def test_osc_messages_read_back(self):
+        self.assertEqual(_marks.read_osc(_marks.osc("/a", "text", 3, 0.5)), ("/a", ["text", 3, 0.5]))
+
+    def test_triggers_are_bytes_on_a_serial_line(self):
+        ours, theirs = pty.openpty()
+        self.addCleanup(os.close, ours)
+        self.addCleanup(os.close, theirs)
+        tty.setraw(ours)
+        made = protocol(block(procedure=lab.Constant(levels=(1.0,), repeats=3)),
+                        triggers=lab.Triggers(port=os.ttyname(theirs), codes={"trial": 1, "stimulus": 2, "answer": 255}))
+        data = self.run_session(made)
+        self.assertEqual(os.read(ours, 100), b"\x01\x02\x02\xff" * 3)
+        self.assertEqual([code for code in data.events["code"] if not math.isnan(code)], [1, 2, 2, 255] * 3)
+        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/no/such/line")), self.out, "02", window=lab.Simulated(OBSERVER))
+
+
+class Windows(Case):
+    def test_lines_at_a_terminal_are_answers(self):
+        read, write = os.pipe()
+        said = io.StringIO()
+        with os.fdopen(read) as source:
+            os.write(write, b"\n5\n1\nsecond\nstop\n")
+            data = self.run_session(protocol(instructions="welcome"), lab.Terminal(source, said))
+            os.close(write)
+        self.assertEqual((data.trials["answer"], data.is_complete), (["first", "second"], False))
+        self.assertIn("welcome", said.getvalue())
+        self.assertIn("Give one of 1, 2", said.getvalue())
+
+    def test_a_time_limit_ends_a_question(self):
+        read, write = os.pipe()
+        with os.fdopen(read) as source:
+            terminal = lab.Terminal(source, io.StringIO())
+            trial = next(t for t in [lab.Plan(protocol()).step])
+            self.assertIsNone(terminal.ask(trial, 1.0, {"first": "1"}, 0.001, lambda: None))
+            self.assertEqual(terminal.ask(trial, 1.0, {"first": "1"}, 0.0, lambda: "first"), "first")
+            os.close(write)
+            with self.assertRaises(lab.Aborted):
+                terminal.ask(trial, 1.0, {"first": "1"}, 0.0, lambda: None)
+
+    def get(self, address, data=None, host=None):
+        request = urllib.request.Request(address, data=data, headers={"Host": host} if host else {})
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.read().decode()
+
+    def test_a_participant_answers_in_a_browser_and_the_experimenter_sees_it(self):
+        browser = lab.Browser()
+        self.addCleanup(browser.end)
+        found = []
+        made = protocol(block("a", procedure=lab.Constant(levels=(1.0, 3.0), repeats=2), instructions="press a key"),
+                        block("b", "magnitude", lab.Constant(levels=(2.0,), repeats=1)))
+        thread = threading.Thread(target=lambda: found.append(self.run_session(made, browser)))
+        thread.start()
+        asked = []
+        def answer():
+            state = json.loads(self.get(browser.participant + "state"))
+            if "id" in state and state["id"] not in asked:
+                asked.append(state["id"])
+                for key in ("q", "3.5" if state["number"] else " " if state["keys"] == {"go on": " "} else "Pad1" if len(asked) == 3 else "2"):
+                    self.get(browser.participant + "answer", json.dumps({"id": state["id"], "key": key}).encode())
+            return not thread.is_alive()
+        self.assertTrue(eventually(answer))
+        thread.join()
+        self.assertEqual(found[0].trials["answer"], ["second"] * 4 + ["3.5"])
+        report = json.loads(self.get(browser.participant + "report"))
+        self.assertTrue(report["over"])
+        self.assertEqual((report["report"]["block"], report["report"]["done"]), ("b", 4))
+        self.assertIn("STOP", self.get(browser.experimenter))
+        self.assertIn("fetch(\"state\")", self.get(browser.participant))
+
+    def test_stop_aborts_and_strangers_see_nothing(self):
+        browser = lab.Browser()
+        self.addCleanup(browser.end)
+        stopped = []
+        experiment = lab.Experiment(protocol(), self.out, window=browser)
+        browser.stop = lambda: stopped.append(1)
+        top = browser.participant.rsplit("/", 2)[0]
+        for address, host in ((top + "/", None), (top + "/wrong/", None), (top + "/wrong/state", None), (browser.participant, "evil.example"),
+                              (browser.participant + "x", None)):
+            with self.assertRaises(urllib.error.HTTPError) as caught:
+                self.get(address, host=host)
+            self.assertEqual(caught.exception.code, 404)
+        for body in (b"", b"[]", b'{"id": "x", "key": 1}', b"\xff"):
+            with self.assertRaises(urllib.error.HTTPError):
+                self.get(browser.participant + "answer", body)
+        self.get(browser.participant + "stop", b"")
+        self.assertFalse(experiment.run().is_complete)
+        self.assertEqual(stopped, [1])
+
+
+class OnDevices(Case):
+    """A simulated hand strokes a preset. The first two marks come before the graph plays."""
+
+    made = lab.Protocol(name="wood", graph="dry_wood", devices={"stylus": "gesture:circle"}, conditions=[lab.Condition(name="dry")], blocks=[
+            lab.Block(name="a", task="2ifc", procedure=lab.Staircase(start=0.9, steps=(0.2,), low=0.0, high=1.0, trials=3),
+                      varies=lab.Varies(target="roughness", standard=0.1, rest=0.0), interval=0.02, gap=0.01)])
+
+    def test_a_session_plays_marks_ticks_and_its_log_replays(self):
+        stage = lab.Live(self.made, str(self.out / "log.jsonl"), "off")
+        data = self.run_session(self.made, stage=stage)
+        self.assertTrue(data.is_complete)
+        ticks = np.asarray(data.events["tick"], dtype=float)[2:]
+        self.assertTrue((np.diff(ticks) >= 0.0).all() and ticks[-1] > ticks[0], ticks)
+        self.assertEqual(set(data.header["graphs"]), {"dry"})
+        lines = [json.loads(line) for line in (self.out / "log.jsonl").read_text().splitlines()]
+        clocks = lines[1]["clocks"]
+        events = np.stack([np.asarray(data.events[key], dtype=float)[2:] for key in ("wall", "monotonic")])
+        self.assertTrue((events[0] >= clocks["wall"] - 1.0).all() and (events[1] >= clocks["monotonic"]).all())
+        turned = [line["turn"] for line in lines[1:] if "turn" in line]
+        self.assertGreaterEqual(len(turned), 6)   # each interval and each rest
+        if PROGRAM:
+            replayed = subprocess.run([PROGRAM, "render", "--replay", str(self.out / "log.jsonl"), "--out", str(self.out / "r.csv")],
+                                      capture_output=True, text=True)
+            self.assertEqual(replayed.returncode, 0, replayed.stderr)
+
+    def test_an_emergency_stop_ends_the_session_which_can_be_resumed(self):
+        class Stops(lab.Simulated):
+            def ask(self, trial, *rest):
+                if trial.number == 2:
+                    self.stop()
+                return super().ask(trial, *rest)
+        self.fails("lab/stopped", self.run_session, self.made, Stops(lab.Observer(threshold=0.3, width=0.1)), stage=lab.Live(self.made, None, "off"))
+        data = self.run_session(self.made, stage=lab.Live(self.made, None, "off"), resume=True)
+        self.assertTrue(data.is_complete)
+        self.assertEqual(data.trials.rows, 3)
+
+    def test_the_hand_itself_answers(self):
+        made = dataclasses.replace(self.made, hand={"first": lab.HandAnswer(port="motor.force.x", above=-1e9)})
+
+        class Waits(lab.Window):
+            def ask(self, trial, level, keys, limit, hand):
+                found = []
+                assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
+                return found[0]
+        data = self.run_session(made, Waits(), stage=lab.Live(made, None, "off"))
+        self.assertEqual(set(data.trials["answer"]), {"first"})
+
+    def test_a_level_out_of_range_is_refused_before_anything_plays(self):
+        self.assertRaises(tactus.Error, lab.Experiment, lab.Protocol(name="wood", graph="dry_wood", blocks=[
+            block(procedure=lab.Constant(levels=(2.0,)))]), self.out, window=lab.Simulated(OBSERVER))
+
+
+@unittest.skipUnless(PROGRAM, "the program is not built")
+class Commands(Case):
+    def ran(self, *words, **environment):
+        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.out, capture_output=True, text=True,
+                              env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment})
+
+    def test_an_experiment_runs_and_tells_its_threshold(self):
+        Sessions.made.save(self.out / "p.json")
+        ran = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertRegex(ran.stdout, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ")
+        again = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off")
+        self.assertEqual((again.returncode, "--resume" in again.stderr), (1, True), again.stderr)
+        self.assertEqual(self.ran("experiment", "p.json", "--observer", "threshold=x").returncode, 2)
+        self.assertEqual(self.ran("experiment").returncode, 2)
+        self.assertIn("--resume", self.ran("experiment", "--help").stdout)
+
+    def test_a_mark_without_an_experiment_is_an_error_and_without_the_package_one_sentence_names_it(self):
+        self.assertEqual(self.ran("mark", "x", "--osc", "1").returncode, 1)
+        ran = self.ran("mark", "x", PYTHONPATH=str(self.out))
+        self.assertEqual(ran.returncode, 2)
+        self.assertEqual(ran.stderr, "error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n")
+
+    def test_the_module_prints_its_schema_and_writes_tables_again(self):
+        printed = subprocess.run([sys.executable, "-m", "tactus.lab", "schema"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(json.loads(printed), lab.schema())
+        data = self.run_session(Sessions.made)
+        events = data.folder / f"{data.stem}_events.tsv"
+        before = events.read_bytes()
+        events.unlink()
+        done = subprocess.run([sys.executable, "-m", "tactus.lab", "tables", str(data.folder), "--to", "mat"], capture_output=True, text=True, check=True)
+        self.assertEqual(events.read_bytes(), before)
+        self.assertIn("_beh.mat", done.stdout)
+
+
+if __name__ == "__main__":
+    assert ROOT
+    unittest.main()
