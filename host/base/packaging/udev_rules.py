@@ -14,6 +14,11 @@ DRIVERS = """
 # Arms of Force Dimension
 SUBSYSTEM=="usb", ATTRS{idVendor}=="1451", TAG+="uaccess"
 
+# Touch of 3D Systems, as a serial port. Sources name both pairs of numbers.
+SUBSYSTEM=="tty", ATTRS{idVendor}=="0301", ATTRS{idProduct}=="2988", TAG+="uaccess"
+SUBSYSTEM=="tty", ATTRS{idVendor}=="2988", ATTRS{idProduct}=="0302", TAG+="uaccess"
+KERNEL=="hidraw*", ATTRS{idVendor}=="2988", TAG+="uaccess"
+
 # Novint Falcon. The kernel does not know it as a serial port, and its adapter keeps answers for 16 ms unless a program sets another time.
 ACTION=="add", SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", \
 RUN+="/bin/sh -c 'modprobe ftdi_sio && echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'"

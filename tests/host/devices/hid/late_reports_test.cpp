@@ -136,7 +136,11 @@ std::vector<Link> links()
         { "one 15 ms late", [=] (auto&, auto k, auto now) { return k % 500 == 0 ? after (now, 15.2) : k % 500 < 15 ? Link::lost
                                                                                                                    : after (now, 0.2); }, 17 * ms },
         // The late one comes first, and the others are right behind it.
-        { "one 18 ms late", [=] (auto&, auto k, auto now) { return k % 500 < 18 ? after (now, k % 500 == 0 ? 17.9 : 18.9 - k % 500) : after (now, 0.2); }, 19 * ms },
+        { "one 18 ms late", [=] (auto&, auto k, auto now) {
+             const auto n = k % 500;
+             return n < 18 ? after (now, n == 0 ? 17.9 : 18.9 - n) : after (now, 0.2);
+         },
+          19 * ms },
         // The link stalls for 10 ms, and then delivers what has queued up, at once or one by one.
         { "burst", [=] (auto&, auto k, auto now) { return k % 300 < 10 ? after (now, 10.2 - k % 300) : after (now, 0.2); }, 11 * ms },
         { "queue", [=] (auto&, auto k, auto now) { return k % 300 < 15 ? after (now, 10.2 - 0.7 * (k % 300)) : after (now, 0.2); }, 11 * ms },

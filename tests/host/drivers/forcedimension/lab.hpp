@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fake_drd.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
@@ -9,6 +8,7 @@
 #include <host/devices/device_plugins/device_driver.hpp>
 #include <host/devices/device_plugins/plugin_device.hpp>
 #include <host/drivers/forcedimension/arm.hpp>
+#include <host/drivers/forcedimension/fake_drd.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -26,6 +26,8 @@
 
 namespace tactus::test
 {
+
+using host::FakeArms;
 
 /// A computer with the SDK of Force Dimension, whose library is one of our fakes, and two arms in memory.
 class Lab

@@ -3,7 +3,6 @@
 // from before versions. Written from a public description of the functions, apart from the driver. fake_drd.hpp says how it is told what to do.
 
 #include "fake_drd.hpp"
-#include "support/waiting.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -15,9 +14,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <thread>
 
 using namespace std::chrono_literals;
-using tactus::test::FakeArms;
+using tactus::host::FakeArms;
 using Arm = FakeArms::Arm;
 using Clock = std::chrono::steady_clock;
 
@@ -76,7 +76,7 @@ std::array<Opened, 2> opened;
 FakeArms* arms = nullptr;
 [[maybe_unused]] std::atomic<bool> is_expert = false;   // the ancient library has no expert mode
 
-Clock::time_point now() { return tactus::test::fromNow (0ns); }
+Clock::time_point now() { return Clock::now(); }
 std::int64_t nanoseconds (Clock::time_point t) { return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count(); }
 template <typename T>
 T orElse (const std::atomic<T>& value, T otherwise)
@@ -91,10 +91,10 @@ void stall (std::atomic<int>& for_ms)
     if (ms > 0)
     {
         for_ms = 0;
-        tactus::test::letPass (std::chrono::milliseconds (ms));
+        std::this_thread::sleep_for (std::chrono::milliseconds (ms));
     }
     while (for_ms < 0)
-        tactus::test::letPass (1ms);
+        std::this_thread::sleep_for (1ms);
 }
 
 /// Without a lock: what reads and what pushes do not wait for each other.
@@ -223,7 +223,7 @@ int closeArm (char id)
         ++arm.calls_after_close;
         return fail (invalid_index);
     }
-    ++arm.closes;   // and nothing else: nobody says that closing takes the forces off
+    ++arm.closes;   // and nothing else: no source says that closing takes the forces off
     return 0;
 }
 
@@ -534,7 +534,7 @@ EXPORTED int drdAutoInit (char id)
     ++o->arm->calibrations;
     for (int i = 0; i < 100; ++i)   // the arm moves
     {
-        tactus::test::letPass (std::chrono::microseconds (10 * orElse (o->arm->calibration_ms, 50)));
+        std::this_thread::sleep_for (std::chrono::microseconds (10 * orElse (o->arm->calibration_ms, 50)));
         o->arm->position[0] = 1e-4 * i;
     }
     o->arm->is_calibrated = 1;

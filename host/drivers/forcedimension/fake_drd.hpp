@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace tactus::test
+namespace tactus::host
 {
 
 /// Two simulated arms of Force Dimension in shared memory. The fake of their library maps the file that TACTUS_FAKE_DRD names. A test maps it too, and can
@@ -67,4 +67,4 @@ struct FakeArms
 
 static_assert (std::atomic<double>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
 
-}   // namespace tactus::test
+}   // namespace tactus::host

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+// A device driver for the arms of 3D Systems. The maker's library runs in a helper process (helper.cpp).
+#include "touch.hpp"
+#include "shared_arm.hpp"
+
+#include <host/drivers/driver_table.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/object_reader.hpp>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+extern char** environ;
+
+namespace tactus::host::openhaptics
+{
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+constexpr auto until_open = 10s, until_stuck = 1s, until_ended = 3s;
+constexpr std::int64_t between_looks_ns = 5'000'000;   // at whether the helper lives
+constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium with six motors, as the library tells none
+constexpr const char* program = "openhaptics-helper";
+constexpr const char* nobody_knows = ". Nobody knows whether the arm still pushes: switch it off";
+
+struct Wanted
+{
+    std::string port;
+};
+
+std::string read (const tactus_device_description& given, Wanted& wanted)
+{
+    Messages messages;
+    const auto json = readJson (given.json != nullptr && given.json[0] != 0 ? given.json : "{}").root;
+    ObjectReader in (json, "", messages);
+    in.ignore ("port");
+    in.finish();
+    if (const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity); wrong != messages.end())
+        return wrong->where + ": " + wrong->text + "; " + wrong->remedy;
+    wanted.port = given.port != nullptr ? given.port : "";
+    return {};
+}
+
+/// The helper, which is next to this driver, or where its programs keep their plugins. Empty, with the reason, if it cannot be used.
+fs::path findHelper (std::string& why)
+{
+    Dl_info self {};
+    if (::dladdr (static_cast<const void*> (&driver), &self) == 0 || self.dli_fname == nullptr) return {};
+    std::error_code failed;
+    const auto folder = fs::weakly_canonical (self.dli_fname, failed).parent_path();
+    why = std::string ("the program ") + program + " is not in " + folder.string() + ", next to the driver";
+    for (const auto& file : { folder / program, folder / "../lib/tactus/plugins" / program })
+    {
+        struct stat is
+        {
+        };
+        if (::stat (file.c_str(), &is) != 0) continue;
+        if ((is.st_uid == 0 || is.st_uid == ::geteuid()) && (is.st_mode & (S_IWGRP | S_IWOTH)) == 0) return file;
+        why = file.string() + " belongs to another user, or other users may write to it";
+    }
+    return {};
+}
+
+/// The environment of this program, with numbers as in C: with another locale, the maker's setup reads wrong numbers.
+std::vector<char*> plainEnvironment()
+{
+    static char numbers[] = "LC_NUMERIC=C";
+    std::vector<char*> all;
+    for (char** at = environ; *at != nullptr; ++at)
+        if (const std::string_view each = *at; ! each.starts_with ("LC_NUMERIC=") && ! each.starts_with ("LC_ALL=")) all.push_back (*at);
+    all.push_back (numbers);
+    all.push_back (nullptr);
+    return all;
+}
+
+/// A process that owns the maker's library, for one arm.
+class HelperProcess
+{
+public:
+    static std::unique_ptr<HelperProcess> start (const std::string& name, std::string& why)
+    {
+        const auto file = findHelper (why);
+        if (file.empty()) return nullptr;
+        auto helper = std::make_unique<HelperProcess>();
+        why = helper->launch (file, name);
+        return why.empty() ? std::move (helper) : nullptr;
+    }
+
+    HelperProcess() = default;
+    HelperProcess (const HelperProcess&) = delete;
+    HelperProcess& operator= (const HelperProcess&) = delete;
+
+    /// The helper sends zeros, ends the library, and then itself.
+    ~HelperProcess()
+    {
+        if (to_helper >= 0) ::close (to_helper);
+        const auto until = Clock::now() + until_ended;
+        while (process > 0 && ! hasEnded (20) && Clock::now() < until)
+        {
+        }
+        if (process > 0 && ! hasEnded (0)) ::kill (process, SIGKILL);
+        if (process > 0) ::waitpid (process, nullptr, 0);
+        if (life >= 0) ::close (life);
+        if (shared != nullptr) ::munmap (shared, sizeof (SharedArm));
+    }
+
+    bool hasEnded (int wait_ms) const
+    {
+        pollfd of_helper { life, POLLIN, 0 };
+        return ::poll (&of_helper, 1, wait_ms) > 0;
+    }
+
+    void kill() const { ::kill (process, SIGKILL); }
+
+    SharedArm& arm() const { return *shared; }
+
+private:
+    static std::string reason (const char* what) { return std::string (what) + ": " + std::generic_category().message (errno); }
+
+    std::string launch (const fs::path& file, const std::string& name)
+    {
+        const int memory = ::memfd_create ("tactus-openhaptics", MFD_CLOEXEC);
+        std::array<int, 2> towards { -1, -1 }, from { -1, -1 };
+        std::string why;
+        if (memory < 0 || ::ftruncate (memory, sizeof (SharedArm)) != 0 || ::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0)
+            why = reason ("no memory or pipe for the helper");
+        void* at = why.empty() ? ::mmap (nullptr, sizeof (SharedArm), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0) : MAP_FAILED;
+        if (why.empty() && at == MAP_FAILED) why = reason ("no memory for the helper");
+        if (at != MAP_FAILED) shared = static_cast<SharedArm*> (at);
+        if (why.empty()) why = spawn (file, name, memory, towards[0], from[1]);
+        to_helper = towards[1];
+        life = from[0];
+        for (const int each : { memory, towards[0], from[1] })
+            if (each >= 0) ::close (each);
+        return why;
+    }
+
+    /// In a session of its own, so that no key of the terminal reaches it.
+    std::string spawn (const fs::path& file, const std::string& name, int memory, int pipe, int alive)
+    {
+        const int least = std::max ({ memory, pipe, alive }) + 1;   // above all files that are copied
+        std::array<std::string, 4> texts { program, std::to_string (least), std::to_string (least + 1), name };
+        std::array<char*, 5> arguments { texts[0].data(), texts[1].data(), texts[2].data(), name.empty() ? nullptr : texts[3].data(), nullptr };
+        posix_spawn_file_actions_t files;
+        posix_spawnattr_t how;
+        sigset_t none;
+        ::sigemptyset (&none);
+        ::posix_spawn_file_actions_init (&files);
+        ::posix_spawnattr_init (&how);
+        ::posix_spawn_file_actions_adddup2 (&files, memory, least);
+        ::posix_spawn_file_actions_adddup2 (&files, pipe, least + 1);
+        ::posix_spawn_file_actions_adddup2 (&files, alive, least + 2);   // closes with the helper
+        ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+        ::posix_spawnattr_setsigmask (&how, &none);
+        auto environment = plainEnvironment();
+        const int error = ::posix_spawn (&process, file.c_str(), &files, &how, arguments.data(), environment.data());
+        ::posix_spawnattr_destroy (&how);
+        ::posix_spawn_file_actions_destroy (&files);
+        if (error == 0) return {};
+        process = -1;
+        return file.string() + " cannot be started: " + std::generic_category().message (error);
+    }
+
+    SharedArm* shared = nullptr;
+    int to_helper = -1, life = -1;
+    pid_t process = -1;
+};
+
+/// The library's y points up, its z towards the person.
+void turn (const Vec3& from, double* to, double scale)
+{
+    to[0] = scale * from.x();
+    to[1] = -scale * from.z();
+    to[2] = scale * from.y();
+}
+
+void turnBack (const double (&from)[3], double (&to)[3], double scale)
+{
+    to[0] = scale * from[0];
+    to[1] = scale * from[2];
+    to[2] = -scale * from[1];
+}
+
+/// The rotation vector of the library's transform, whose matrix has small errors.
+Vec3 rotationOf (const double (&transform)[16])
+{
+    Mat3 m;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            m (row, column) = transform[4 * column + row];
+    auto q = Quaternion (m).normalized();
+    if (q.w() < 0.0) q.coeffs() *= -1.0;
+    const double sine = q.vec().norm();
+    return q.vec() * (sine > 1e-12 ? 2.0 * std::atan2 (sine, q.w()) / sine : 2.0);
+}
+
+class Touch
+{
+public:
+    static std::string check (const tactus_device_description& given)
+    {
+        Wanted wanted;
+        return openhaptics::read (given, wanted);
+    }
+
+    static std::unique_ptr<Touch> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
+    {
+        Wanted wanted;
+        said = openhaptics::read (given, wanted);
+        if (! said.empty()) return nullptr;
+        auto touch = std::make_unique<Touch>();
+        touch->helper = HelperProcess::start (wanted.port, said);
+        if (touch->helper == nullptr || ! touch->wait (said)) return nullptr;
+        touch->describe (about, said);
+        return touch;
+    }
+
+    Touch() = default;
+
+    std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
+    {
+        auto& arm = helper->arm();
+        const auto until = Clock::now() + std::chrono::milliseconds (timeout_ms);
+        for (;;)
+        {
+            const auto newest = arm.ticks.load();
+            if (newest != static_cast<std::uint32_t> (last))
+            {
+                heard = Clock::now();
+                const auto behind = newest - static_cast<std::uint32_t> (last);
+                const auto next = last + (behind < SharedArm::kept - 2 ? 1 : behind);   // what has been overwritten is lost
+                const auto tick = arm.ring[next % SharedArm::kept].load();
+                last = tick.number;
+                fill (tick, to, stamp);
+                return TACTUS_DEVICE_OK;
+            }
+            if (arm.state == SharedArm::failed) return leave (why, arm.text);
+            if (helper->hasEnded (0)) return leave (why, std::string ("the process that owns its library has died") + nobody_knows);
+            if (Clock::now() - heard > until_stuck)
+            {
+                helper->kill();
+                return leave (why, std::string ("its library has not moved for a second, so its process was killed") + nobody_knows);
+            }
+            if (Clock::now() >= until) return TACTUS_DEVICE_NONE;
+            waitWhile (arm.ticks, newest, between_looks_ns);
+        }
+    }
+
+    std::int32_t write (const tactus_effort& effort, std::string& why)
+    {
+        SharedArm::Push push;
+        turnBack (effort.force, push.force, 1.0);
+        if (turns) turnBack (effort.torque, push.torque, 1e3);
+        return give (push, why);
+    }
+
+    /// After the death of the helper nothing can be sent any more, and read() has said what that means.
+    std::int32_t rest (std::string& why) { return helper->hasEnded (0) ? std::int32_t { TACTUS_DEVICE_OK } : give ({}, why); }
+
+private:
+    std::int32_t give (SharedArm::Push push, std::string& why)
+    {
+        if (helper->hasEnded (0))
+        {
+            why = "the process that owns its library has died";
+            return TACTUS_DEVICE_FAILED;
+        }
+        push.at_ns = nanosecondsNow();
+        auto& arm = helper->arm();
+        arm.push.store (push);
+        ++arm.pushes;
+        wake (arm.pushes);
+        return TACTUS_DEVICE_OK;
+    }
+
+    bool wait (std::string& why)
+    {
+        auto& arm = helper->arm();
+        const auto until = Clock::now() + until_open;
+        while (arm.ticks == 0 && arm.state != SharedArm::failed && ! helper->hasEnded (1) && Clock::now() < until)
+        {
+        }
+        heard = Clock::now();
+        if (arm.ticks != 0) return true;
+        why = arm.state == SharedArm::failed ? arm.text : helper->hasEnded (0) ? "the process that owns its library has died while it started it"
+                                                                               : "its library does not start";
+        return false;
+    }
+
+    void describe (tactus_device_about& about, std::string& remark)
+    {
+        const auto& arm = helper->arm();
+        turns = arm.output_dof >= 6;
+        const bool drives = arm.max_force > 0.0;
+        const auto first = arm.ring[1].load();
+        if (first.fault == TACTUS_DEVICE_NOT_HOMED)
+            remark = "the arm does not know its position, so it has no force: put its stylus into the inkwell, if it has one, until it does";
+        if (! drives) remark += std::string (remark.empty() ? "" : "; ") + "the arm has no force: its library does not tell the largest force";
+        about.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_ROTATION | (drives ? TACTUS_DEVICE_FORCE : 0) | (drives && turns ? TACTUS_DEVICE_TORQUE : 0);
+        static constexpr const char* axes[] { "temperature", "delay" };
+        static constexpr const char* buttons[] { "button1", "button2", "button3", "button4" };
+        about.axes = axes;
+        about.axis_count = std::size (axes);
+        about.buttons = buttons;
+        about.button_count = std::size (buttons);
+        about.rate_hz = arm.rate_hz;
+        about.stamps = TACTUS_DEVICE_NUMBERS;                                          // the ticks of its servo loop
+        about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm.rate_hz;   // of the helper: it does not help if the helper dies, too
+        sentence = std::string (arm.model) + ".";
+        about.about = sentence.c_str();
+        if (! drives) return;
+        // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
+        const double most = arm.max_force, lasting = arm.max_continuous_force > 0.0 ? std::min (arm.max_continuous_force, most) : 0.25 * most;
+        char guard[640], torque[256] = "";
+        if (turns)
+            std::snprintf (torque, sizeof torque,
+                           R"(, "max_torque": %.4g, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)",
+                           most_torque);
+        std::snprintf (guard, sizeof guard,
+                       R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g,
+                           "energy_window": 1, "max_still": 1, "still_force": 0.5, "watchdog": 0.02%s})",
+                       most, 250.0 * most, 10.0 * lasting, 0.02 * most, torque);
+        limits = guard;
+        about.guard = limits.c_str();
+    }
+
+    void fill (const SharedArm::Tick& tick, tactus_reading& to, tactus_device_stamp& stamp) const
+    {
+        turn (Vec3 (tick.position), to.position, to_m);
+        turn (rotationOf (tick.transform), to.rotation, 1.0);
+        to.axes[to.axis_count++] = tick.temperature;
+        to.axes[to.axis_count++] = tick.delay_s;
+        to.buttons = tick.buttons;
+        to.valid = 1;
+        stamp.number = tick.number;
+        stamp.fault = tick.fault;
+    }
+
+    static std::int32_t leave (std::string& why, std::string reason)
+    {
+        why = std::move (reason);
+        return TACTUS_DEVICE_GONE;
+    }
+
+    std::unique_ptr<HelperProcess> helper;
+    bool turns = false;
+    std::string sentence, limits;
+    std::uint64_t last = 0;       // tick   [reading thread]
+    Clock::time_point heard {};   // when it came   [reading thread]
+};
+
+constexpr const char* keys[] { "port" };
+}   // namespace
+
+const tactus_device_driver driver =
+    driverTable<Touch> ("openhaptics", "The arms of 3D Systems (Touch, Touch X, Phantom), through OpenHaptics, in a process of its own.", keys);
+
+}   // namespace tactus::host::openhaptics

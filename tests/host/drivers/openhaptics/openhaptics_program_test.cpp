@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Programs that play on a fake Touch, and what the arm feels when they end, freeze or are killed.
+
+#include "support/sketch.hpp"
+#include "touch_lab.hpp"
+
+#include "support/temporary_folder.hpp"
+
+#include <host/cli/program.hpp>
+#include <host/cli/running.hpp>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using test::eventually;
+using test::Running;
+using test::runTactus;
+using test::TouchLab;
+
+namespace
+{
+constexpr auto wall = R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+  "nodes": { "hand": { "type": "device.position", "role": "stylus" },
+             "wall": { "type": "deform.plane", "params": { "stiffness": 300 } },
+             "motor": { "type": "device.force", "role": "stylus" } },
+  "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
+}   // namespace
+
+TEST_CASE ("a program that is killed, frozen or ended leaves a Touch without a force", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    auto& arm = lab.arm();
+    arm.target[1] = -6.0;
+    lab.folder.write ("wall.json", wall);
+    Running program ({ "play", (lab.folder / "wall.json").string(), "--device", "stylus=openhaptics" });
+    const bool pushes = test::soon ([&] { return arm.force[1] > 0.5; });
+    if (! pushes) WARN (program.err());
+    REQUIRE (pushes);
+
+    SECTION ("killed: the helper sends zeros, and ends")
+    {
+        program.signal (SIGKILL);
+        static_cast<void> (program.finish());
+        CHECK (eventually ([&] { return arm.force[1] == 0.0 && arm.disables == 1; }));
+        CHECK (eventually ([&] { return ::kill (lab.arms->process, 0) != 0; }));
+        CHECK (lab.arms->stops == 1);
+    }
+    SECTION ("frozen: the helper sends zeros, and the program stays stopped when it goes on")
+    {
+        program.signal (SIGSTOP);
+        CHECK (eventually ([&] { return arm.force[1] == 0.0; }));
+        const auto frames = arm.frames.load();
+        CHECK (eventually ([&] { return arm.frames > frames + 200; }));
+        CHECK (arm.force[1] == 0.0);
+        program.signal (SIGCONT);
+        static_cast<void> (program.stop());
+        CHECK (arm.force[1] == 0.0);
+    }
+    SECTION ("the helper is killed: the program says so")
+    {
+        const auto process = lab.arms->process.load();
+        arm.is_open = 0;   // the system closes it
+        ::kill (process, SIGKILL);
+        CHECK (test::soon ([&] { return lab.arms->process != process; }));   // it is opened again
+        const auto ran = program.stop();
+        INFO (ran.out << ran.err);
+        CHECK (ran.status == 0);
+        CHECK ((ran.out + ran.err).find ("the device was gone once") != std::string::npos);
+        CHECK ((ran.out + ran.err).find ("run/frozen") == std::string::npos);
+    }
+    SECTION ("ended with Ctrl-C")
+    {
+        const auto ran = program.stop();
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        CHECK (arm.force[1] == 0.0);
+        CHECK (arm.disables == 1);
+    }
+}
+
+TEST_CASE ("check-plugin finds no fault in the driver of 3D Systems' arms", "[openhaptics]")
+{
+    TouchLab lab;
+    const auto plugin = std::filesystem::path (TACTUS_PROGRAM).parent_path().parent_path() / "lib/tactus/plugins/openhaptics.tactus-device";
+    const auto ran = runTactus ({ "check-plugin", plugin.string(), "--open", "{}" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    CHECK (lab.arms->frame_errors == 0);
+    CHECK (lab.arms->calls_after_unschedule == 0);
+}

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// The driver of 3D Systems' arms, with its helper process, against a fake of OpenHaptics. Both are ours; no arm has been tried.
+
+#include "support/rounds.hpp"
+#include "touch_lab.hpp"
+
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/engine.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tactus;
+using namespace std::chrono_literals;
+using test::eventually;
+using test::TouchLab;
+
+namespace
+{
+bool contains (const std::string& text, const char* part) { return text.find (part) != std::string::npos; }
+
+/// A device that reads what it is told, and keeps what it gets.
+struct ToldDevice final : Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return next; }
+    void write (const Effort& effort) noexcept override { last = effort; }
+
+    Reading next;
+    Effort last;
+};
+}   // namespace
+
+TEST_CASE ("a Touch is read and pushed in the axes of Tactus", "[openhaptics]")
+{
+    TouchLab lab;
+    REQUIRE (lab.opens());
+    CHECK (lab.limits.max_force == 3.3);
+    CHECK (lab.limits.max_torque == GuardLimits::none);
+    CHECK (lab.device_watchdog_s == Approx (0.022));
+    CHECK (contains (lab.device->about().about, "Touch, serial number SN1, library 3.4."));
+    lab.arm().target[0] = 20.0;   // right
+    lab.arm().target[1] = 10.0;   // up
+    lab.arm().target[2] = 30.0;   // towards the person
+    const auto is_at = [&] (const Vec3& place) { return (lab.reading.position - place).norm() < 5e-5; };
+    const Vec3 middle { 0.02, -0.03, 0.01 };
+    REQUIRE (lab.ticksUntil ([&] { return lab.reading.valid && is_at (middle); }));
+    const int axis = GENERATE (0, 1, 2);
+    Vec3 pushed = middle;
+    pushed[axis] += 1.0 / 500.0;
+    CHECK (lab.ticksUntil ([&] { return is_at (pushed); }, TouchLab::along (axis)));
+    lab.arm().buttons = 2;
+    CHECK (lab.ticksUntil ([&] { return lab.reading.buttons == 2; }));
+
+    // It ends with zeros, and without a call that the library does not expect.
+    lab.device.reset();
+    CHECK (lab.arm().force[1] == 0.0);
+    CHECK (lab.arm().is_open == 0);
+    CHECK (lab.arms->stops == 1);
+    CHECK (lab.arms->frame_errors == 0);
+    CHECK (lab.arms->gets_outside_frames == 0);
+    CHECK (lab.arms->calls_after_unschedule == 0);
+    CHECK (lab.arm().updates_in_frame == 0);
+}
+
+TEST_CASE ("the stylus of a Premium turns and is turned in the axes of Tactus", "[openhaptics]")
+{
+    TouchLab lab;
+    auto& arm = lab.arm();
+    arm.output_dof = 6;
+    arm.max_force = 8.5;
+    // Turned by 2 rad about (1, 2, 2)/3 of the library, with the small errors of its matrix. By columns.
+    const Vec3 axis { 1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0 };
+    const double angle = 2.0;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+        {
+            const int third = 3 - row - column;
+            const double cross = row == column ? 0.0 : ((column - row + 3) % 3 == 1 ? -1.0 : 1.0) * axis[third];
+            const double exact = (row == column ? std::cos (angle) : 0.0) + (1.0 - std::cos (angle)) * axis[row] * axis[column] + std::sin (angle) * cross;
+            arm.transform[static_cast<std::size_t> (4 * column + row)] = exact * (1.0 + 1e-7);
+        }
+    REQUIRE (lab.opens());
+    CHECK (lab.limits.max_torque == 0.188);
+    CHECK (lab.limits.max_force == 8.5);
+    REQUIRE (lab.ticksUntil ([&] { return lab.reading.valid; }));
+    CHECK ((lab.reading.rotation - angle * Vec3 (axis.x(), -axis.z(), axis.y())).norm() < 1e-6);
+    Effort effort;
+    effort.torque = { 0.05, 0.02, -0.1 };
+    CHECK (lab.ticksUntil (
+        [&] { return arm.torque[0] == Approx (50.0) && arm.torque[1] == Approx (-100.0) && arm.torque[2] == Approx (-20.0); },   // mN m
+        effort));
+}
+
+TEST_CASE ("dry wood on a Touch has the forces of its render at the positions that the arm has rounded", "[openhaptics]")
+{
+    TouchLab lab;
+    lab.arm().is_stepped = 1;
+    lab.arm().step = 1;
+    REQUIRE (lab.opens());
+    const auto step = [&] {
+        const auto frames = lab.arm().frames.load();
+        ++lab.arm().step;
+        REQUIRE (eventually (20us, 1'000'000, [&] { return lab.arm().frames > frames; }));
+    };
+
+    auto file = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs/dry_wood.json");
+    REQUIRE_FALSE (hasErrors (file.messages));
+    const auto told_plan = compile (file.graph, catalogue()).plan, arm_plan = compile (file.graph, catalogue()).plan;
+    REQUIRE (told_plan);
+    REQUIRE (arm_plan);
+    ToldDevice told;
+    Engine offline { told_plan }, live { arm_plan };
+    const GuardLimits limits { .max_force = lab.limits.max_force };
+    offline.attach ("stylus", told, limits);
+    live.attach ("stylus", *lab.device, limits);
+    int pushed = 0;
+    const int readings = test::rounds (2000);
+    for (int k = 0; k < readings; ++k)
+    {
+        const double time = k / 4000.0;
+        const Vec3 at { 0.03 * std::sin (9.0 * time), 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };
+        const double by_library[] { 1e3 * at.x(), 1e3 * at.z(), -1e3 * at.y() };
+        for (std::size_t i = 0; i < 3; ++i)
+            lab.arm().target[i] = by_library[i];
+        step();   // the frame latches the place
+        const auto last = lab.arm().frames.load();
+        REQUIRE (eventually ([&] { return lab.device->counts().readings >= last; }));
+        const auto rounded = [&] (std::size_t i) { return std::round (by_library[i] / 1e-3) * 1e-3; };
+        told.next.position = { 1e-3 * rounded (0), -1e-3 * rounded (2), 1e-3 * rounded (1) };
+        told.next.valid = k > 0;   // the first tick brings a device to rest
+        offline.tick();
+        live.tick();
+        const auto& asked = told.last.force;
+        INFO ("reading " << k << " asks for " << asked.transpose());
+        REQUIRE (eventually ([&] {
+            step();
+            const bool has_come = lab.arm().force[0] == asked.x() && lab.arm().force[1] == asked.z() && lab.arm().force[2] == -asked.y();
+            if (! has_come) lab.device->write (told.last);   // a busy computer has missed its tick
+            return has_come;
+        }));
+        pushed += asked.isZero (0.0) ? 0 : 1;
+    }
+    CHECK (pushed > readings / 4);
+    CHECK (lab.device->counts().lost == 0);
+    CHECK (lab.device->counts().departures == 0);
+}
+
+TEST_CASE ("a Touch is found by name, or by the names that makers have given, or its absence is explained", "[openhaptics]")
+{
+    SECTION ("a second arm")
+    {
+        TouchLab lab;
+        lab.arms->count = 2;
+        REQUIRE (lab.opens ("Second"));
+        CHECK (lab.arm (1).is_open == 1);
+        CHECK (lab.arm (0).is_open == 0);
+        CHECK (contains (lab.device->about().about, "SN2"));
+    }
+    SECTION ("versions that do not know one without a name")
+    {
+        TouchLab lab;
+        lab.arms->refuses_null = 1;
+        CHECK (lab.opens());
+        lab.device.reset();
+        lab.arms->only_old_name = 1;
+        CHECK (lab.opens());
+    }
+    SECTION ("none")
+    {
+        TouchLab lab;
+        lab.arm().is_missing = 1;
+        std::filesystem::create_directories (lab.folder / ".3dsystems/config");
+        lab.folder.write (".3dsystems/config/Left arm.config", "");
+        const auto said = lab.said();
+        CHECK (contains (said, "no arm can be opened (names that its setup has stored: Left arm): the arm without a name: device fault (error 0x300, "
+                               "-3 inside the library); Default Device: "));
+        CHECK (contains (lab.said ("Right arm"), "Right arm: device fault"));
+    }
+    SECTION ("no library")
+    {
+        TouchLab lab { nullptr };
+        CHECK (contains (lab.said(), "libHD.so: cannot open shared object file: No such file or directory"));
+    }
+    SECTION ("a library that needs another one")
+    {
+        TouchLab lab { "needy_hd" };
+        CHECK (contains (lab.said(), "libneeded_by_fake.so: cannot open shared object file: No such file or directory"));
+    }
+    SECTION ("a servo loop that does not start")
+    {
+        TouchLab lab;
+        lab.arms->does_not_start = 1;
+        CHECK (contains (lab.said(), "the library does not start: an error (error 0x304"));
+    }
+    SECTION ("an arm without a largest force is only read")
+    {
+        TouchLab lab;
+        lab.arm().max_force = -1.0;
+        CHECK (contains (lab.said(), "the arm has no force: its library does not tell the largest force"));
+        CHECK (lab.ticksUntil ([&] { return lab.reading.valid; }));
+    }
+    SECTION ("an arm that only knows its own rate")
+    {
+        TouchLab lab;
+        lab.arms->refuses_rate = 1;
+        lab.arms->rate = 500;
+        CHECK (lab.said().empty());
+        CHECK (lab.device->about().rate_hz == 500.0);
+        CHECK (lab.pushes());
+    }
+}
+
+TEST_CASE ("a Touch that does not know its position has no force until it does", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    auto& arm = lab.arm();
+    SECTION ("a person has to put the stylus into the inkwell")
+    {
+        arm.styles = 4;
+        arm.calibration = 2;
+        CHECK (contains (lab.said(), "put its stylus into the inkwell"));
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }, TouchLab::along (2)));
+        CHECK (arm.force[1] == 0.0);
+        arm.calibration = 1;   // the stylus is there
+        CHECK (lab.pushes());
+        CHECK (arm.updates == 1);
+    }
+    SECTION ("it calibrates itself")
+    {
+        arm.calibration = 1;
+        REQUIRE (lab.opens());
+        CHECK (lab.pushes());
+    }
+    SECTION ("its encoders are reset before the servo loop starts")
+    {
+        arm.styles = 1;
+        REQUIRE (lab.opens());
+        CHECK (arm.updates == 1);
+        CHECK (lab.pushes());
+    }
+    CHECK (arm.updates_in_frame == 0);
+}
+
+TEST_CASE ("errors of a Touch stop it for half a second, or end it, and are named", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    auto& arm = lab.arm();
+    const auto options = host::PluginDevice::Options { .silence_s = 60.0, .look_again = 1h, .patience = 1min, .real_time = false };
+    REQUIRE (lab.opens ({}, options));
+    REQUIRE (lab.pushes());
+    SECTION ("warm motors")
+    {
+        arm.lasting_error = 0x200;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::too_hot && arm.force[1] == 0.0; }, TouchLab::along (2)));
+        arm.lasting_error = 0;
+        CHECK (lab.pushes());
+    }
+    SECTION ("too fast, or too much force")
+    {
+        arm.next_error = GENERATE (0x201, 0x202, 0x203, 0x204);
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_driven && arm.force[1] == 0.0; }, TouchLab::along (2)));
+        CHECK (lab.pushes());
+        CHECK (lab.device->counts().departures == 0);
+    }
+    SECTION ("unplugged")
+    {
+        arm.is_unplugged = 1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }));
+        CHECK (contains (lab.device->trouble(), "communication error (error 0x302, -28 inside the library)"));
+    }
+}
+
+TEST_CASE ("a Touch keeps a force for at most 20 ms after the last message", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    // No tick comes.
+    CHECK (eventually ([&] { return lab.arm().force[1] == 0.0; }));
+    CHECK (lab.device->counts().silences == 0);   // it was the helper
+    CHECK (lab.pushes());
+}
+
+TEST_CASE ("a library that stalls or dies costs a stop, and its death is told", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    const auto options = host::PluginDevice::Options { .silence_s = 60.0, .look_again = 1h, .patience = 1min, .real_time = false };
+    REQUIRE (lab.opens ({}, options));
+    REQUIRE (lab.pushes());
+    const auto process = lab.arms->process.load();
+    SECTION ("for 30 ms")
+    {
+        lab.arms->stall_ms = 30;
+        CHECK (lab.ticksUntil ([&] { return lab.arms->stall_ms == 0 && lab.device->counts().oldest > 0.02; }));
+        CHECK (lab.pushes());
+        CHECK (lab.device->counts().departures == 0);
+    }
+    SECTION ("for ever")
+    {
+        lab.arms->stall_ms = -1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.age > 0.02; }, TouchLab::along (2)));
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }, TouchLab::along (2)));
+        CHECK (contains (lab.device->trouble(), "its library has not moved for a second, so its process was killed. Nobody knows whether"));
+    }
+    SECTION ("killed")
+    {
+        ::kill (process, SIGKILL);
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }, TouchLab::along (2)));
+        CHECK (contains (lab.device->trouble(), "the process that owns its library has died. Nobody knows whether the arm still pushes: switch it off"));
+        CHECK (lab.arm().disables == 0);
+    }
+    SECTION ("frozen")
+    {
+        ::kill (process, SIGSTOP);
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }, TouchLab::along (2)));
+        CHECK (contains (lab.device->trouble(), "so its process was killed"));
+    }
+    SECTION ("a library that does not stop")
+    {
+        lab.arms->stop_hangs = 1;
+        lab.device.reset();
+        CHECK (lab.arm().force[1] == 0.0);   // before it hangs
+        CHECK (::kill (process, 0) != 0);
+    }
+}
+
+TEST_CASE ("a Touch whose process was killed is opened again, with a force from zero", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    REQUIRE (lab.opens());
+    REQUIRE (lab.pushes());
+    const auto process = lab.arms->process.load();
+    lab.arm().is_open = 0;   // the system closes it
+    ::kill (process, SIGKILL);
+    lab.arm().force[1] = 0.0;
+    CHECK (lab.ticksUntil ([&] { return lab.arms->process != process && lab.reading.valid; }));
+    CHECK (lab.pushes());
+    CHECK (lab.device->counts().departures == 1);
+}
