@@ -4,6 +4,7 @@
 #include "report.hpp"
 
 #if defined(TACTUS_FAKE_FALCON)
+#include "fake_library.hpp"
 #include <host/drivers/falcon/fake_falcon.hpp>
 #endif
 #if defined(TACTUS_SERVICES)
@@ -20,6 +21,7 @@
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -37,6 +39,7 @@ using namespace hid;
 using Clock = std::chrono::steady_clock;
 
 [[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3", vest = "bhaptics_vest", falcon = "falcon";
+[[maybe_unused]] constexpr std::string_view forcedimension = "forcedimension", openhaptics = "openhaptics";
 
 struct FakeOptions
 {
@@ -144,6 +147,25 @@ FakeFalcon::Fault faultOfService (DeviceFault::Kind kind, const std::string& tex
     }
 }
 
+template <typename Kind>
+typename FakeLibrary<Kind>::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeLibrary<Kind>&)
+{
+    using Fault = typename FakeLibrary<Kind>::Fault;
+    switch (kind)
+    {
+    case DeviceFault::Kind::stall:
+        return Fault::silent;
+    case DeviceFault::Kind::away:
+        return Fault::away;
+    case DeviceFault::Kind::reset:
+        return Fault::forgetful;
+    case DeviceFault::Kind::lie:
+        return Fault::off;
+    default:
+        cannot (text, "stall (a call does not return), away, reset (the arm does not know its position) or lie (its forces go off, or its motors are warm)");
+    }
+}
+
 #endif
 
 #if defined(TACTUS_SERVICES)
@@ -243,6 +265,22 @@ void runFalcon (const FakeOptions& o)
 }
 #endif
 
+#if defined(TACTUS_FAKE_FALCON)
+template <typename Kind>
+void runLibrary (const FakeOptions& o, const char* what)
+{
+    FakeLibrary<Kind> library (handOf (o.hand));
+    if (! library.isThere())
+        fail (Message::error ("fake/library", o.profile, "the fake of the maker's library is not there, or has no memory",
+                              "install the whole of Tactus, or build its target fake_libraries"));
+    std::cout << "a fake " << what << " is there, behind a fake of its maker's library; play on it:\n"
+              << library.environment() << " tactus play GRAPH --device ROLE=" << o.profile << "\n"
+              << std::flush;
+    playService (library, o);
+    std::cout << library.pushes() << " forces heard, of at most " << numberText (library.largest_force) << " N\n";
+}
+#endif
+
 #if defined(TACTUS_SERVICES)
 void sayWhere (const char* what, const char* driver, int port)
 {
@@ -274,10 +312,13 @@ void runVest (const FakeOptions& o)
 void run (const FakeOptions& o)
 {
     watchForStop();
-    if ((o.profile == inverse3 || o.profile == vest || o.profile == falcon) && (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()))
+    const auto names = { inverse3, vest, falcon, forcedimension, openhaptics };
+    if (std::ranges::find (names, std::string_view (o.profile)) != names.end() && (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()))
         throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
 #if defined(TACTUS_FAKE_FALCON)
     if (o.profile == falcon) return runFalcon (o);
+    if (o.profile == forcedimension) return runLibrary<FakeForceDimension> (o, "omega.3");
+    if (o.profile == openhaptics) return runLibrary<FakeOpenHaptics> (o, "Touch");
 #endif
 #if defined(TACTUS_SERVICES)
     if (o.profile == inverse3) return runInverse3 (o);
@@ -326,7 +367,8 @@ void addFakeDevice (const Command& app)
     const auto command = app.add ("fake-device", "Simulate a device, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
-                    "The id of a profile, such as tactus_board; or falcon; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
+                    "The id of a profile, such as tactus_board; or falcon; or forcedimension or openhaptics, arms behind the library of their maker; or "
+                    "haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
         .required();
     command
         .addOption ("--wire", options->wire,
@@ -352,6 +394,7 @@ void addFakeDevice (const Command& app)
                     "  sudo tactus fake-device tactus_board --wire hid\n"
                     "  tactus fake-device haply_2diy --link arm --fault missed_byte@5:0.001\n"
                     "  tactus fake-device falcon --fault stall@5:0.2\n"
+                    "  tactus fake-device forcedimension --hand gesture:press\n"
                     "  tactus fake-device haply_inverse3 --port 10001\n"
                     "  tactus fake-device bhaptics_vest --port 15881");
     command.callback ([options] { run (*options); });

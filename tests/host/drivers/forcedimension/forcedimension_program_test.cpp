@@ -3,12 +3,17 @@
 
 #include "lab.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include <host/cli/program.hpp>
 #include <host/cli/running.hpp>
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 using namespace tactus;
 using namespace std::chrono_literals;
@@ -107,4 +112,33 @@ TEST_CASE ("check-plugin finds no fault in the driver of Force Dimension's arms"
     CHECK (lab.arm().calls_after_close == 0);
     CHECK (lab.arm().closes > 1);
     CHECK (lab.arm().calibrations == 0);
+}
+
+TEST_CASE ("a program plays on the arm of Force Dimension that fake-device offers", "[forcedimension]")
+{
+    const TemporaryFolder folder;
+    folder.write ("push.json", R"({ "format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
+        "nodes": { "half": { "type": "signal.constant", "params": { "value": 0.5 } }, "motor": { "type": "device.force", "role": "stylus" } },
+        "wires": ["half.out -> motor.force.z"] })");
+    Running fake ({ "fake-device", "forcedimension" });
+    REQUIRE (test::soon ([&] { return fake.out().find ("--device ROLE=forcedimension\n") != std::string::npos; }));
+    // The second line is what a person would type: VARIABLE='VALUE' VARIABLE='VALUE' tactus play …
+    std::vector<std::string> names;
+    auto line = fake.out().substr (fake.out().find ('\n') + 1);
+    for (auto equals = line.find ("='"); equals != std::string::npos; equals = line.find ("='"))
+    {
+        const auto end = line.find ('\'', equals + 2);
+        names.push_back (line.substr (0, equals));
+        ::setenv (names.back().c_str(), line.substr (equals + 2, end - equals - 2).c_str(), 1);
+        line = line.substr (end + 2);
+    }
+    CHECK (names.size() == 2);
+    const auto played = runTactus ({ "play", (folder / "push.json").string(), "--device", "stylus=forcedimension", "--duration", "1" });
+    for (const auto& name : names)
+        ::unsetenv (name.c_str());
+    INFO (played.out << played.err);
+    CHECK (played.status == 0);
+    const auto ran = fake.stop();
+    INFO (ran.out << ran.err);
+    CHECK (ran.out.find (" forces heard, of at most 0.5 N") != std::string::npos);
 }

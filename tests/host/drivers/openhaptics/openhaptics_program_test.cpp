@@ -93,3 +93,32 @@ TEST_CASE ("check-plugin finds no fault in the driver of 3D Systems' arms", "[op
     CHECK (lab.arms->frame_errors == 0);
     CHECK (lab.arms->calls_after_unschedule == 0);
 }
+
+TEST_CASE ("a program plays on the Touch that fake-device offers", "[openhaptics]")
+{
+    const TemporaryFolder folder;
+    folder.write ("push.json", R"({ "format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
+        "nodes": { "half": { "type": "signal.constant", "params": { "value": 0.5 } }, "motor": { "type": "device.force", "role": "stylus" } },
+        "wires": ["half.out -> motor.force.z"] })");
+    Running fake ({ "fake-device", "openhaptics" });
+    REQUIRE (test::soon ([&] { return fake.out().find ("--device ROLE=openhaptics\n") != std::string::npos; }));
+    // The second line is what a person would type: VARIABLE='VALUE' VARIABLE='VALUE' tactus play …
+    std::vector<std::string> names;
+    auto line = fake.out().substr (fake.out().find ('\n') + 1);
+    for (auto equals = line.find ("='"); equals != std::string::npos; equals = line.find ("='"))
+    {
+        const auto end = line.find ('\'', equals + 2);
+        names.push_back (line.substr (0, equals));
+        ::setenv (names.back().c_str(), line.substr (equals + 2, end - equals - 2).c_str(), 1);
+        line = line.substr (end + 2);
+    }
+    CHECK (names.size() == 2);
+    const auto played = runTactus ({ "play", (folder / "push.json").string(), "--device", "stylus=openhaptics", "--duration", "1" });
+    for (const auto& name : names)
+        ::unsetenv (name.c_str());
+    INFO (played.out << played.err);
+    CHECK (played.status == 0);
+    const auto ran = fake.stop();
+    INFO (ran.out << ran.err);
+    CHECK (ran.out.find (" forces heard, of at most 0.5 N") != std::string::npos);
+}
