@@ -6,6 +6,7 @@
 #include <host/drivers/forcedimension/fake_drd.hpp>
 #include <host/drivers/openhaptics/fake_hd.hpp>
 #include <tactus/node/device.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -47,7 +48,7 @@ public:
         memory = static_cast<Memory*> (at);
         memory->arms[0].is_stepped = Kind::stepped;
         hand->prepare (1e-3);
-        mover = std::thread ([this] { move(); });
+        mover = std::thread ([this] { static_cast<void> (caught ("the fake arm", [this] { move(); })); });
     }
     ~FakeLibrary()
     {

@@ -27,6 +27,8 @@ def problems(root):
     count = 0
     for folder in ("framework", "host", "nodes"):
         for path in sorted((root / folder).rglob("*.[hc]pp")):
+            if path.name.startswith("fake_") and "drivers" in path.parts:
+                continue  # stands for the library of a maker, which does not use ours
             code = COMMENT.sub("", path.read_text(encoding="utf-8"))
             at_line = lambda at: f"{path.relative_to(root).as_posix()}:{code.count(chr(10), 0, at) + 1}"
             persists = re.search(r"const auto persist = .*?caught \(", code, re.S)

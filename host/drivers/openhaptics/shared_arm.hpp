@@ -41,7 +41,7 @@ struct SharedArm
         std::uint32_t fault = 0;   // TACTUS_DEVICE_TOO_HOT, …
     };
 
-    /// What the host asks for.
+    /// The effort that the host asks for.
     struct Push
     {
         double force[3] {}, torque[3] {};
