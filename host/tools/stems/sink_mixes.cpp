@@ -74,7 +74,12 @@ private:
     std::vector<bool> carries;                    // by node: a mix goes into it
     std::set<int> seen;
 
-    static bool isInto (const plan::FlatWire& w, const plan::PortRef& input) { return w.to.role == input.role && w.to.port == input.port; }
+    /// True if a wire ends at an input, or at a component of it.
+    static bool isInto (const plan::FlatWire& w, const plan::PortRef& input)
+    {
+        return w.to.role == input.role && w.to.port == input.port && w.to.index == input.index;
+    }
+
     bool isMix (int node) const { return isLayerMixer (f.node (node)) && f.node (node).runs(); }
 
     void follow (std::size_t w, SinkMix& found)

@@ -144,7 +144,8 @@ TEST_CASE ("a second wire into the motor, or into an input on the way to it, is 
 TEST_CASE ("what a mix is multiplied with is no force of its own", "[tools][stems]")
 {
     auto s = sources();
-    s.node ("felt", "signal.multiply").wire ("desk.out -> felt.in[0]").wire ("b.out -> felt.in[1]").wire ("felt.out -> motor.force.z");
+    s.node ("open", "signal.constant", { { "value", 1 } }).wire ("open.out -> felt.in[1]");
+    s.node ("felt", "signal.multiply").wire ("desk.out -> felt.in[0]").wire ("felt.out -> motor.force.z");
     check (s.graph, {});
 }
 
