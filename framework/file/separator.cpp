@@ -11,21 +11,20 @@ namespace tactus
 
 namespace
 {
-/// True if a line has this separator, and all its fields are then numbers or empty.
-bool hasNumbers (std::string_view line, char separator)
+/// True if a line has this separator, and its first field that is not empty is then a number.
+bool beginsWithNumber (std::string_view line, char separator)
 {
     constexpr std::string_view around = " \t\r\"#";
     if (line.find (separator) == line.npos) return false;
-    for (;;)
+    while (! line.empty())
     {
         auto field = line.substr (0, line.find (separator));
-        const bool is_last = field.size() == line.size();
-        line.remove_prefix (is_last ? line.size() : field.size() + 1);
+        line.remove_prefix (std::min (line.size(), field.size() + 1));
         field.remove_prefix (std::min (field.find_first_not_of (around), field.size()));
         field = field.substr (0, field.find_last_not_of (around) + 1);
-        if (! field.empty() && ! wholeNumber (withPoint (field))) return false;
-        if (is_last) return true;
+        if (! field.empty()) return wholeNumber (withPoint (field)).has_value();
     }
+    return false;
 }
 
 bool isOutsideOfQuotes (std::string_view line, char wanted)
@@ -42,7 +41,7 @@ char separatorOf (std::string_view line, char usual)
 {
     if ((usual == ';' || usual == '\t') && line.find (usual) != line.npos) return usual;
     for (const char c : { ';', '\t' })
-        if (hasNumbers (line, c)) return c;
+        if (beginsWithNumber (line, c)) return c;
     for (const char c : { ',', ';', '\t' })
         if (isOutsideOfQuotes (line, c)) return c;
     return ' ';

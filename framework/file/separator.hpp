@@ -7,7 +7,7 @@
 namespace tactus
 {
 
-/// The separator of the columns in a line of a table. A semicolon or a tab, if all fields are then numbers or empty: where the decimal sign is a comma,
+/// The separator of the columns in a line of a table. A semicolon or a tab, if the line then begins with a number: where the decimal sign is a comma,
 /// programs separate by one of these. Else the first of comma, semicolon and tab that is outside of double quotes, or a space if there is none.
 /// `usual` is the separator of the first row, if it is known: a semicolon or a tab then separates also where a field is not a number, such as 1.000,5.
 char separatorOf (std::string_view line, char usual = '\0');

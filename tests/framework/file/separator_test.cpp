@@ -15,6 +15,8 @@ TEST_CASE ("a row of numbers decides about its separator, even if its decimal si
     CHECK (separatorOf ("-1.5e-3 2 3") == ' ');
     CHECK (separatorOf ("\"1,5\";\"2,5\"") == ';');
     CHECK (separatorOf ("1,5;;2") == ';');
+    CHECK (separatorOf (";1,5;2") == ';');
+    CHECK (separatorOf ("1;2,5,7") == ';');   // its last field is no number, which the reader says
     CHECK (separatorOf ("") == ' ');
 }
 
