@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -57,14 +58,30 @@ void run (const ImportOptions& options)
     startPython ("tactus.data", words);
 }
 
-/// A command of tactus.lab, which reads the arguments itself.
-void addOfLab (const Command& app, const std::string& name, const std::string& about)
+/// The options of a command of tactus.lab, as they are passed on.
+struct LabWords
 {
-    app.add (name, about).passOn ([name] (const std::vector<std::string>& given) {
-        std::vector<std::string> words { name };
-        words.insert (words.end(), given.begin(), given.end());
-        startPython ("tactus.lab.__main__", words);
-    });
+    std::vector<std::string> flags;   // those that are given
+    std::vector<std::pair<std::string, std::string>> values;
+    std::vector<std::string> devices, positional;
+
+    std::vector<std::string> all (std::string command) const
+    {
+        std::vector<std::string> words { std::move (command) };
+        for (const auto& [name, value] : values)
+            words.push_back (name + "=" + value);
+        for (const auto& device : devices)
+            words.push_back ("--device=" + device);
+        words.insert (words.end(), flags.begin(), flags.end());
+        words.push_back ("--");
+        words.insert (words.end(), positional.begin(), positional.end());
+        return words;
+    }
+};
+
+std::function<void (const std::string&)> takeForLab (const std::shared_ptr<LabWords>& words, const std::string& name)
+{
+    return [words, name] (const std::string& value) { words->values.emplace_back (name, value); };
 }
 }   // namespace
 
@@ -88,8 +105,56 @@ void addImportData (const Command& app)
     command.callback ([options] { run (*options); });
 }
 
-void addExperiment (const Command& app) { addOfLab (app, "experiment", "Run a session of an experiment, with the Python package (docs/lab.md)"); }
+void addExperiment (const Command& app)
+{
+    struct Flags
+    {
+        bool resume = false, web = false, no_devices = false;
+    };
+    const auto words = std::make_shared<LabWords>();
+    const auto flags = std::make_shared<Flags>();
+    const auto command = app.add ("experiment", "Run a session of an experiment with a participant, with the Python package");
+    command.addOption (
+               "file", [words] (const std::string& file) { words->positional.push_back (file); }, "The protocol file")
+        .required();
+    for (const auto& [name, about] : { std::pair { "--out", "The folder of the study; default: data" },
+                                       std::pair { "--participant", "Its label, letters and digits; default: 01" },
+                                       std::pair { "--session", "The label of the session; default: 01" },
+                                       std::pair { "--observer", "A simulated observer: threshold=0.3,width=0.1[,lapse=...,function=...,seed=...]" },
+                                       std::pair { "--devices", "The session file that binds roles to devices, or \"off\"" },
+                                       std::pair { "--osc", "UDP port for marks and answers, 0 for any, or \"off\"; default: 7771" } })
+        command.addOption (name, takeForLab (words, name), about);
+    command.addOption ("--device", words->devices, "The device of a role: ROLE=hid:auto; may be given more than once").oneValueEach();
+    command.addFlag ("--resume", flags->resume, "Go on with a session that was not completed");
+    command.addFlag ("--web", flags->web, "Pages for the participant and the experimenter, for a browser on this computer");
+    command.addFlag ("--no-devices", flags->no_devices, "Play no graph: nothing is felt");
+    command.footer ("Starts python3 -m tactus.lab. See docs/lab.md.\n\n"
+                    "Examples:\n"
+                    "  tactus experiment roughness.json --web --participant 07\n"
+                    "  tactus experiment roughness.json --web --participant 07 --resume\n"
+                    "  tactus experiment grating.json --observer threshold=0.02,width=0.004 --no-devices");
+    command.callback ([words, flags] {
+        for (const auto& [given, name] :
+             { std::pair { flags->resume, "--resume" }, std::pair { flags->web, "--web" }, std::pair { flags->no_devices, "--no-devices" } })
+            if (given) words->flags.emplace_back (name);
+        startPython ("tactus.lab.__main__", words->all ("experiment"));
+    });
+}
 
-void addMark (const Command& app) { addOfLab (app, "mark", "Mark a moment of the experiment that runs, with the Python package (docs/lab.md)"); }
+void addMark (const Command& app)
+{
+    const auto words = std::make_shared<LabWords>();
+    const auto command = app.add ("mark", "Mark a moment of the experiment that runs, with the Python package");
+    command.addOption (
+               "text", [words] (const std::string& text) { words->positional.push_back (text); }, "The name of the mark")
+        .required();
+    command.addOption (
+        "value", [words] (const std::string& value) { words->positional.push_back (value); }, "More about it");
+    command.addOption ("--osc", takeForLab (words, "--osc"), "The port of the experiment; default: 7771");
+    command.footer ("Starts python3 -m tactus.lab. See docs/lab.md.\n\n"
+                    "Example:\n"
+                    "  tactus mark blink left");
+    command.callback ([words] { startPython ("tactus.lab.__main__", words->all ("mark")); });
+}
 
 }   // namespace tactus::host
