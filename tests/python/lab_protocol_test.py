@@ -76,6 +76,7 @@ class Files(TestCase):
                  ("lab/value", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start=9.0)),
                  ("lab/type", "/blocks", lambda d: d.update(blocks=[])), ("lab/value", "/name", lambda d: d.update(name="a/b")),
                  ("lab/value", "/blocks/0/conditions", lambda d: d["blocks"][0].update(conditions=["none"])),
+                 ("lab/device", "/devices/stylus", lambda d: d.update(devices={"stylus": "hid:auto"})),
                  ("lab/value", "/hand/maybe", lambda d: d.update(hand={"maybe": {"port": "a.b", "above": 1}})),
                  ("lab/value", "/triggers/codes/trial", lambda d: d.update(triggers={"port": "x", "codes": {"trial": 256}})),
                  ("lab/value", "/blocks/0/procedure", lambda d: d["blocks"][0].update(task="magnitude"))]

@@ -155,7 +155,9 @@ class Marks(Case):
             def ask(self, trial, level, keys, limit, hand):
                 if trial.number == 2:
                     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-                        own.sendto(_marks.osc("/tactus/answer", "second"), ("127.0.0.1", receiver.port))
+                        own.sendto(_marks.osc("/tactus/answer", "first", "wrong"), ("127.0.0.1", receiver.port))
+                        own.sendto(_marks.osc("/tactus/answer", "first"), ("127.0.0.1", receiver.port))
+                        own.sendto(_marks.osc("/tactus/answer", "second", receiver.token), ("127.0.0.1", receiver.port))
                     found = []
                     assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
                     return found[0]
@@ -179,7 +181,7 @@ class Marks(Case):
         data = self.run_session(made)
         self.assertEqual(os.read(ours, 100), b"\x01\x02\x02\xff" * 3)
         self.assertEqual([code for code in data.events["code"] if not math.isnan(code)], [1, 2, 2, 255] * 3)
-        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/no/such/line")), self.out, "02", window=lab.Simulated(OBSERVER))
+        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/dev/null")), self.out, "02", window=lab.Simulated(OBSERVER))
 
 
 class Windows(Case):
@@ -326,6 +328,10 @@ class Commands(Case):
 
     def test_a_mark_without_an_experiment_is_an_error_and_without_the_package_one_sentence_names_it(self):
         self.assertEqual(self.ran("mark", "x", "--osc", "1").returncode, 1)
+        receiver = lab.Receiver(0)
+        self.addCleanup(receiver.close)
+        self.assertEqual(self.ran("mark", "--osc", receiver.port, "--", "blink", "-left").returncode, 0)
+        self.assertEqual(receiver.marks.get(timeout=60)[:2], ("blink", "-left"))
         ran = self.ran("mark", "x", PYTHONPATH=str(self.out))
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(ran.stderr, "error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n")

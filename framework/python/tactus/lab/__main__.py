@@ -10,7 +10,7 @@ import time
 from typing import List, Optional
 
 from .._messages import Error
-from . import (Browser, Experiment, Live, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, load, mark, schema)
+from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, load, mark, schema)
 from ._marks import PORT
 from ._schema import read
 
@@ -31,9 +31,10 @@ def experiment(given: argparse.Namespace) -> int:
     window = browser or (Simulated(observer_of(given.observer)) if given.observer else Terminal())
     receiver = None if given.osc == "off" else Receiver(int(given.osc))
     stage = Silent() if given.no_devices else None
-    made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver)
-    if isinstance(made.stage, Live):
-        made.stage.use_session(given.devices)
+    made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver,
+                      device=dict(words.split("=", 1) for words in given.device), devices=given.devices)
+    if receiver:
+        print(f"OSC on 127.0.0.1:{receiver.port} (token for answers: {receiver.token})", flush=True)
     if browser:
         print(f"participant:  {browser.participant}\nexperimenter: {browser.experimenter}", flush=True)
     try:
@@ -89,6 +90,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     who.add_argument("--web", action="store_true", help="pages for the participant and the experimenter, for a browser on this computer")
     who.add_argument("--observer", help="a simulated observer: threshold=0.3,width=0.1[,lapse=…,function=…,exponent=…,noise=…,seed=…]")
     run.add_argument("--no-devices", action="store_true", help="play no graph: nothing is felt")
+    run.add_argument("--device", action="append", default=[], help="the device of a role: ROLE=hid:auto; may be given more than once")
     run.add_argument("--devices", help="the session file that binds roles to devices, or \"off\"")
     run.add_argument("--osc", default=str(PORT), help=f"UDP port for marks and answers, 0 for any, or \"off\"; default: {PORT}")
     note = commands.add_parser("mark", help="mark a moment of the experiment that runs", description="Marks a moment of the experiment that runs.")

@@ -9,7 +9,7 @@ import pathlib
 import platform
 import queue
 import time
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -33,9 +33,11 @@ class Experiment:
     """
 
     def __init__(self, protocol: Protocol, out: Union[str, "os.PathLike[str]"], participant: str = "01", session: str = "01", *, window: Window,
-                 stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None):
+                 stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {},
+                 devices: Optional[str] = None):
         """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.
-        stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC."""
+        stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC. device:
+        devices of roles, as in tactus.play; devices: the session file that binds other roles, or "off"."""
         self.protocol, self.window, self.receiver = checked(protocol), window, receiver
         for name, label in (("participant", participant), ("session", session)):
             if not label.isalnum() or not label.isascii():
@@ -57,7 +59,7 @@ class Experiment:
             (self.folder / f"{self.stem}_protocol.json").write_text(protocol.text(), encoding="utf-8")
         self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
         self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.jsonl"
-        self.stage = stage if stage is not None else Live(protocol, str(self.log)) if protocol.graph or protocol.conditions else Silent()
+        self.stage = stage if stage is not None else Live(protocol, str(self.log), devices, device) if protocol.graph or protocol.conditions else Silent()
         window.stop = self.stage.stop
         if receiver is not None:
             receiver.now = self.stage.now

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import queue
+import secrets
 import socket
 import struct
 import threading
@@ -61,8 +62,8 @@ def _text(data: bytes) -> Tuple[str, bytes]:
 
 
 class Receiver:
-    """Receives /tactus/mark (name, and perhaps a value) and /tactus/answer (an answer) on this computer, on a thread of its own. A mark gets
-    /tactus/done back. Both are only kept: neither can change a force."""
+    """Receives /tactus/mark (name, and perhaps a value) and /tactus/answer (an answer, and the token) on this computer, on a thread of its own. Both get
+    /tactus/done back. A mark is only kept. An answer may raise the next level, and with it a force, so it needs the token that the experiment shows."""
 
     def __init__(self, port: int = PORT):
         """port: UDP port on 127.0.0.1; 0: any free one."""
@@ -72,6 +73,7 @@ class Receiver:
         except OSError as why:
             self._socket.close()
             fail("lab/port", str(port), f"the port cannot be opened: {why}", "choose another one with --osc, or 0 for any")
+        self.token = secrets.token_hex(4)
         self.port: int = self._socket.getsockname()[1]
         self.now: Callable[[], Moment] = Silent().now   # the clock of the experiment
         self.marks: "queue.Queue[Tuple[str, str, Moment]]" = queue.Queue(10000)
@@ -88,7 +90,7 @@ class Receiver:
                 address, given = read_osc(packet)
                 if address == "/tactus/mark" and given:
                     self.marks.put_nowait((str(given[0])[:1000], " ".join(map(str, given[1:]))[:1000], self.now()))
-                elif address == "/tactus/answer" and given:
+                elif address == "/tactus/answer" and len(given) == 2 and secrets.compare_digest(str(given[1]).encode(), self.token.encode()):
                     self.answers.put_nowait(str(given[0])[:1000])
                 else:
                     continue
@@ -135,7 +137,7 @@ class TriggerLine:
             fail("lab/value", "/triggers/baud", f"the line has no speed of {triggers.baud} bits per second", "give a usual one, such as 115200")
         try:
             self._line = os.open(triggers.port, os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK)
-            tty.setraw(self._line)
+            tty.setraw(self._line)   # a file that is no serial line is refused here, before anything is written
             now = termios.tcgetattr(self._line)
             now[4] = now[5] = speed
             termios.tcsetattr(self._line, termios.TCSANOW, now)

@@ -102,7 +102,8 @@ class Protocol:
     about: str = field(default="", metadata=note("what it is about, and its sources"))
     seed: int = field(default=1, metadata=note("all orders follow from it and from the participant", low=0))
     graph: str = field(default="", metadata=note("a graph file relative to this one, or the name of a preset"))
-    devices: Dict[str, str] = field(default_factory=dict, metadata=note("devices of roles, as for `tactus play --device`; without one, those of the session"))
+    devices: Dict[str, str] = field(default_factory=dict, metadata=note("simulated devices of roles: gesture:NAME or trace:FILE.csv. Real ones are chosen by "
+                                                                              "the person: --device, or the session"))
     conditions: List[Condition] = field(default_factory=list, metadata=note("what is compared; without any, there is one: the graph as it is"))
     order: Literal["given", "random", "latin_square"] = field(
         default="given", metadata=note("the order of the blocks; latin_square: balanced over participants"))
@@ -201,6 +202,10 @@ def checked(protocol: Protocol) -> Protocol:
                  "use the procedure constant; for adjust and match, its levels are those to begin with")
         if block.task in ("adjust", "match") and block.step <= 0.0:
             fail("lab/missing", f"{where}/step", "the step of one key press is missing", "give a step above 0, in the unit of what varies")
+    for role, words in protocol.devices.items():
+        if not words.startswith(("gesture:", "trace:")):   # the file of a stranger never chooses a device that can push
+            fail("lab/device", f"/devices/{role}", f"a protocol does not choose the device '{words}'",
+                 f"start it with --device {role}={words}, or bind it in your session")
     for answer in protocol.hand:
         if answer not in KEYS:
             fail("lab/value", f"/hand/{answer}", f"there is no answer '{answer}'", f"the answers: {', '.join(KEYS)}")

@@ -6,8 +6,9 @@ from __future__ import annotations
 import math
 import os
 import time
-from typing import Any, Dict, List, NamedTuple, Optional
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional
 
+from .._graph import Graph
 from .._messages import fail
 from .._play import Session, play
 from ._protocol import Condition, Protocol
@@ -56,25 +57,23 @@ class Silent:
 class Live(Silent):
     """A stage on devices: a session of tactus.play. When the condition changes, the graph is edited while it plays and values ramp, so no force jumps."""
 
-    def __init__(self, protocol: Protocol, log: Optional[str] = None, session: Optional[str] = None):
-        """log: the new file for the log of all inputs. session: as in tactus.play."""
-        self._protocol, self._shown, self._session_file, self._log = protocol, "", session, log
+    def __init__(self, protocol: Protocol, log: Optional[str] = None, session: Optional[str] = None, device: Mapping[str, str] = {}):
+        """log: the new file for the log of all inputs. session, device: as in tactus.play; `device` replaces those of the protocol."""
+        self._protocol, self._session_file, self._log, self._device = protocol, session, log, dict(device)
         self._session: Optional[Session] = None
+        self._graphs: Dict[str, Graph] = {}   # by condition: a file that changes in the middle of a session changes nothing
         self._text = ""
         self._seen: List[str] = []
 
-    def use_session(self, session: Optional[str]) -> None:
-        """Another file that binds roles to devices, or "off"; before the first stimulus."""
-        self._session_file = session
-
     def show(self, condition: Condition, target: str, level: float) -> None:
-        graph = self._protocol.graph_of(condition)
+        graph = self._graphs.get(condition.name) or self._protocol.graph_of(condition)
         if graph is None:
             fail("lab/no_graph", f"condition {condition.name}", "there is no graph to play", "give the protocol a graph, or run it without devices")
+        self._graphs[condition.name] = graph
         if self._session is None:
             if self._log is not None and os.path.exists(self._log):
                 fail("lab/exists", self._log, "the log exists", "choose another file: a log is never replaced")
-            self._session = play(graph, self._protocol.devices, session=self._session_file, log=self._log)
+            self._session = play(graph, {**self._protocol.devices, **self._device}, session=self._session_file, log=self._log)
             if self._protocol.hand:
                 self._session.probe(*sorted({answer.port for answer in self._protocol.hand.values()}))
         elif graph.text != self._text:

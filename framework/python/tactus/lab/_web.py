@@ -32,8 +32,10 @@ function press(key) {
 }
 addEventListener("keydown", e => { if (e.repeat && !["+", "-"].includes(e.key)) return; if (e.key === "F11") return; e.preventDefault(); press(e.key); });
 addEventListener("dblclick", () => document.documentElement.requestFullscreen().catch(() => {}));
-if (navigator.requestMIDIAccess) navigator.requestMIDIAccess().then(m => m.inputs.forEach(i => i.onmidimessage = e => {
-  if ((e.data[0] & 0xf0) === 0x90 && e.data[2] > 0) press("Midi" + e.data[1]); })).catch(() => {});
+let midi = false;   // the browser asks the participant first, so only where keys of a MIDI keyboard are answers
+function listen() { if (midi || !navigator.requestMIDIAccess) return; midi = true;
+  navigator.requestMIDIAccess().then(m => m.inputs.forEach(i => i.onmidimessage = e => {
+    if ((e.data[0] & 0xf0) === 0x90 && e.data[2] > 0) press("Midi" + e.data[1]); })).catch(() => {}); }
 function pads() { for (const pad of navigator.getGamepads ? navigator.getGamepads() : []) if (pad) pad.buttons.forEach((b, i) => {
   if (b.pressed && !held[pad.index + "/" + i]) press("Pad" + i); held[pad.index + "/" + i] = b.pressed; }); }
 function draw(next) {
@@ -42,7 +44,8 @@ function draw(next) {
   now = next;
   document.getElementById("text").textContent = next.text;
   const keys = document.getElementById("keys"); keys.replaceChildren();
-  for (const [answer, key] of Object.entries(next.keys || {})) { const b = document.createElement("button"); b.textContent = `${answer} (${key})`;
+  for (const [answer, key] of Object.entries(next.keys || {})) { if (key.startsWith("Midi")) listen();
+    const b = document.createElement("button"); b.textContent = `${answer} (${key === " " ? "space" : key})`;
     b.onclick = () => send(key); keys.append(b); }
 }
 async function loop() { try { draw(await (await fetch("state")).json()); } catch { document.getElementById("text").textContent = "The connection is lost."; }
