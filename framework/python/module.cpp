@@ -2,6 +2,25 @@
 #include "graph.hpp"
 #include "run.hpp"
 
+#include <pybind11/stl.h>
+
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plugin/plugin_library.hpp>
+
+#include <algorithm>
+
+namespace
+{
+/// Adds these nodes of a plugin that libtactus_live has loaded. They replace nodes of the same ids, because libtactus_live has judged that already.
+void loadPlugin (const std::string& file, const std::vector<std::string>& ids)
+{
+    auto loaded = tactus::loadPlugins ({ file }, tactus::Catalogue {});
+    std::erase_if (loaded.types, [&] (const tactus::NodeType& type) { return std::ranges::find (ids, type.info.id) == ids.end(); });
+    tactus::extendCatalogue (std::move (loaded.types));
+    tactus::python::report (loaded.messages);
+}
+}   // namespace
+
 PYBIND11_MODULE (_tactus, module)
 {
     module.doc() = "The C++ side of the package tactus. Its functions may change from version to version; use those of tactus.";
@@ -15,6 +34,7 @@ PYBIND11_MODULE (_tactus, module)
         tactus_set_limits (limits.c_str(), &messages);
         tactus::python::report (messages.list);
     });
+    module.def ("load_plugin", &loadPlugin);
     tactus::python::bindGraph (module);
     tactus::python::bindRun (module);
 }

@@ -22,6 +22,7 @@ from ._nodes import nodes
 from ._own import Node, choice, scalar, vector
 from ._play import Health, Session, play
 from ._plot import plot
+from ._plugins import compile_node, load_plugins
 from ._presets import presets
 from ._records import Records
 from ._sweep import Point, sweep
@@ -29,4 +30,4 @@ from ._sweep import Point, sweep
 __version__ = _tactus.version()
 
 __all__ = ["Effort", "Engine", "Error", "Graph", "Health", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal",
-           "Status", "TactusWarning", "choice", "nodes", "play", "plot", "presets", "scalar", "set_limits", "sweep", "vector"]
+           "Status", "TactusWarning", "choice", "compile_node", "load_plugins", "nodes", "play", "plot", "presets", "scalar", "set_limits", "sweep", "vector"]

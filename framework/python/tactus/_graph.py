@@ -13,6 +13,7 @@ from ._assets import Assets
 from ._checks import Path
 from ._messages import fail, placed
 from ._own import Node
+from ._plugins import need, plugins_of
 from ._presets import graph_file
 from ._records import Records, to_json, to_optional_json
 from ._views import ControlView, NodeView, View, Wires, controls_in, nodes_in, wires_in
@@ -56,7 +57,8 @@ class Graph:
         return cls._of(_tactus.Graph.parse(text, _checks.path("folder", folder)))
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (self.text, self._graph.folder(), {path: Graph._of(file) for path, file in self._graph.files().items()})
+        files = {path: Graph._of(file) for path, file in self._graph.files().items()}
+        return _restored, (self.text, self._graph.folder(), files, plugins_of([self.text]))
 
     def __repr__(self) -> str:
         return f"<tactus.Graph {self.name[:60]!r}: {len(self.nodes)} nodes, {len(self.wires)} wires, {self.rate:g} Hz>"
@@ -211,7 +213,8 @@ class Graph:
             return engine.step(n=_ticks(engine, seconds, feed is not None))
 
 
-def _restored(text: str, folder: str, files: Dict[str, Graph]) -> Graph:
+def _restored(text: str, folder: str, files: Dict[str, Graph], plugins: Sequence[str] = ()) -> Graph:
+    need(plugins)
     graph = Graph.parse(text, folder)
     return Graph._of(_tactus.Graph.with_files(graph._graph, {path: file._graph for path, file in files.items()})) if files else graph
 

@@ -43,7 +43,17 @@ bool hasPlugins (const fs::path& folder)
     return false;
 }
 
-/// The folders given to usePlugins().
+/// The plugins that the nodes of the catalogue come from.
+std::vector<fs::path> loadedFiles()
+{
+    std::vector<fs::path> files;
+    std::error_code unseen;
+    for (const auto& type : catalogue())
+        if (! type.origin.empty()) files.push_back (fs::weakly_canonical (type.origin, unseen));
+    return files;
+}
+
+/// The folders given to usePlugins() and loadMore().
 std::vector<std::string>& givenFolders()
 {
     static std::vector<std::string> folders;
@@ -73,25 +83,26 @@ fs::path pluginMarks()
     return home.empty() ? home : home / "plugin-marks";
 }
 
-LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path& marks)
+LoadedPlugins loadFile (const fs::path& file, const fs::path& marks, const Catalogue& present)
 {
     const Quarantine quarantine { marks };
+    if (quarantine.holds (file)) return { {}, { quarantine.refusal (file) } };
+    const Quarantine::LoadingMark loading { quarantine, file };
+    return loadPlugins ({ file }, present);
+}
+
+LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path& marks)
+{
     LoadedPlugins all;
-    std::vector<fs::path> seen;
+    std::vector<fs::path> seen = loadedFiles();
     for (const auto& folder : folders)
         for (const auto& file : pluginsIn (folder))
         {
             std::error_code unseen;
             const auto whole = fs::weakly_canonical (file, unseen);
-            if (std::ranges::find (seen, whole) != seen.end()) continue;   // the same folder is named twice
+            if (std::ranges::find (seen, whole) != seen.end()) continue;   // loaded already, or the same folder is named twice
             seen.push_back (whole);
-            if (quarantine.holds (file))
-            {
-                all.messages.push_back (quarantine.refusal (file));
-                continue;
-            }
-            const Quarantine::LoadingMark loading { quarantine, file };
-            auto loaded = loadPlugins ({ file }, catalogue().with (all.types));
+            auto loaded = loadFile (file, marks, catalogue().with (all.types));
             std::ranges::move (loaded.types, std::back_inserter (all.types));
             std::ranges::move (loaded.messages, std::back_inserter (all.messages));
         }
@@ -111,6 +122,41 @@ Messages usePlugins (const std::vector<std::string>& more)
         else if (! hasPlugins (folder))
             loaded.messages.push_back (Message::warning ("plugin/none", folder, "--plugins names a folder without plugins",
                                                          "give the folder that contains the plugins themselves, which end in .tactus or .tactus-device"));
+    if (! loaded.types.empty()) extendCatalogue (std::move (loaded.types));
+    return std::move (loaded.messages);
+}
+
+Messages loadMore (const fs::path& path)
+{
+    std::error_code unseen;
+    LoadedPlugins loaded;
+    if (path.empty())
+    {
+        loaded = loadFolders (usedPluginFolders(), pluginMarks());
+        if (auto trouble = homeTrouble()) loaded.messages.push_back (std::move (*trouble));
+        for (auto& m : loaded.messages)
+            m.severity = Message::Severity::warning;
+    }
+    else if (fs::is_directory (path, unseen))
+    {
+        loaded = loadFolders ({ path }, pluginMarks());
+        if (! hasPlugins (path))
+            loaded.messages.push_back (Message::warning ("plugin/none", path.string(), "the folder has no plugins",
+                                                         "give the folder that contains the plugins themselves, which end in .tactus or .tactus-device"));
+        const auto whole = fs::weakly_canonical (path, unseen).string();
+        if (std::ranges::find (givenFolders(), whole) == givenFolders().end()) givenFolders().push_back (whole);
+    }
+    else if (! fs::exists (path, unseen))
+        return { Message::error ("plugin/no_folder", path.string(), "there is no such file or folder", "give a plugin, or a folder that contains plugins") };
+    else if (const auto files = loadedFiles(); std::ranges::find (files, fs::weakly_canonical (path, unseen)) == files.end())
+        loaded = loadFile (path, pluginMarks(), catalogue());
+    if (! loaded.types.empty()) extendCatalogue (std::move (loaded.types));
+    return std::move (loaded.messages);
+}
+
+Messages replaceBy (const fs::path& plugin)
+{
+    auto loaded = loadFile (plugin, pluginMarks(), {});
     if (! loaded.types.empty()) extendCatalogue (std::move (loaded.types));
     return std::move (loaded.messages);
 }

@@ -127,6 +127,22 @@ std::vector<LivePlugins::RebuiltPlugin> LivePlugins::buildHeaders (const std::fu
     return made;
 }
 
+Messages compileHeader (const fs::path& header, const fs::path& plugin)
+{
+    const auto source = liveHeader (header);
+    if (! source) return { source.error() };
+    LiveCompiler compiler;
+    if (auto refused = compiler.start (*source); ! refused) return { std::move (refused).error() };
+    auto output = compiler.finished();
+    for (; ! output; output = compiler.finished())
+        std::this_thread::sleep_for (std::chrono::milliseconds (10));
+    if (! output->messages.empty()) return std::move (output->messages);
+    std::error_code failed;
+    fs::copy_file (output->plugin, plugin, fs::copy_options::overwrite_existing, failed);
+    if (failed) return { Message::error ("output/unwritable", plugin.string(), "the plugin cannot be written: " + failed.message(), "choose another file") };
+    return {};
+}
+
 LivePlugins::RebuiltPlugin loadLive (const fs::path& plugin, const fs::path& code, const std::string& layout)
 {
     LivePlugins::RebuiltPlugin news { code };

@@ -67,6 +67,10 @@ private:
     std::filesystem::file_time_type started {};
 };
 
+/// Compiles the header of a node into the file `plugin`, which need not exist, and waits until that is done. Ids: those of liveHeader and LiveCompiler,
+/// output/unwritable. [main thread]
+Messages compileHeader (const std::filesystem::path& header, const std::filesystem::path& plugin);
+
 /// Loads a version of a plugin. `layout`: see PluginLibrary::types.
 LivePlugins::RebuiltPlugin loadLive (const std::filesystem::path& plugin, const std::filesystem::path& code, const std::string& layout);
 

@@ -90,6 +90,25 @@ TACTUS_API tactus_result tactus_session_rearm (tactus_session*, tactus_messages*
  *  tactus_text_free. [any thread] */
 TACTUS_API char* tactus_graph_file (const char* name);
 
+/* ---------------------------------------------------------------------------- Nodes of your own, in plugins (docs/plugins.md) */
+
+/** Loads a plugin, or all plugins of a folder, whose device drivers sessions then find, too. NULL: those that `tactus play` loads, from the folders in
+ *  TACTUS_PLUGINS, that of the user, and that of the system. From now on, graphs may use their nodes, in tactus_run and in sessions; runs and
+ *  sessions that exist keep their nodes. The rules are those of the command line: a plugin that another user could have written is not
+ *  loaded, nor one that crashed the program when it was last loaded, nor a node whose id exists already. TACTUS_FAILED if something was refused; the
+ *  rest is loaded. With NULL, refusals are only warnings. A plugin that is loaded already stays as it is. [main thread, while no other thread calls
+ *  the library] */
+TACTUS_API tactus_result tactus_plugins_load (const char* path, tactus_messages*);
+
+/** Loads a plugin whose nodes replace those of the same ids, for graphs that are compiled from now on. For another build of a node, in another file.
+ *  [main thread, while no other thread calls the library] */
+TACTUS_API tactus_result tactus_plugins_replace (const char* plugin, tactus_messages*);
+
+/** Compiles a header that ends with a line TACTUS_NODE into the file `plugin`, as the option --live of `tactus play` does, but does not load it. Waits
+ *  for the compiler, some ten seconds. It needs a C++20 compiler and the development files of Tactus: ids live/compile, live/no_compiler,
+ *  live/no_headers, live/no_node, live/foreign. [main thread] */
+TACTUS_API tactus_result tactus_plugins_compile (const char* header, const char* plugin, tactus_messages*);
+
 /* ---------------------------------------------------------------------------- While it plays */
 
 /** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force
