@@ -6,8 +6,8 @@
 
 Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials) or staircase (80 trials, 1 up, 2 down), logistic, normal or
 weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals held the true threshold (or d', or
-exponent), and the true width (or criterion). The truth of an interval is asked by the profile at the truth, which is the same question: the test lab_fit
-compares the two."""
+exponent), and the true width (or criterion). A profile interval holds the truth if the profile at the truth is high enough. The test lab_fit compares this with the
+interval."""
 
 import argparse
 import math

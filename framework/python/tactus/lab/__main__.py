@@ -16,11 +16,14 @@ from ._schema import read
 
 
 def observer_of(text: str) -> Observer:
-    """threshold=0.3,width=0.1,function=weibull: an observer."""
+    """The observer that an option describes: threshold=0.3,width=0.1,function=weibull."""
     given = {}
     for part in text.split(","):
         name, _, value = part.partition("=")
-        given[name] = value if name == "function" else int(value) if name == "seed" and value.isdigit() else float(value)
+        try:
+            given[name] = value if name == "function" else int(value) if name == "seed" and value.isdigit() else float(value)
+        except ValueError:
+            raise ValueError(f"--observer: '{part}' is not a name and a number; give, for example, threshold=0.3,width=0.1") from None
     return read(Observer, given, "--observer")
 
 
@@ -43,14 +46,14 @@ def experiment(given: argparse.Namespace) -> int:
         if receiver:
             receiver.close()
     if browser:
-        time.sleep(0.5)   # the pages learn that it is over
+        time.sleep(0.5)   # so that the pages can show that it is over
         browser.end()
     print(told(data))
     return 0
 
 
 def told(data: SessionData) -> str:
-    """A sentence about each block."""
+    """A line about the session and, if it is complete, one about each condition of each block."""
     said = [f"{data.folder}: {data.trials.rows} trials, " + ("complete" if data.is_complete else "not complete; go on with --resume")]
     for block in data.protocol.blocks if data.is_complete else []:
         for condition in block.conditions or [c.name for c in data.protocol.all_conditions()]:
@@ -62,7 +65,7 @@ def told(data: SessionData) -> str:
 
 
 def describe(data: SessionData, block: str, condition: str) -> str:
-    """The fit of a block in a sentence."""
+    """The fit of a block and a condition in a few words."""
     task = next(b for b in data.protocol.blocks if b.name == block).task
     if task in ("adjust", "match"):
         levels = data.chosen(block, condition)["outcomes"]
@@ -77,7 +80,7 @@ def describe(data: SessionData, block: str, condition: str) -> str:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """The commands. Returns the exit status: 0 fine, 1 the input is at fault, 2 wrong usage."""
+    """The commands. Returns the exit status: 0 success, 1 an error in the input or an interruption, 2 wrong usage."""
     parser = argparse.ArgumentParser(prog="tactus", description="Experiments with graphs; see docs/lab.md.")
     commands = parser.add_subparsers(dest="command", required=True)
     run = commands.add_parser("experiment", help="run a session of an experiment", description="Runs a session of an experiment.")
@@ -97,7 +100,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     note.add_argument("text", help="the name of the mark")
     note.add_argument("value", nargs="?", default="", help="more about it")
     note.add_argument("--osc", type=int, default=PORT, help=f"the port of the experiment; default: {PORT}")
-    tables = commands.add_parser("tables", help="write the tables of a session again", description="Writes the tables of a session, which its journal holds.")
+    tables = commands.add_parser("tables", help="write the tables of a session again", description="Writes the tables of a session again, from its journal.")
     tables.add_argument("folder", help="the folder of the session")
     tables.add_argument("--name", default="", help="the name of the experiment, if the folder has several")
     tables.add_argument("--to", nargs="*", default=[], choices=["csv", "h5", "mat", "xdf"], help="further formats")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Psychometric functions, fitted with intervals by profile likelihood; d' and criterion; the exponent of magnitude estimation; plots."""
+"""Psychometric functions, fitted with intervals by profile likelihood or from a posterior; d' and criterion; the exponent of magnitude estimation; plots."""
 
 from __future__ import annotations
 
@@ -173,12 +173,10 @@ class _Likelihood:
         held[index] = value
         return self.climb(held, [index])
 
-
     def posterior(self, confidence: float) -> List[Tuple[float, float, float]]:
-        """Low end, median and high end of threshold and log width, with equal tails of the posterior, on a grid; first a coarse one,
-        then one over what holds its mass. The prior:
-        flat in the threshold (weibull: its logarithm) and in the lapse rate; the log width is normal, around a sixth of the span of the levels (weibull: an
-        exponent of 3), with a standard deviation of 1."""
+        """Low end, median and high end of threshold and log width, with equal tails of the posterior, on a grid: first a coarse
+        one, then finer ones over the part that holds its mass. The prior is flat in the threshold (weibull: its logarithm) and in the lapse rate; the log
+        width is normal, around a sixth of the span of the levels (weibull: an exponent of 3), with a standard deviation of 1."""
         is_log = self.function == "weibull"
         middle = self.middle
         ends = [np.log(self.low[0]) if is_log else self.low[0], np.log(self.high[0]) if is_log else self.high[0], middle - 4.0, middle + 4.0]
@@ -264,7 +262,7 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
         _checks.number("lapse", lapse, "give a rate from 0, less than 1 together with guess", low=0.0, high=0.99 - guess)
     x, k, n = _gathered(levels, yes, trials)
     if len(x) < 2:
-        fail("lab/data", "levels", "all trials have the same level", "a function needs two levels or more")
+        fail("lab/data", "levels", "all trials have the same level", "give trials at two levels or more")
     if function == "weibull" and x.min() < 0.0:
         fail("lab/value", "levels", "a level is less than 0", "the function weibull needs levels from 0; use logistic or normal")
     given = _Likelihood(function, x, k, n, guess, lapse)
@@ -313,7 +311,7 @@ def d_prime_of_two_intervals(right: int, trials: int) -> float:
 
 
 class PowerLaw(NamedTuple):
-    """answer = gain * level^exponent (Stevens 1957), with the 95 % interval of the exponent; both have no unit."""
+    """answer = gain * level^exponent (Stevens 1957), with the 95 % interval of the exponent; the exponent has no unit."""
 
     gain: float
     exponent: float
@@ -324,7 +322,7 @@ def power_law(levels: ArrayLike, answers: ArrayLike) -> PowerLaw:
     """Fits magnitude estimates by least squares of logarithms; levels (in any unit) and answers, both of shape (n,), must be above 0."""
     x, y = _checks.array("levels", levels).ravel(), _checks.array("answers", answers).ravel()
     if len(x) != len(y) or len(x) < 3 or not ((x > 0.0).all() and (y > 0.0).all()) or np.ptp(x) == 0.0:
-        fail("lab/data", "levels", "there are fewer than three pairs of levels and answers above 0, or all levels are equal", "leave out answers of 0")
+        fail("lab/data", "levels", "a power law needs three pairs of levels and answers or more, all above 0, at two levels or more", "leave out answers of 0")
     u, v = np.log(x), np.log(y)
     spread = float(((u - u.mean()) ** 2).sum())
     exponent = float(((u - u.mean()) * (v - v.mean())).sum() / spread)
@@ -336,7 +334,7 @@ def power_law(levels: ArrayLike, answers: ArrayLike) -> PowerLaw:
 
 
 def t_quantile(free: int, share: float = 0.975) -> float:
-    """The quantile of Student's distribution with `free` degrees of freedom, by bisection of its integral; off by at most 1e-6."""
+    """The quantile of Student's distribution with `free` degrees of freedom, by bisection of its integral."""
     def below(t: float) -> float:
         x = np.linspace(0.0, math.atan(t / math.sqrt(free)), 2001)   # t = sqrt (free) tan (x)
         y = np.cos(x) ** (free - 1)

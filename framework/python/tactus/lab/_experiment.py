@@ -25,8 +25,8 @@ from ._windows import Aborted, Simulated, Window
 
 
 class Experiment:
-    """A session of a participant. Everything that happens is in its journal before the next thing begins, so nothing is lost if the process is killed;
-    `resume` goes on with the next trial, in the same order.
+    """A session of a participant. Each mark and each trial is in its journal before the next one begins, so at most the current trial is lost if the process
+    is killed; `resume` goes on with that trial, in the same order.
 
         experiment = lab.Experiment(protocol, "data", participant="01", window=lab.Simulated(lab.Observer(threshold=0.3, width=0.1)))
         session = experiment.run()
@@ -41,7 +41,7 @@ class Experiment:
         self.protocol, self.window, self.receiver = checked(protocol), window, receiver
         for name, label in (("participant", participant), ("session", session)):
             if not label.isalnum() or not label.isascii():
-                fail("lab/value", name, f"'{label}' has other characters than letters and digits", "give a label such as '01'")
+                fail("lab/value", name, f"'{label}' has characters that are not letters or digits", "give a label such as '01'")
         self.participant, self.session = participant, session
         self.folder = pathlib.Path(out) / f"sub-{participant}" / f"ses-{session}" / "beh"
         self.stem = f"sub-{participant}_ses-{session}_task-{protocol.name}"
@@ -81,15 +81,15 @@ class Experiment:
             if graph is not None:
                 graphs[condition.name] = hashlib.sha256(graph.text.encode()).hexdigest()
         if self.protocol.graph_hash and self.protocol.graph_hash not in graphs.values():
-            fail("lab/graph", "/graph_hash", "no graph of the conditions has this hash",
-                 f"the hashes: {graphs}; the graph has changed, or this version writes it differently")
+            fail("lab/graph", "/graph_hash", "no graph of the conditions has this hash: the graph has changed, or this version writes it differently",
+                 f"give one of the hashes, or leave out graph_hash: {graphs}")
         return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
                 "seed": self.protocol.seed, "graphs": graphs, "devices": self.protocol.devices,
                 "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
                 "started": {"wall": time.time(), "monotonic": time.monotonic()}}
 
     def _replay(self, past: List[_journal.Event]) -> None:
-        """Goes to where the journal ends."""
+        """Goes to the end of the journal."""
         if not past:
             return
         if past[0]["protocol"] != self.protocol.hash():
@@ -112,8 +112,8 @@ class Experiment:
     # ------------------------------------------------------------------------ The run
 
     def run(self) -> "_tables.SessionData":
-        """Runs the session to its end, and returns its data. A window may raise Aborted; then, and after each other exception, the journal stays, and the
-        forces go to zero."""
+        """Runs the session to its end, and returns its data. If a window raises Aborted, the data so far are returned. After each
+        exception, the journal stays, and the forces go to zero."""
         why = "error"
         try:
             self.mark("run", str(self.run_number))
@@ -142,7 +142,7 @@ class Experiment:
     def _trial(self, trial: Trial) -> None:
         self._report(trial)
         self._take_marks()
-        self.stage.events()   # those of before do not belong to this trial
+        self.stage.events()   # earlier ones do not belong to this trial
         condition, varies = self.protocol.condition(trial.condition), trial.block.varies
         begin = self.mark("trial", str(trial.number))
         for i, interval in enumerate(trial.intervals):
@@ -199,7 +199,7 @@ class Experiment:
     # ------------------------------------------------------------------------ Marks
 
     def mark(self, name: str, value: str = "", at: Optional[Moment] = None) -> Moment:
-        """Writes a mark with the tick and the wall and monotonic time (in s), and sends its trigger if it has one. at: when it was; without it, now.
+        """Writes a mark with the tick and the wall and monotonic time (in s), and sends its trigger if it has one. at: its moment; without it, now.
         Returns the moment."""
         code = self._triggers.send(name) if self._triggers else None
         now = at if at is not None else self.stage.now()

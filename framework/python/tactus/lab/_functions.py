@@ -18,7 +18,7 @@ def core(function: Function, level: Any, threshold: Any, width: Any) -> Array:
     """F, from 0 to 1, without guesses and lapses.
 
     logistic: 1 / (1 + exp (-(x - threshold) / width)), 0.5 at the threshold. normal: Phi ((x - threshold) / width), 0.5 at the threshold.
-    weibull: 1 - exp (-(x / threshold)^width), 1 - 1/e at the threshold; x > 0, and width is an exponent without a unit."""
+    weibull: 1 - exp (-(x / threshold)^width), 1 - 1/e at the threshold; x >= 0, and width is an exponent without a unit."""
     x = np.asarray(level, dtype=float)
     if function == "weibull":
         with np.errstate(over="ignore", divide="ignore"):
@@ -33,7 +33,8 @@ def probability(function: Function, level: Any, threshold: Any, width: Any, gues
 
 
 def phi(z: Any) -> Array:
-    """The distribution function of the standard normal distribution: a table of math.erfc with steps of 1/512, and cubics between, off by at most 1e-13."""
+    """The distribution function of the standard normal distribution: a table of math.erfc with steps of 1/512, and cubics between; off by
+    less than 1e-13 where a test compares it."""
     at = np.clip(np.asarray(z, dtype=float), -_ENDS, _ENDS) + _ENDS
     i = np.minimum((at * _PER_UNIT).astype(int), len(_VALUES) - 2)
     u = at * _PER_UNIT - i

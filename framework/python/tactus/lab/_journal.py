@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The journal of a session: one line of JSON for each event, on the disk before the next one begins. Nothing in it is ever changed."""
+"""The journal of a session: one line of JSON for each event, on the disk before the next event. Lines are only added."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ def read(path: pathlib.Path) -> List[Event]:
         try:
             event = json.loads(line.decode())
             if not isinstance(event, dict):
-                raise ValueError("it is no object")
+                raise ValueError("it is not an object")
         except ValueError as why:
             after = next((other for other in lines[i + 1:] if other), None)
             if after is None or after.startswith(b'{"event": "resumed"'):
                 continue
-            fail("lab/journal", f"{path}:{i + 1}", f"the line cannot be read: {why}", "restore the file from a copy: no line of a journal is ever changed")
+            fail("lab/journal", f"{path}:{i + 1}", f"the line cannot be read: {why}", "restore the file from a copy; lines of a journal must not be edited")
         events.append(event)
     if not events or events[0].get("format") != "tactus-journal" or events[0].get("version") != 1:
-        fail("lab/journal", str(path), "the file is no journal of version 1", "give the journal of a session")
+        fail("lab/journal", str(path), "the file is not a journal of version 1", "give the journal of a session")
     return events
 
 
 class Journal:
-    """A journal to which events are added. One process at a time may."""
+    """A journal to which events are added, by one process at a time. Windows does not enforce this."""
 
     def __init__(self, path: pathlib.Path, header: Optional[Event]):
         """header: the first line of a new file; None to go on with one."""
@@ -49,13 +49,13 @@ class Journal:
         try:
             self._file: BinaryIO = open(path, "xb" if header is not None else "ab", buffering=0)
         except FileExistsError:
-            fail("lab/exists", str(path), "the session exists", "resume it (--resume), or choose another session")
+            fail("lab/exists", str(path), "the session already exists", "resume it (--resume), or choose another session")
         if fcntl is not None:
             try:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 self._file.close()
-                fail("lab/busy", str(path), "another process runs this session", "wait for it, or end it")
+                fail("lab/busy", str(path), "another process is running this session", "wait until it ends, or end it")
         if header is None:
             with open(path, "rb") as file:
                 whole = file.read()[-1:] == b"\n"

@@ -30,11 +30,11 @@ def osc(address: str, *arguments: Argument) -> bytes:
 
 
 def read_osc(packet: bytes) -> Tuple[str, List[Argument]]:
-    """The address and the arguments of an OSC message. ValueError if it is none."""
+    """The address and the arguments of an OSC message. ValueError if the packet is not one."""
     address, rest = _text(packet)
     types, rest = _text(rest)
     if not address.startswith("/") or not types.startswith(","):
-        raise ValueError("it is no message")
+        raise ValueError("it is not a message")
     found: List[Argument] = []
     for kind in types[1:]:
         if kind == "s":
@@ -99,7 +99,7 @@ class Receiver:
                 continue   # a stranger's packet
 
     def answer(self) -> Optional[str]:
-        """The oldest answer that was not taken yet."""
+        """The oldest answer that was not taken yet; None if there is none."""
         try:
             return self.answers.get_nowait()
         except queue.Empty:
@@ -114,7 +114,7 @@ class Receiver:
 
 
 def mark(text: str, value: str = "", port: int = PORT, wait: float = 2.0) -> bool:
-    """Sends a mark to the experiment that runs on this computer, as `tactus mark` does. wait: for its answer, in s. Returns whether it has answered."""
+    """Sends a mark to the experiment that runs on this computer, as `tactus mark` does. wait: for its reply, in s. True if it replied."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
         own.settimeout(wait)
         try:
@@ -134,7 +134,8 @@ class TriggerLine:
         self._codes = triggers.codes
         speed = getattr(termios, f"B{triggers.baud}", None)
         if speed is None:
-            fail("lab/value", "/triggers/baud", f"the line has no speed of {triggers.baud} bits per second", "give a usual one, such as 115200")
+            fail("lab/value", "/triggers/baud", f"serial lines of this system have no speed of {triggers.baud} bits per second",
+                 "give a standard one, such as 115200")
         try:
             self._line = os.open(triggers.port, os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK)
             tty.setraw(self._line)   # a file that is no serial line is refused here, before anything is written
@@ -145,7 +146,7 @@ class TriggerLine:
             fail("lab/triggers", triggers.port, f"the serial line cannot be opened: {why}", "check /triggers/port of the protocol")
 
     def send(self, name: str) -> Optional[int]:
-        """Sends the code of a mark; returns it, or None if the mark has none. It never waits: a line that is full is an error."""
+        """Sends the code of a mark; returns it, or None if the mark has none. A full line is an error, not a wait."""
         code = self._codes.get(name)
         if code is not None:
             try:

@@ -13,9 +13,9 @@ from ._trials import Answer, Trial
 
 @dataclass(frozen=True)
 class Observer:
-    """threshold, width, lapse: of the psychometric function, whose guess rate is that of the block; threshold and width are in the unit of what varies.
-    For adjust and match, threshold is the level at which the observer is content, give or take `width` (standard deviation). For magnitude, the answer is
-    gain * level^exponent, with a factor exp (noise * normal)."""
+    """A simulated observer. threshold, width, lapse: of its psychometric function, whose guess rate is that of the block; threshold and
+    width are in the unit of what varies. For adjust and match, threshold is the level at which the observer is content, give or take `width` (standard
+    deviation). For magnitude, the answer is gain * level^exponent, with a factor exp (noise * normal)."""
 
     threshold: float
     width: float

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which level comes next: constant stimuli, staircases, and the psi method (QUEST+)."""
+"""Procedures that choose the next level: constant stimuli, staircases, and the psi method (QUEST+)."""
 
 from __future__ import annotations
 
@@ -32,8 +32,9 @@ class Constant:
 
 @dataclass(frozen=True)
 class Staircase:
-    """An up-down staircase (Levitt 1971; weighted: Kaernbach 1991). After `down` answers "yes" or right ones in a row the level falls by a step, after
-    `up` others in a row it rises by up_factor steps. 1 up, 1 down converges to 50 %, 1 up, 2 down to 70.7 %; with weights, to up_factor / (1 + up_factor)."""
+    """An up-down staircase (Levitt 1971; weighted: Kaernbach 1991). After `down` answers in a row that are right or "yes", the level falls by a step; after
+    `up` other answers in a row, it rises by up_factor steps. 1 up, 1 down converges to 50 %, or with weights to up_factor / (1 + up_factor); 1 up, 2 down
+    converges to 70.7 %."""
 
     kind: Literal["staircase"] = field(default="staircase", metadata=note("an up-down staircase"))
     start: float = field(default=1.0, metadata=note("the first level, in the unit of what varies"))
@@ -53,7 +54,7 @@ class Staircase:
 @dataclass(frozen=True)
 class Psi:
     """The psi method (Kontsevich and Tyler 1999), also with lapses as in QUEST+ (Watson 2017): each trial has the level after which the expected entropy
-    of threshold, slope and lapse rate is least."""
+    of threshold, width and lapse rate is least."""
 
     kind: Literal["psi"] = field(default="psi", metadata=note("the psi method, QUEST+"))
     levels: Tuple[float, ...] = field(default=(), metadata=note("the levels to choose from, in the unit of what varies", fewest=2))
@@ -69,16 +70,16 @@ Procedure = Union[Constant, Staircase, Psi]
 
 
 def check(procedure: Procedure, where: str) -> None:
-    """Refuses what no single field can show."""
+    """Refuses fields that do not fit together."""
     if isinstance(procedure, Staircase):
         if not procedure.low <= procedure.start <= procedure.high:
-            fail("lab/value", f"{where}/start", f"the level {procedure.start:g} is not from low ({procedure.low:g}) to high ({procedure.high:g})",
+            fail("lab/value", f"{where}/start", f"the level {procedure.start:g} is not between low ({procedure.low:g}) and high ({procedure.high:g})",
                  "give a start between them")
         if procedure.scale == "ratio" and (min(procedure.steps) <= 1.0 or procedure.start <= 0.0):
             fail("lab/value", f"{where}/steps", "steps of the scale ratio are factors above 1, and levels are above 0",
                  "give factors such as 1.25, or scale linear")
         if procedure.scale == "linear" and min(procedure.steps) <= 0.0:
-            fail("lab/value", f"{where}/steps", "a step is not above 0", "give steps above 0")
+            fail("lab/value", f"{where}/steps", "the steps are not all above 0", "give steps above 0")
     if isinstance(procedure, Psi):
         positive = (*procedure.widths, *((*procedure.levels, *procedure.thresholds) if procedure.function == "weibull" else ()))
         if min(positive) <= 0.0:
@@ -88,7 +89,7 @@ def check(procedure: Procedure, where: str) -> None:
 
 
 class Track:
-    """A procedure that runs: `level` is the next one, or None at its end; `answer` takes what came out of it."""
+    """A procedure that runs: `level` is the next level, or None at the end; `answer` takes the outcome."""
 
     def level(self) -> Optional[float]:
         """The level of the next trial, in the unit of what varies; None once the procedure is over. Asking changes nothing."""
@@ -119,7 +120,7 @@ class ConstantTrack(Track):
 
 
 class StaircaseTrack(Track):
-    """turns: the levels at which the direction changed."""
+    """A running staircase. turns: the levels at which the direction changed."""
 
     def __init__(self, given: Staircase):
         self._given, self._level, self._trials, self._right, self._wrong, self._direction = given, given.start, 0, 0, 0, 0
@@ -152,7 +153,7 @@ class StaircaseTrack(Track):
 
 
 class PsiTrack(Track):
-    """posterior: shape (thresholds, widths, lapses), its sum is 1."""
+    """A running psi method. posterior: shape (thresholds, widths, lapses), its sum is 1."""
 
     def __init__(self, given: Psi):
         self._given, self._trials = given, 0
@@ -178,7 +179,7 @@ class PsiTrack(Track):
             chance = joint.sum(axis=(1, 2, 3))
             logs = np.log(np.where(joint > 0.0, joint, 1.0))
             total += -(joint * logs).sum(axis=(1, 2, 3)) + np.where(chance > 0.0, chance * np.log(np.where(chance > 0.0, chance, 1.0)), 0.0)
-        return np.round(total, 12)   # a tie is one on every computer
+        return np.round(total, 12)   # so that a tie does not depend on the computer's rounding
 
     def answer(self, level: float, outcome: float) -> None:
         yes = self._yes[int(np.argmin(np.abs(self._levels - level)))]
@@ -208,8 +209,8 @@ def start(procedure: Procedure, draw: Draw) -> List[Track]:
 
 
 def mean_of_turns(levels: Sequence[float], drop: int = 2, ratio: bool = False) -> float:
-    """The classic estimate of a staircase: the mean of the levels at its reversals, geometric with `ratio`, without the first `drop` and, if their number is
-    odd then, without one more. NaN if none is left."""
+    """The classic estimate of a staircase: the mean of the levels at its reversals, geometric with `ratio`, without the first `drop`. If an odd number
+    remains, one more is left out. NaN if none is left."""
     kept = list(levels)[drop:]
     kept = kept[len(kept) % 2:]
     if not kept:

@@ -26,7 +26,7 @@ QUESTIONS = {"yes_no": "Did you feel it?", "2ifc": "Which one was stronger?", "g
 
 @dataclass(frozen=True)
 class Condition:
-    """What a participant feels: a graph with values."""
+    """A graph with values, which a participant feels."""
 
     name: str = field(metadata=note("its name, in tables"))
     graph: str = field(default="", metadata=note("a graph file, or the name of a preset; without it, that of the protocol"))
@@ -37,12 +37,12 @@ class Condition:
 
 @dataclass(frozen=True)
 class Varies:
-    """What a level sets."""
+    """The target of the levels: a parameter or a control."""
 
     target: str = field(metadata=note("a parameter, such as \"wall.stiffness\", or a control of the graph"))
     unit: str = field(default="1", metadata=note("the unit of the levels, for tables and plots; levels of parameters are in SI units"))
     standard: float = field(default=0.0, metadata=note("the level of the other interval in comparisons, and of catch trials"))
-    rest: Optional[float] = field(default=None, metadata=note("the level between intervals; without it, the last one stays"))
+    rest: Optional[float] = field(default=None, metadata=note("the level between intervals; without it, the last level stays"))
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Block:
 
     name: str = field(metadata=note("its name, in tables"))
     task: Task = field(metadata=note("yes_no; 2ifc and greater: two intervals, in which one is stronger, or greater; abx; magnitude: a number; "
-                                      "adjust: the participant sets the level; match: the same, beside a standard"))
+                                      "adjust: the participant sets the level; match: the same, to equal a standard"))
     procedure: Procedure = field(metadata=note("which level comes next"))
     varies: Varies = field(metadata=note("what a level sets"))
     conditions: List[str] = field(default_factory=list, metadata=note("names of conditions, each with a procedure of its own; without them, all"))
@@ -71,7 +71,8 @@ class Block:
     feedback: bool = field(default=False, metadata=note("whether the participant is told what was right"))
     interval: float = field(default=1.0, metadata=note("how long an interval lasts, in s", low=0.0, high=3600.0))
     gap: float = field(default=0.3, metadata=note("the time between intervals, in s", low=0.0, high=3600.0))
-    time_limit: float = field(default=0.0, metadata=note("for an answer, in s; 0: none. A trial without an answer is repeated later", low=0.0, high=86400.0))
+    time_limit: float = field(default=0.0, metadata=note("for an answer, in s; 0: none. A trial that counts is repeated if it has none", low=0.0,
+                                                                    high=86400.0))
     step: float = field(default=0.0, metadata=note("of adjust and match: what one key press adds, in the unit of what varies", low=0.0))
     guess: Optional[float] = field(default=None, metadata=note("for the analysis: the rate of \"yes\" or right answers without a stimulus; "
                                                                 "by default 0.5 for 2ifc and abx, else 0", low=0.0, high=0.99))
@@ -100,13 +101,13 @@ class Protocol:
     format: Literal["tactus-experiment"] = field(default="tactus-experiment", metadata=note("the format of the file"))
     version: Literal[1] = field(default=1, metadata=note("the version of the format"))
     about: str = field(default="", metadata=note("what it is about, and its sources"))
-    seed: int = field(default=1, metadata=note("all orders follow from it and from the participant", low=0))
+    seed: int = field(default=1, metadata=note("the random orders follow from it, the participant and the session", low=0))
     graph: str = field(default="", metadata=note("a graph file relative to this one, or the name of a preset"))
     devices: Dict[str, str] = field(default_factory=dict, metadata=note("simulated devices of roles: gesture:NAME or trace:FILE.csv. Real ones are chosen by "
                                                                               "the person: --device, or the session"))
     conditions: List[Condition] = field(default_factory=list, metadata=note("what is compared; without any, there is one: the graph as it is"))
     order: Literal["given", "random", "latin_square"] = field(
-        default="given", metadata=note("the order of the blocks; latin_square: balanced over participants"))
+        default="given", metadata=note("the order of the blocks; latin_square: balanced over participants with the labels 1, 2, 3, …"))
     instructions: str = field(default="", metadata=note("what the participant reads first"))
     keys: Dict[str, str] = field(default_factory=dict, metadata=note("other keys for answers: {\"first\": \"ArrowLeft\"}"))
     hand: Dict[str, HandAnswer] = field(default_factory=dict, metadata=note("answers that the hand gives itself"))
@@ -157,7 +158,7 @@ class Protocol:
         pathlib.Path(path).write_text(self.text(), encoding="utf-8")
 
     def hash(self) -> str:
-        """sha256 of what the protocol says: a session goes on only with the protocol that it began with."""
+        """sha256 of the text of the protocol: a session is resumed only with the protocol with which it began."""
         return hashlib.sha256(self.text().encode()).hexdigest()
 
     @staticmethod
@@ -184,13 +185,13 @@ def _load(path: str) -> Any:
 
 
 def checked(protocol: Protocol) -> Protocol:
-    """Refuses what the types of single values cannot show: names without a counterpart, levels that a graph does not take."""
+    """The protocol, after checks that the types of single values cannot make: that names exist, and that a graph takes the levels."""
     if not protocol.name.isalnum() or not protocol.name.isascii():
         fail("lab/value", "/name", f"'{protocol.name}' has other characters than letters and digits", "choose a name for files, such as 'roughness'")
     known = [c.name for c in protocol.all_conditions()]
     for kind, names in (("conditions", known), ("blocks", [b.name for b in protocol.blocks])):
         if twice := [name for name in names if names.count(name) > 1]:
-            fail("lab/value", f"/{kind}", f"there are two {kind} called '{twice[0]}'", "give each a name of its own")
+            fail("lab/value", f"/{kind}", f"there are two {kind} called '{twice[0]}'", "give each a different name")
     for i, block in enumerate(protocol.blocks):
         where = f"/blocks/{i}"
         check(block.procedure, f"{where}/procedure")
@@ -211,7 +212,7 @@ def checked(protocol: Protocol) -> Protocol:
             fail("lab/value", f"/hand/{answer}", f"there is no answer '{answer}'", f"the answers: {', '.join(KEYS)}")
     for name, code in (protocol.triggers.codes if protocol.triggers else {}).items():
         if not 1 <= code <= 255:
-            fail("lab/value", f"/triggers/codes/{name}", f"{code} is no code of 8 bits", "give a code from 1 to 255")
+            fail("lab/value", f"/triggers/codes/{name}", f"{code} is not a code of 8 bits", "give a code from 1 to 255")
     _check_targets(protocol)
     return protocol
 
@@ -235,7 +236,7 @@ def _check_targets(protocol: Protocol) -> None:
 
 
 def levels_of(block: Block) -> List[float]:
-    """The levels that a block can be known to use: all of constant stimuli and psi, the first and the bounds of a staircase; and the standard and the rest."""
+    """The levels of a block that are known before it runs: those of constant stimuli and psi, start and bounds of a staircase; the standard, the rest."""
     procedure, varies = block.procedure, block.varies
     found = list(procedure.levels) if isinstance(procedure, (Constant, Psi)) else [procedure.start, procedure.low, procedure.high]
     return found + [varies.standard] + ([varies.rest] if varies.rest is not None else [])

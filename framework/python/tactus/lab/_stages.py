@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where stimuli are felt: on the devices of this computer, or nowhere."""
+"""Stages for stimuli: the devices of this computer, or none."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Silent:
     """A stage without a graph: nothing is felt, and no time passes."""
 
     def show(self, condition: Condition, target: str, level: float) -> None:
-        """From now on, the condition is felt, with this level (in the unit of the target)."""
+        """Plays the condition from now on, with this level (in the unit of the target)."""
 
     def wait(self, duration: float) -> None:
         """Lets the participant feel it for a duration in s."""
@@ -36,7 +36,7 @@ class Silent:
         return Moment(None, time.time(), time.monotonic())
 
     def hand(self) -> Optional[str]:
-        """The answer that the hand gives at this moment."""
+        """The answer that the hand gives at this moment; None if it gives none."""
         return None
 
     def events(self) -> List[str]:
@@ -48,14 +48,14 @@ class Silent:
         return {}
 
     def stop(self) -> None:
-        """All forces go to zero, and stay there. [any thread]"""
+        """Takes all forces to zero, and keeps them there. [any thread]"""
 
     def close(self) -> None:
         """Ends the run: all forces go to zero first."""
 
 
 class Live(Silent):
-    """A stage on devices: a session of tactus.play. When the condition changes, the graph is edited while it plays and values ramp, so no force jumps."""
+    """A stage on devices: a session of tactus.play. When the condition changes, the graph is edited while it plays; parameters ramp to their new values."""
 
     def __init__(self, protocol: Protocol, log: Optional[str] = None, session: Optional[str] = None, device: Mapping[str, str] = {}):
         """log: the new file for the log of all inputs. session, device: as in tactus.play; `device` replaces those of the protocol."""

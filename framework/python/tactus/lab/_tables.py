@@ -23,7 +23,7 @@ _EVENT_UNITS = {"onset": "s", "duration": "s", "wall": "s", "monotonic": "s"}
 
 
 class SessionData:
-    """What a session has given. trials, events: tables; `write` writes them beside the journal, with names after BIDS."""
+    """The results of a session. trials, events: tables; `write` writes them beside the journal, with names after BIDS."""
 
     def __init__(self, folder: pathlib.Path, stem: str, events: List[_journal.Event], protocol: Protocol):
         self.folder, self.stem, self.protocol = folder, stem, protocol
@@ -35,7 +35,7 @@ class SessionData:
         self.trials, self.events = self._trial_table(about), self._event_table(about)
 
     def _onset(self, moment: Dict[str, Any], run: Dict[str, Any]) -> float:
-        """s since the session began. Within a run the monotonic clock counts; it may begin anew between runs."""
+        """The time since the session began, in s. It is taken from the monotonic clock within a run, as that may begin anew between runs."""
         begun = self.header["started"]
         return float(run["wall"] - begun["wall"] + moment["monotonic"] - run["monotonic"])
 
@@ -109,7 +109,7 @@ class SessionData:
         if given.task == "magnitude":
             return power_law(data["levels"], data["outcomes"])
         if given.task in ("adjust", "match"):
-            fail("lab/data", given.name, "adjusted levels have no psychometric function", "take their mean: chosen(block)['outcomes']")
+            fail("lab/data", given.name, "a psychometric function cannot be fitted to adjusted levels", "take their mean: chosen(block)['outcomes']")
         used = function or (given.procedure.function if isinstance(given.procedure, Psi) else "logistic")
         return psychometric(data["levels"], data["outcomes"], function=used, guess=given.guess_rate, lapse=lapse, unit=given.varies.unit,
                             method="profile" if isinstance(given.procedure, Constant) else "posterior")
@@ -125,7 +125,7 @@ class SessionData:
         """The levels at the reversals of each staircase, by condition and track ("smooth/0"), in the unit of what varies."""
         given = self._block(block)
         if not isinstance(given.procedure, Staircase):
-            fail("lab/data", given.name, "the procedure is no staircase", "give a block with a staircase")
+            fail("lab/data", given.name, "the procedure of this block is not a staircase", "give a block with a staircase")
         from ._procedures import StaircaseTrack
         tracks: Dict[str, StaircaseTrack] = {}
         for b, kind, c, t, level, outcome in zip(*(self.trials[key] for key in ("block", "kind", "condition", "track", "level", "outcome"))):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The order of an experiment: which text and which trial comes next. It follows from the protocol, the participant and the answers alone, so answers that
-were kept give it again."""
+"""The order of texts and trials in an experiment. It follows from the protocol, the participant, the session and the answers alone, so the answers in a
+journal give it again."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ class Trial:
 
     @property
     def question(self) -> str:
-        """What the participant is asked."""
+        """The question to the participant."""
         return self.block.question or QUESTIONS[self.block.task]
 
     def outcome(self, answer: Answer) -> Optional[float]:
-        """What an answer counts: 1 or 0, or the number; None without an answer."""
+        """The value of an answer: 1 or 0, or the number; None without an answer."""
         if answer is None or isinstance(answer, float):
             return answer
         return float(answer == self.expected)
@@ -59,7 +59,7 @@ Step = Union[Text, Trial]
 
 
 class Plan:
-    """Goes through an experiment: `step` is what comes next, None at the end."""
+    """A way through an experiment: `step` is the next text or trial, None at the end."""
 
     def __init__(self, protocol: Protocol, participant: str = "01", session: str = "01"):
         """participant, session: labels; a participant whose label is a number has that row of the latin square."""
@@ -71,7 +71,7 @@ class Plan:
         self.step: Optional[Step] = next(self._steps, None)
 
     def answer(self, answer: Answer = None) -> Optional[Step]:
-        """Takes the answer to the step, and returns the next one. Texts need none; a trial without one is repeated later."""
+        """Takes the answer to the step, and returns the next one. Texts need none; a trial that counts is repeated if it has none."""
         try:
             self.step = self._steps.send(answer)
         except StopIteration:
@@ -83,7 +83,7 @@ class Plan:
         return next((t for b, t in zip(self._protocol.blocks, self._tracks) if b.name == block), [])
 
     def left(self) -> int:
-        """The largest number of trials that count and are left."""
+        """The largest number of trials that are left, without practice and catch trials."""
         begun = {i for i, tracks in enumerate(self._tracks) if tracks}
         return sum(track.left() for tracks in self._tracks for _, _, track in tracks if track.level() is not None) + sum(
             track.left() for i in range(len(self._tracks)) if i not in begun for _, _, track in self._start(i))
@@ -128,7 +128,7 @@ class Plan:
                 count += 1
 
     def _by_what_is_left(self, tracks: List[Tuple[str, int, Track]], draw: Draw) -> Tuple[str, int, Track]:
-        """A track, drawn so that each remaining trial is as likely as each other: the conditions are mixed evenly up to the end."""
+        """A track, drawn so that all remaining trials are equally likely: the conditions stay mixed up to the end."""
         at = draw.below(sum(track.left() for _, _, track in tracks))
         for each in tracks:
             at -= each[2].left()

@@ -82,8 +82,8 @@ loop();
 
 
 class Browser(Window):
-    """Two pages on 127.0.0.1, whose addresses hold a secret, so other users of the computer cannot open them. Keys of pads are called Pad0, Pad1, …, those of
-    MIDI keyboards Midi60, …"""
+    """Two pages on 127.0.0.1, whose addresses hold a secret, so that other users of the computer cannot guess them. Keys of pads are called Pad0, Pad1, …,
+    those of MIDI keyboards Midi60, …"""
 
     def __init__(self, port: int = 0):
         """port: TCP port; 0: any free one."""
@@ -110,7 +110,7 @@ class Browser(Window):
                 self.wfile.write(data)
 
             def _place(self) -> str:
-                """The page that is meant; "" if the secret is wrong, or another name led here."""
+                """The requested page; "" if the secret is wrong, or the host is not this computer."""
                 host = self.headers.get("Host", "").rsplit(":", 1)[0]
                 parts = self.path.split("/")
                 is_known = len(parts) == 3 and secrets.compare_digest(parts[1].encode(), window._token.encode()) and host in ("127.0.0.1", "localhost")

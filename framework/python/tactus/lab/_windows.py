@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who is asked: a simulated observer, or a person at a terminal. The window in the browser is in _web.py."""
+"""Windows through which a simulated observer or a person at a terminal answers. The window in the browser is in _web.py."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from ._trials import Answer, Trial
 
 
 class Aborted(Exception):
-    """A person ends the session. It can be resumed."""
+    """The end of a session before its last trial, by a person. It can be resumed."""
 
 
 class Window:
-    """What the participant and the experimenter see. A derived class says how. stop: the experiment sets it: all forces go to zero. [any thread]"""
+    """The side of an experiment that participant and experimenter see; derived classes implement it. stop: takes all forces to zero [any thread]; set by the
+    experiment."""
 
     stop: Callable[[], None] = staticmethod(lambda: None)
 
@@ -31,14 +32,15 @@ class Window:
 
     def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
         """Asks, and waits for the answer: one of the keys of `keys`, whose values are the keys of a keyboard, or a number for magnitude.
-        level: what is felt, in the unit of what varies. limit: in s, 0 without one; None after it. hand: the answer of the hand, to be asked regularly."""
+        level: what is felt, in the unit of what varies. limit: in s, 0 without one; the answer is None after it. hand: the answer of the hand or by OSC,
+        to be called regularly."""
         raise NotImplementedError
 
     def report(self, state: Dict[str, Any]) -> None:
-        """Tells the experimenter how things are."""
+        """Shows the state of the experiment to the experimenter."""
 
     def close(self) -> None:
-        """The experiment is over."""
+        """Shows that the experiment is over."""
 
 
 class Simulated(Window):
@@ -95,7 +97,7 @@ class Terminal(Window):
 
 
 def number_of(text: str) -> Optional[float]:
-    """The finite number that a participant gives, from 0; None if it is none."""
+    """The finite number, 0 or more, that a text gives; None if it gives none."""
     try:
         value = float(text.replace(",", "."))
     except ValueError:

@@ -63,7 +63,7 @@ class Table(Dict[str, Column]):
             part.unlink(missing_ok=True)
 
     def sidecar(self) -> Dict[str, Any]:
-        """What is known about the table, as JSON."""
+        """Units, sampling rate and other facts about the table, as JSON."""
         return {**({"SamplingFrequency": self.rate_hz} if self.rate_hz else {}), **self.about,
                 **{name: {"Units": self.units[name]} for name in self if self.units.get(name)}}
 
