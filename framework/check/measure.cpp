@@ -623,7 +623,7 @@ private:
         }
     }
 
-    /// `without`: the forces of the graph without it.
+    /// `without`: the forces of the graph without this texture.
     void addTexture (const TextureWatch& watched, const Forces& without)
     {
         for (std::size_t r = 0; r < motion.roles.size(); ++r)

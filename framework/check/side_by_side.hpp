@@ -12,8 +12,8 @@
 namespace tactus::check
 {
 
-/// Calls `work (i)` for each i from 0 to count - 1, on some threads. Each call must be independent of the others. Throws what the call with the lowest
-/// number threw.
+/// Calls `work (i)` for each i from 0 to count - 1, on at most `threads` threads, this one included. The calls must be independent of each other. If calls
+/// throw, rethrows the exception of the one with the lowest i, after all have ended.
 template <typename Work>
 void sideBySide (std::size_t count, std::size_t threads, Work&& work)
 {

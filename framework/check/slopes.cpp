@@ -318,7 +318,7 @@ private:
 
 namespace
 {
-/// The parts of the work that run side by side. They do not depend on the number of threads, so the result does not, either.
+/// The parts of the work that run side by side. Neither they nor the result depend on the number of threads.
 std::vector<SlopeWork> partsOf (const SlopeWork& work)
 {
     constexpr std::size_t least = 16;   // spots; each part follows the whole motion up to its last spot

@@ -351,7 +351,7 @@ private:
         return worst;
     }
 
-    /// The damping that a place asks of the device of a role, over the damping that it has.
+    /// The ratio of the damping that the loop at a place needs to that of the device of a role; 0 if it needs none.
     double loadOf (std::size_t role, std::size_t place) const
     {
         const auto& s = demand.roles[role].slopes[place];
@@ -374,8 +374,8 @@ private:
         return false;
     }
 
-    /// True if the loops of all tools are known at a place, and passive with half of the device's damping, or a quarter of it if a friction slips. A few
-    /// trials are enough there.
+    /// True if the loops of all tools at a place are known, and would be passive with half of the device's damping, or with a quarter of it if a friction
+    /// slips. There, only a few trials are made.
     bool isCalm (std::size_t place) const
     {
         if (place >= demand.linked.size()) return false;

@@ -12,7 +12,7 @@ namespace tactus
 /// `usual` is the separator of the first row, if it is known: a semicolon or a tab then separates also where a field is not a number, such as 1.000,5.
 char separatorOf (std::string_view line, char usual = '\0');
 
-/// A field with a point in the place of its decimal comma: its only comma, with no point in the field.
+/// A field with a point in place of its decimal comma. Only a single comma in a field without a point counts as one.
 std::string withPoint (std::string_view field);
 
 }   // namespace tactus

@@ -46,8 +46,8 @@ struct Appearance
     std::string_view crack {};       ///< length of the crack, m; of scissors: distance from the pivot to its end
     std::string_view thickness {};   ///< thickness of what is cut, m; 0: unlimited
     std::string_view pivot {};       ///< distance from the pivot of scissors to the plate, m
-    std::string_view radius {};      ///< setting: the radius of each round tool, m, or one for all
-    std::string_view choice {};      ///< input: number of the tool that has the radius; between two numbers, it lies between theirs
+    std::string_view radius {};      ///< setting: the radius of each round tool in m, or one radius for all
+    std::string_view choice {};      ///< input: number of the tool; between two numbers, the radius is interpolated
 };
 
 /// A part of an Appearance by its name, for code that treats all of them alike.

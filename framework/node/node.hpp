@@ -75,7 +75,7 @@ struct Services
 {
     std::function<std::unique_ptr<NearestTriangle> (std::shared_ptr<const Mesh>)> nearest_triangle {};   ///< makes an index of a large mesh; call it in prepare
     QueryService* answers = nullptr;                                                                     ///< answers the async queries; null: answered when due
-    PreparedData* prepared = nullptr;                                                                    ///< data that other plans have prepared; null: each prepares its own
+    PreparedData* prepared = nullptr;                                                                    ///< data that plans share; null: each prepares its own
 };
 
 /// The rate and the services that the engine gives every node before it runs.

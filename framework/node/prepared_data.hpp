@@ -11,12 +11,12 @@
 namespace tactus
 {
 
-/// A shelf for data that nodes compute from their settings before they run, such as the smooth surface of a mesh. The data of one plan serve all others with
-/// the same settings, for as long as one of them lives. [any thread but the tick thread]
+/// A shelf for data that nodes compute from their settings before they run, such as the smooth surface of a mesh. Plans with the same settings share the
+/// data for as long as one of them lives. [any thread but the tick thread]
 class PreparedData
 {
 public:
-    /// The name of some data. The data must depend on nothing else.
+    /// The name of some data, which must depend on nothing else.
     struct Key
     {
         std::shared_ptr<const void> source {};   ///< an object that they are computed from; may be null
@@ -24,11 +24,11 @@ public:
         const void* type = nullptr;              ///< the same address for data of the same type only
     };
 
-    /// The end of some data.
+    /// The event that ends the life of some data.
     enum class Until
     {
-        unused,    ///< no plan uses them any more
-        no_source  ///< their source is gone; they must not use it
+        unused,     ///< no plan uses them any more
+        no_source   ///< their source is gone; they must not refer to it
     };
 
     virtual ~PreparedData() = default;

@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    // Addresses may be used again, so they are not compared.
+    // Compares owners, because addresses may be used again.
     static bool isSame (const std::weak_ptr<const void>& a, const std::shared_ptr<const void>& b) { return ! a.owner_before (b) && ! b.owner_before (a); }
 
     struct Item
@@ -38,7 +38,7 @@ private:
         std::string rest;
         const void* type;
         std::weak_ptr<const void> data;
-        std::shared_ptr<const void> kept;   // the data, if they last as long as their source
+        std::shared_ptr<const void> kept;   // the data, if they live as long as their source
     };
     std::mutex mutex;
     std::vector<Item> items;

@@ -83,7 +83,7 @@ public:
     RunStatus status() const noexcept { return published.load(); }         ///< [any thread]
     const TickAccount& account() const noexcept { return ticks_so_far; }   ///< [any thread]
 
-    /// When the first tick began; empty before it, and if ticks have no deadlines. [any thread]
+    /// The time at which the first tick began; empty before it, and for runs that are not in real time. [any thread]
     std::optional<TwoClocks> firstTick() const noexcept;
 
     /// Call it many times a second: frees plans that are no longer used, and collects node costs. [main thread]

@@ -25,8 +25,8 @@ namespace tactus::host
 
 namespace
 {
-/// A run locks the memory of the program, and what is locked goes back to the system only block by block. So large blocks, such as those of a mesh, are
-/// mapped one by one. By default, the C library joins them with others after the first one was freed.
+/// Maps large blocks, such as those of a mesh, one by one. A run locks the memory of the program, and locked memory goes back to the system only in
+/// mapped blocks. By default, the C library joins them with others after the first one was freed.
 void mapLargeBlocks() noexcept
 {
 #ifdef __GLIBC__

@@ -31,7 +31,7 @@ public:
     Loaded<Grid> table (const std::string& path) override;   ///< numbers, or the rows of a clip or recording (tactus/kit/signal/clip.hpp)
     Loaded<Mesh> mesh (const std::string& path) override;
 
-    /// Takes over what others have read, as long as it is in use.
+    /// Takes over the files that others have read. Each stays known for as long as it is in use.
     void adopt (const FileAssets&);
 
 protected:

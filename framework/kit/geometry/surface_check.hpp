@@ -29,7 +29,7 @@ std::string coarseFaces (const Surface&, double crease);
 /// else empty.
 std::string abruptStiffness (const Surface&);
 
-/// The warnings of a surface: that of wrongSide, or those of coarseFaces and sharpEdges; and that of abruptStiffness. Empty if there is none. [any thread]
+/// The warnings about a surface, from wrongSide or else coarseFaces and sharpEdges, and from abruptStiffness. Empty if there are none. [any thread]
 std::string faultsOf (const Surface&, double crease, const std::vector<double>& radii);
 
 }   // namespace tactus

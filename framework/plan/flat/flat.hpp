@@ -94,7 +94,7 @@ struct FlatNode
     Origin origin {};
     bool bypass = false;
     bool muted = false;     ///< inside a bypassed subgraph: does not run
-    bool is_whole = true;   ///< false if a setting was left out (see Flat::reads_files) or could not be read: nothing more is said about the node then
+    bool is_whole = true;   ///< false if a setting was left out (see Flat::reads_files) or could not be read: no further messages about the node
     int section = 0;        ///< number in Flat::sections; the node runs at the rate of that section
     std::vector<SettingValue> settings {};
     std::size_t values = 0;   ///< index in Flat::values of the first value of its params

@@ -41,7 +41,7 @@ public:
     void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {},
                  const std::map<std::string, DeviceLayout>& devices = {});
 
-    /// A function that tells when the first tick began, as JSON, or nothing if it has no time of a clock. It is asked once, after that tick.
+    /// Sets a function that returns, as JSON, when the first tick began, or nothing if the run is not in real time. It is called once, after that tick.
     void beginsAt (std::function<std::optional<Json>()> f) { first_tick = std::move (f); }
 
     /// Writes what the tick thread has recorded. Call it many times a second, and once more after the last tick. If writing fails, the log ends

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is dropped on the canvas: files of clips and graphs, presets from their list, and nodes from the list of nodes.
+// Drops on the canvas: files of clips and graphs, presets from their list, and nodes from the list of nodes.
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>

@@ -17,7 +17,7 @@ namespace tactus::host::compose
 
 namespace
 {
-/// An id of a graph file for what a graph is called: "dry_wood" for "Dry wood".
+/// An id of a graph file for the name of a graph: "dry_wood" for "Dry wood".
 std::string idFor (const std::string& name)
 {
     std::string id;
@@ -75,7 +75,7 @@ void moveSubgraphs (graph::Graph& into, graph::Graph& added, std::set<std::strin
     }
 }
 
-/// The controls of the added graph, which now lead into the block. A name that is taken gets that of the block behind it.
+/// The controls of the added graph, which now lead into the block. If a name is taken, the label of the block is added to it.
 void moveControls (graph::Graph& into, const graph::Graph& added, const std::string& block, const std::string& label)
 {
     std::set<std::string> ids, names;
@@ -96,7 +96,7 @@ void moveControls (graph::Graph& into, const graph::Graph& added, const std::str
     }
 }
 
-/// Where the values come from, under the names that the nodes now have.
+/// Copies the sources of the values, under the new names of the nodes.
 void moveSources (graph::Graph& into, const graph::Graph& added, const std::string& block)
 {
     const auto ui = added.extra.find ("ui");

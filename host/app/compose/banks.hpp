@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Banks: the mixers before the motors, one for each input of a device. Everything that reaches a motor is a layer of one of them.
+/// Banks: mixers before the motors, one for each input of a device. Signals become layers of them on their way to a motor.
 
 #include "sinks.hpp"
 
@@ -11,28 +11,28 @@
 namespace tactus::host::compose
 {
 
-/// The mixer before an input of a device node at the top of the graph: everything that is wired into this input becomes a layer of it, in the same
-/// order. Makes one if there is none. Returns its name. Ids: mixer/full.
+/// Ensures that a mixer is before an input of a device node at the top of the graph, with each wire into this input as a layer, in the same order.
+/// Returns the name of the mixer. Ids: mixer/full.
 Result<std::string> bankBefore (graph::Patch& root, const std::string& sink, const SinkPort&, const Catalogue&);
 
 /// Wires a signal into a new layer of a mixer, or into its only layer if that is empty. Ids: mixer/full.
 Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::Endpoint& from, const std::string& label, const Catalogue&);
 
-/// Mixes everything that reaches a motor. Ids: those of liftSinks.
+/// Makes layers of all signals that reach a motor. Ids: those of liftSinks.
 Result<> mixAll (graph::Graph&, const Catalogue&);
 
-/// An input of a motor that signals reach past the mixers of the graph. A mixer stands straight before it, or before another input.
+/// An input of a motor that some signals reach without passing a mixer. A mixer is wired directly into it, or into another input.
 struct Bypassed
 {
     std::string sink, port;             ///< the path of the node, and its input
     std::string mixer;                  ///< path; "" if none stands before this input
-    std::vector<std::string> sources;   ///< the ports that go past it: "wall.force"
+    std::vector<std::string> sources;   ///< the ports that bypass it: "wall.force"
 };
 
-/// Those of a graph with a mixer. Of several instances, the first one counts.
+/// The bypassed inputs of a graph with a mixer. Of several instances of a subgraph, the first one counts.
 std::vector<Bypassed> bypassedBanks (const graph::Graph&, const Catalogue&);
 
-/// Makes layers of what reaches this input. A motor inside of a subgraph moves to the top of the graph with all others. Ids: those of mixAll.
+/// Makes layers of the signals that reach this input. A motor inside a subgraph moves to the top of the graph with all others. Ids: those of mixAll.
 Result<graph::Command> mixIn (const graph::Graph&, const std::string& sink, std::string_view port, const Catalogue&);
 
 }   // namespace tactus::host::compose

@@ -39,7 +39,7 @@ bool passesOn (const std::string& type)
 
 bool multiplies (const std::string& type) { return type == "signal.multiply" || type == "vector.scale" || type == "vector.dot" || type == "vector.cross"; }
 
-/// The kind of a node that makes a force; 0 for what only measures.
+/// The kind of a node that makes a force; 0 for nodes that only measure.
 Kinds kindOf (const std::string& type)
 {
     const auto family = familyOf (type);
@@ -80,7 +80,7 @@ public:
         return is_effort ? kindOf (n->type) : 0;
     }
 
-    /// Unplugs what is not kept from a node, or from one of its ports.
+    /// Unplugs the effects that are not kept from a node, or from one of its ports.
     void unplug (graph::Patch& patch, const std::string& node, std::string_view port, Kinds kept, int depth = 0)
     {
         std::vector<graph::Endpoint> mixed;
@@ -133,7 +133,7 @@ private:
     }
 };
 
-/// The nodes of a patch that serve a device, something that the patch exposes, or what a wire from outside begins or ends at.
+/// The nodes of a patch that feed a device, an exposed port, or a node that a wire from outside names.
 std::set<std::string> usedIn (const graph::Patch& patch, const std::set<std::string>& from_outside)
 {
     std::set<std::string> used = from_outside;

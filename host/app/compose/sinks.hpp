@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Where signals leave a graph for its devices, and how these places get to the top of the graph, where a mixer can stand before them.
+/// The inputs through which signals leave a graph for its devices, and their move to the top of the graph, where a mixer can be put before them.
 
 #include <tactus/graph/graph.hpp>
 #include <tactus/text/result.hpp>
@@ -13,7 +13,7 @@
 namespace tactus::host::compose
 {
 
-/// An input of a device node: what is wired into it reaches a motor.
+/// An input of a device node whose signal reaches a motor.
 struct SinkPort
 {
     std::string_view type, port;
@@ -31,7 +31,7 @@ struct LiftedSink
     SinkPort port;
 };
 
-/// Takes the device nodes with a motor out of a patch, and exposes what went into them as outputs. Several wires into one input are summed by a mixer in
+/// Takes the device nodes with a motor out of a patch, and exposes their input signals as outputs. Several wires into one input are summed by a mixer in
 /// the patch. A device node to which something else refers stays, without a signal. Ids: mixer/full.
 Result<std::vector<LiftedSink>> takeSinks (graph::Patch&);
 

@@ -19,17 +19,17 @@ struct Morph
 {
     graph::Command command = graph::Batch {};
     std::string control;   ///< the id of the new control
-    int params = 0;        ///< what it moves
+    int params = 0;        ///< the number of parameters that it moves
     int left_out = 0;      ///< differing values that it cannot move: choices, vectors, values in subgraphs, and what a wire or another control sets
 };
 
-/// Recalls a snapshot, and adds a control that moves all numbers from there to another snapshot on a line. One undo step. Ids: morph/empty (a snapshot
+/// Recalls a snapshot, and adds a control that moves numbers linearly from there to another snapshot, in one undo step. Ids: morph/empty (a snapshot
 /// is), morph/same (no number differs).
 Result<Morph> morphBetween (const graph::Graph&, int from, int to, const Catalogue&);
 
 /// Gives the numbers of these nodes of a patch new values, at random within their usual ranges: evenly, or by ratio where a range spans a decade and
 /// more. What a wire or a control sets stays, and so do choices, switches, vectors and numbers without a usual range. The same seed gives the same values.
-/// The name of the step has the seed. Empty if there is nothing to change.
+/// The name of the step contains the seed. Empty if there is nothing to change.
 graph::Batch randomised (const graph::Graph&, const std::string& patch, std::span<const graph::Id> nodes, const Catalogue&, std::uint64_t seed);
 
 }   // namespace tactus::host

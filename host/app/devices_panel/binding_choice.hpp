@@ -29,9 +29,9 @@ struct BindingChoice
     bool operator== (const BindingChoice&) const = default;
 };
 
-/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, each of
-/// `without_profile`, which have force feedback, each event device, by its name if that is its own, each offered device, a simulation of each device that is known only by
-/// its numbers, the gestures, and what the role is bound to now if that is none of these.
+/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, each of `without_profile`, which
+/// have force feedback, each event device, by its name if that is unique, each offered device, a simulation of each device that is known only by its
+/// numbers, the gestures, and the present binding of the role if it is none of these.
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&,
                                            std::span<const hid::ConnectedDevice> without_profile = {}, std::span<const ConnectedEvents> = {},
                                            std::span<const OfferedDevice> = {});

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// The differences between two sessions in one line: "stylus: hid tactus_board, clock: timer". [main thread]
+/// The differences between two sessions, in one line: "stylus: hid tactus_board, clock: timer". [main thread]
 juce::String changeText (const DeviceSession& before, const DeviceSession& now);
 
 }   // namespace tactus::host

@@ -24,12 +24,12 @@ struct UnmixedSignal
 struct BehindMixer
 {
     std::vector<std::string> motors {};      ///< the inputs that its mix reaches: "motor.force"
-    std::vector<UnmixedSignal> unmixed {};   ///< the signals that reach these past it, or a motor that no mixer reaches
+    std::vector<UnmixedSignal> unmixed {};   ///< the signals that reach these motors, or one without a mixer, and that no mixer mixes
 
     bool operator== (const BehindMixer&) const = default;
 };
 
-/// An instance of a mixer in a subgraph counts as the mixer.
+/// The motors and the unmixed signals behind a mixer. An instance of a mixer in a subgraph counts as the mixer.
 BehindMixer behindMixer (const graph::Graph&, const MixerPlace&, const Catalogue&);
 
 /// The strip of such a signal: its level, and a button that makes it a layer. Mute, solo and gains do not reach it.

@@ -43,12 +43,12 @@ public:
     juce::Font getPopupMenuFont() override { return font (13.0f); }
     void drawPopupMenuBackground (juce::Graphics&, int width, int height) override;
 
-    /// Menus open inside the window, so they need no window manager and cannot end up behind it. If a part around the target has a child with the id
-    /// `menu_area`, they open inside this child, and cover nothing else.
+    /// Menus open inside the window, so they need no window manager and cannot end up behind it. If a component around the target has a child with the id
+    /// `menu_area`, they open inside this child.
     juce::Component* getParentComponentForMenuOptions (const juce::PopupMenu::Options&) override;
     static constexpr const char* menu_area = "menus";
 
-    /// A part around a menu that listens to keys hears them before the menu, which would keep Esc.
+    /// Lets a component around a menu that listens to keys get them before the menu, which would swallow Esc.
     void preparePopupMenuWindow (juce::Component& menu) override;
 
     juce::Font getLabelFont (juce::Label&) override { return font (12.0f); }

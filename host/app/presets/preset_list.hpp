@@ -40,7 +40,7 @@ std::vector<Preset> matching (const std::vector<Preset>&, const std::string& que
 /// All tags with the number of presets that have them, most frequent first.
 std::vector<std::pair<std::string, int>> tagsOf (const std::vector<Preset>&);
 
-/// What is dragged from a list of presets, and the file of that preset; empty if something else is dragged.
+/// The description of a preset that is dragged from a list, and the file of a dragged preset; empty if something else is dragged.
 std::string asDragged (const Preset&);
 std::filesystem::path fileOfDragged (const std::string&);
 

@@ -64,8 +64,8 @@ void AssetLoad::start (graph::Graph g, const Catalogue& catalogue)
                               auto compiled = caught ({}, [&] {
                                   return compile (g, catalogue, { .assets = &loaded->assets, .services = { .nearest_triangle = nearestByBoxes } });
                               });
-                              if (compiled) loaded->compiled = std::move (*compiled);   // else the main thread meets the same error, and reports it
-                              loaded.reset();                                           // what was cancelled ends here
+                              if (compiled) loaded->compiled = std::move (*compiled);   // else the main thread will meet the same error, and report it
+                              loaded.reset();                                           // frees the result if the load was cancelled
                               own->done = true;
                           }));
 }

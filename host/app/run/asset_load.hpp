@@ -20,7 +20,7 @@ namespace tactus::host
 /// The size in bytes of the files that the settings of a graph, its subgraphs and the graphs that it includes name. [any thread]
 double assetBytes (const graph::Graph&);
 
-/// Reads the files of a graph on a thread of its own, and computes what its nodes need of them, so that the main thread only has to take it over.
+/// Reads the files of a graph on a thread of its own, and computes the data that its nodes need, so that the main thread only has to take them over.
 /// [main thread]
 class AssetLoad
 {

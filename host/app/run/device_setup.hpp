@@ -39,16 +39,16 @@ public:
     hid::HidSystem& system() const noexcept { return devices; }
     const hid::LoadedProfiles& profiles() const noexcept { return known; }
 
-    /// Changes the session and its file, or neither. What another program has changed in the file is noticed before.
+    /// Changes the session and its file, or neither. Changes of the file by another program are read first.
     Result<> edit (const std::function<void (DeviceSession&)>&);
 
-    /// Notices that another program, such as `tactus session`, has changed the file of the session. Call a few times a second: a look at an unchanged
-    /// file costs one system call or two.
+    /// Notices that another program, such as `tactus session`, has changed the file of the session. Call a few times a second: for an unchanged
+    /// file, it costs two system calls.
     void follow();
 
     std::function<void()> onChange;   ///< called when edit() or open() has changed the session
 
-    /// Called when another program has changed the session, with what it was before. The new one must not drive a device before a person starts.
+    /// Called when another program has changed the session, with the previous one. The new one must not drive a device until a person presses START.
     std::function<void (const DeviceSession& before)> onChangedElsewhere;
 
     /// Turns the scan for connected devices on or off. It runs once a second, on its own thread.

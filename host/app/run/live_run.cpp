@@ -257,7 +257,7 @@ void LiveRun::begin()
     session = std::make_unique<LiveSession> (catalogue, hardware, sessionOptions());
     said = session->load (graph);
     std::ranges::move (of_sound, std::back_inserter (said));
-    if (! session->isLoaded() || session->hasPlaceholders())   // without a node that it needs, a graph may push as nobody intended
+    if (! session->isLoaded() || session->hasPlaceholders())   // without one of its nodes, a graph may push in unintended ways
     {
         log_next.clear();
         return session.reset();
@@ -510,7 +510,7 @@ void LiveRun::poll()
     if (isLive() && ! isRunning())
     {
         endLog();
-        if (! isOfOpenGraph()) end();   // which gives back the memory of the graph before
+        if (! isOfOpenGraph()) end();   // gives back the memory of the previous graph
     }
     if (sound != nullptr) sound->poll();
     probes.collect();

@@ -64,7 +64,7 @@ public:
     /// Takes over files that others have read, so that the next compilation need not read them.
     void adopt (const FileAssets& read) { assets.adopt (read); }
 
-    /// True if a run that begins now would get other devices from the session, or another clock or sound, than the latest one. A tool that the mouse or
+    /// True if a run that begins now would get other devices, another clock or other sound from the session than the latest run. A tool that the mouse or
     /// a path moves keeps its hand.
     bool wouldGetOtherDevices() const;
 
@@ -111,7 +111,7 @@ public:
     bool isRunning() const noexcept { return session && session->isRunning(); }
     bool isWanted() const noexcept { return wanted; }                               ///< started and not stopped since; it may still fail to compile
     bool isWaiting() const noexcept { return wanted && ! session; }                 ///< started, but the graph does not compile yet: an edit may start it
-    bool isOfOpenGraph() const noexcept { return run_of == document.identity(); }   ///< false while the run of the graph before still fades out
+    bool isOfOpenGraph() const noexcept { return run_of == document.identity(); }   ///< false while the run of the previous graph still fades out
     const Hand& hand() const noexcept { return moved_by; }
 
     /// True if the mouse, or a path that the user has chosen, moves the tool of the role.

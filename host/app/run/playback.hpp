@@ -28,8 +28,8 @@ public:
     void stop (By = By::person) noexcept;   ///< stops the document's run or the preview, whichever is current
     void emergencyStop (By = By::person) noexcept;
 
-    /// Another program has changed the session. Stops what would get other devices by it, as a person does: only a person starts them. Returns true if
-    /// it has stopped.
+    /// Call it when another program has changed the session. Stops a run that would get other devices by it, as if a person had stopped it, so only a
+    /// person starts it again. Returns true if it has stopped one.
     bool sessionChanged() noexcept;
 
     /// Stops the document, and runs another graph with its own gesture until endPreview().

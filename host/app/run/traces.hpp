@@ -67,9 +67,9 @@ public:
     /// The order in which clients are served, because a run records only so many components.
     enum class Rank
     {
-        first,   ///< levels: few numbers, without which something seems silent
+        first,   ///< levels: a few numbers; without them, a layer would seem silent
         usual,
-        spare   ///< whole ports out of what the others leave; whatever is left out counts as not requested
+        spare   ///< whole ports, in the room that the others leave; a port left out counts as not requested
     };
 
     /// Requests ports for as long as it lives.

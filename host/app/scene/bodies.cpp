@@ -172,7 +172,8 @@ std::vector<std::string> portsOf (const std::vector<Body>& bodies, std::size_t m
 {
     constexpr auto number = [] (std::string_view Appearance::*row) { return partNumber (row); };
     constexpr std::array order { number (&Appearance::depth), number (&Appearance::crack), number (&Appearance::angle), number (&Appearance::touch),
-                                 number (&Appearance::stretch), number (&Appearance::tool), number (&Appearance::rotation), number (&Appearance::normal), number (&Appearance::choice) };
+                                 number (&Appearance::stretch), number (&Appearance::tool), number (&Appearance::rotation), number (&Appearance::normal),
+                                 number (&Appearance::choice) };
     std::vector<std::string> wanted;
     std::size_t components = 0;
     for (const auto part : order)

@@ -33,7 +33,7 @@ public:
     bool isRunning() const noexcept { return work != nullptr; }
     double share() const noexcept { return work ? work->share.load() : 0.0; }   ///< 0 to 1
 
-    /// Takes the result. Empty while the job runs, and after the result was taken. Ids: those of Stems, LiveSession and run/cannot.
+    /// Takes the result. Empty while the job runs, and once the result has been taken. Ids: those of Stems, LiveSession and run/cannot.
     std::optional<Result<WrittenStems>> take();
 
 private:

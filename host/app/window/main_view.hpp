@@ -305,7 +305,7 @@ private:
     FitPanel fitting;
     Tour tour;
     Shade shade;
-    juce::Component menus;                          // where menus open: below the strip, so that STOP stays within reach
+    juce::Component menus;                          // menus open inside it: below the strip, so that STOP stays within reach
     std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen

@@ -24,7 +24,7 @@ public:
     StemExport (const Catalogue& c, Window w) : catalogue (c), window (std::move (w)) {}
 
     void ask (const graph::Graph&);
-    void attend();   ///< shows how far it is; call many times a second
+    void attend();   ///< shows the progress; call it many times a second
     bool isRunning() const noexcept { return job.isRunning(); }
 
 private:

@@ -29,7 +29,7 @@ namespace
 constexpr const char* graph_name = "graph.json";
 constexpr std::size_t longest_name = 200, deepest_folder = 8;
 
-/// True if the path of a file stays below the top, on every system.
+/// True if the path of a file stays below the top, and has no characters that are special on some systems.
 bool isPlainName (std::string_view name)
 {
     if (name.empty() || name.size() > longest_name) return false;
@@ -57,7 +57,7 @@ Result<> checkNames (const std::vector<PackedFile>& files, const std::string& wh
     for (const auto& f : files)
     {
         if (! isPlainName (f.name))
-            return Message::error ("pack/name", where, "it has a file with the name " + quote (f.name) + ", which is no plain path below its top",
+            return Message::error ("pack/name", where, "it has a file with the name " + quote (f.name) + ", which is not a plain path below its top",
                                    "do not use it: a preset has no such file");
         auto lower = f.name;
         std::ranges::transform (lower, lower.begin(), [] (char c) { return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c; });
@@ -66,7 +66,7 @@ Result<> checkNames (const std::vector<PackedFile>& files, const std::string& wh
     return {};
 }
 
-/// A text in a part of a graph that is a path out of its folder; "" if there is none.
+/// The first text in a part of a graph that is a path out of its folder; "" if there is none.
 std::string pathOutside (const Json& value)
 {
     if (value.is_string())
@@ -90,14 +90,14 @@ std::string pathOutside (const Json& value)
     return {};
 }
 
-/// The nodes and devices of a graph are where paths are: `about`, names and notes are texts for people.
+/// Looks for paths in nodes and devices only: `about`, names and notes are texts for people.
 Result<> checkPaths (const std::vector<PackedFile>& files, const std::string& where)
 {
     for (const auto& f : files)
     {
         if (! f.name.ends_with (".json")) continue;
         const auto json = readJson (f.bytes).root;
-        if (! json.is_object()) continue;   // reading the graph tells what is wrong with it
+        if (! json.is_object()) continue;   // reading the graph will report what is wrong
         const auto look = [&] (const Json& in) -> std::string {
             if (! in.is_object()) return {};
             for (const char* key : { "nodes", "devices" })
@@ -116,7 +116,7 @@ Result<> checkPaths (const std::vector<PackedFile>& files, const std::string& wh
     return {};
 }
 
-/// The folders that were made, which go when the program ends.
+/// The folders that were made. They are removed when the program exits normally.
 class Folders
 {
 public:
@@ -148,7 +148,7 @@ Result<> writeInto (const fs::path& folder, const PackedFile& f)
     std::ofstream out (to, std::ios::binary);
     out.write (f.bytes.data(), static_cast<std::streamsize> (f.bytes.size()));
     out.close();
-    if (! out) return Message::error ("output/unwritable", to.string(), "it cannot be written", "check the disk");
+    if (! out) return Message::error ("output/unwritable", to.string(), "the file cannot be unpacked here", "check that the disk has room");
     return {};
 }
 }   // namespace
@@ -176,7 +176,7 @@ Result<std::vector<PackedFile>> readPresetPack (const fs::path& path)
     const auto notAPack = [&] (const std::string& why) {
         return Message::error ("pack/not_a_pack", where, why, "choose a file that Tactus has written with Share");
     };
-    if (! read->starts_with ("PK")) return notAPack ("it is no ZIP archive");
+    if (! read->starts_with ("PK")) return notAPack ("it is not a ZIP archive");
     juce::ZipFile zip (new juce::MemoryInputStream (read->data(), read->size(), false), true);
     const int count = zip.getNumEntries();
     if (count == 0) return notAPack ("it is an empty or damaged ZIP archive");
@@ -204,9 +204,9 @@ Result<std::vector<PackedFile>> readPresetPack (const fs::path& path)
         const std::unique_ptr<juce::InputStream> stream (zip.createStreamForEntry (i));
         const auto size = static_cast<std::size_t> (entry->uncompressedSize);
         juce::MemoryBlock bytes;
-        // No more than it says, and one to notice that there is more.
+        // As many bytes as the archive says, and one more, to notice if there are others.
         const auto got = stream == nullptr ? std::size_t { 0 } : stream->readIntoMemoryBlock (bytes, static_cast<juce::pointer_sized_int> (size + 1));
-        if (stream == nullptr || got != size) return damaged (where, "the file " + quote (name) + " is not as long as it says");
+        if (stream == nullptr || got != size) return damaged (where, "the file " + quote (name) + " is not as long as the archive says");
         files.push_back ({ name, std::string (static_cast<const char*> (bytes.getData()), size) });
     }
     if (auto fine = checkNames (files, where); ! fine) return fine.error();

@@ -12,8 +12,8 @@
 namespace tactus::host
 {
 
-/// The direction in which a vector moves most, as a vector of length 1 whose largest component is positive. `components`: their samples. Empty if
-/// something is not finite.
+/// The direction in which a vector moves most, as a vector of length 1 whose largest component is positive. `components`: the samples of each. Empty if
+/// a sum of squares or products is not finite.
 std::vector<double> mainDirection (std::span<const std::vector<float>* const> components);
 
 /// Makes a recording audible: a mono WAV for loudspeakers, 16 bits at 48 kHz. The recorded components are high-passed at 20 Hz, each vector is

@@ -33,7 +33,7 @@ public:
         tactus_reading reading {};
         std::uint64_t number = 0;     // 0: there has been none
         std::int64_t at = 0;          // when it came, in ns of the steady clock
-        double lag_s = 0.0;           // how much older it was than it seemed, by the clock of the device
+        double lag_s = 0.0;           // its lag by the clock of the device, in s
         double numbered = 0.0;        // its number, if it has one
         std::uint64_t fault = 0;      // a ReadingFault: why it must not be used
         std::uint64_t standing = 0;   // a ReadingFault: why a later one did not count as new

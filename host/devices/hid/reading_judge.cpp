@@ -111,7 +111,7 @@ void ReadingJudge::judge (Nanoseconds arrival, std::uint64_t lost) noexcept
     arrived_last = arrival;
 }
 
-/// Finds out when the newest report was measured. Those that have come with it in this tick tell nothing more.
+/// Finds the lag of the newest report. Earlier reports of the same tick count only through the time that has passed on the device's clock.
 void ReadingJudge::time() noexcept
 {
     if (timed_at != 0) lag = measured (std::exchange (passed_on_clock, 0.0), 1e-9 * static_cast<double> (timed_at), values.sample().position);

@@ -39,7 +39,7 @@ std::vector<OfferedDevice> offeredDevices (const hid::LoadedProfiles& all) { ret
 
 namespace
 {
-/// What is wrong with an address that names no device.
+/// The fault of an address that names no device.
 std::string wrongIn (std::string_view address, const Message& parsed)
 {
     const auto name = address.substr (0, address.find (':'));

@@ -14,12 +14,12 @@
 namespace tactus::host
 {
 
-/// A device that a person may choose for a role, and that is not found by its HID ids.
+/// A device that a user may choose for a role, and that is not found by its HID ids.
 struct OfferedDevice
 {
     std::string name;       ///< of the device, for people
     Json description;       ///< without a guard
-    bool is_sure = true;    ///< false: nothing says whether it is this device
+    bool is_sure = true;    ///< false: it may be another device
     bool may_open = true;   ///< by this user
 
     bool operator== (const OfferedDevice&) const = default;
@@ -29,10 +29,10 @@ struct OfferedDevice
 /// device; else, one for each profile with a serial line. [any thread]
 std::vector<OfferedDevice> devicesAt (std::span<const hid::SerialPort>, const hid::LoadedProfiles&);
 
-/// The devices of this computer that are offered in this way. Nothing is opened. A driver that finds its devices by itself adds them here. [any thread]
+/// The devices at the serial ports of this computer, by devicesAt(). Opens none of them. [any thread]
 std::vector<OfferedDevice> offeredDevices (const hid::LoadedProfiles&);
 
-/// Reads the address of a device as a person types it: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS:PORT, or DRIVER:PORT for a driver in a
+/// Reads the address of a device as a user types it: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS:PORT, or DRIVER:PORT for a driver in a
 /// plugin. Loads no driver. Id: device/address. [main thread]
 Result<Json> readAddress (std::string_view, const hid::LoadedProfiles&);
 

@@ -31,7 +31,7 @@ std::filesystem::path defaultSessionFile (const std::filesystem::path& home);
 /// Loads a named file, which must exist. Ids: session/unreadable, and those of readSession. [main thread]
 LoadedSession loadSession (const std::filesystem::path& file);
 
-/// Loads a session file that may be missing, and that another program may be writing: it stays in place, whatever is in it. One that another user can
+/// Loads a session file that may be missing, and that another program may be writing, so it is not renamed if it is damaged. A file that another user can
 /// change is not read. Ids: those of loadSession, session/foreign. [main thread]
 LoadedSession rereadSession (const std::filesystem::path& file);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What reaches the motors of a graph, and which of it goes through a layer mixer.
+/// The signals that reach the motors of a graph, and those of them that go through a layer mixer.
 
 #include <tactus/plan/flat/flat.hpp>
 
@@ -28,13 +28,13 @@ struct SinkMix
     plan::PortRef input;          ///< of the sink
     std::string name;             ///< "motor.force"
     std::vector<int> mixers {};   ///< those whose mix reaches this input, in the order of Flat::nodes
-    bool is_direct = false;       ///< the mix of a mixer goes straight into it
+    bool is_direct = false;       ///< the mix of a mixer is wired directly into it
     std::vector<UnmixedWire> unmixed {};
 };
 
-/// The inputs of all nodes that drive a motor. A signal is mixed if it comes from a layer mixer, straight or through other nodes. What is added to a mix
-/// on its way, by a second wire into the same input or by a node that adds, is not mixed. A node that is bypassed passes a signal on, and a bypassed mixer
-/// does not mix. A brake takes no force.
+/// The inputs of all nodes that drive a motor. A signal is mixed if it comes from a layer mixer, directly or through other nodes. A signal that is added
+/// to a mix on its way, by a second wire into the same input or by a node that adds, is not mixed. A node that is bypassed passes a signal on, and a
+/// bypassed mixer does not mix. A brake takes no force.
 std::vector<SinkMix> sinkMixes (const plan::Flat&);
 
 }   // namespace tactus::host

@@ -46,7 +46,7 @@ std::vector<int> mixersIn (const std::vector<SinkMix>& mixes)
     return { all.begin(), all.end() };
 }
 
-/// The setting `names` of a mixer, apart.
+/// The layers that the setting `names` of a mixer lists.
 std::vector<std::string> namesOf (const plan::FlatNode& mixer)
 {
     std::vector<std::string> names (1);
@@ -94,7 +94,7 @@ std::vector<std::size_t> tapsOf (const Plan& plan, const std::string& port)
     return found;
 }
 
-/// A mixer that is computed once more beside the run, to know what it makes of each layer.
+/// A mixer that is computed a second time beside the run, to find the share of each layer.
 class Shadow
 {
 public:
@@ -151,7 +151,7 @@ public:
         }
     }
 
-    /// What a layer gives to a component of the mix, at the i-th of n equal parts of the tick.
+    /// The share of a layer in a component of the mix, at the i-th of n equal parts of the tick.
     double part (int layer, std::size_t component, int i, int n) const
     {
         const auto t = static_cast<std::size_t> (((i + 1) * times + n - 1) / n - 1);
@@ -416,8 +416,8 @@ struct Stems::Impl
         }
     }
 
-    /// Blends what follows the end of the loop into its start: the end of a file then continues at its start. The weights add up to 1, so that a constant
-    /// force stays constant.
+    /// Blends the samples after the end of the loop into its start, so that the end continues at the start. The weights add up to 1, so a constant force
+    /// stays constant.
     Result<> loop (double to_hz)
     {
         const auto blend = static_cast<std::size_t> (std::lround (options.loop_s * ownRate()));
@@ -449,7 +449,7 @@ struct Stems::Impl
         for (auto& s : stems)
             for (auto& c : s.channels)
             {
-                // What is around a loop is the loop; what is around a run is its first and its last value.
+                // A loop is extended by itself, a run by its first and its last value.
                 const bool is_loop = options.loop_s > 0.0;
                 const std::size_t around = is_loop ? frames : static_cast<std::size_t> (std::lround (0.05 * ownRate())) + 1;
                 std::vector<float> longer;
@@ -551,7 +551,7 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
 {
     auto& s = *impl;
     if (s.stems.empty() || s.frames == 0)
-        return Message::error ("stems/nothing", {}, "nothing is wired into a motor, so there is no stem", "wire a force or a vibration to a device node");
+        return Message::error ("stems/nothing", {}, "nothing is wired into a motor, so there are no stems", "wire a force or a vibration to a device node");
     const double rate_hz = s.options.rate_hz > 0.0 ? s.options.rate_hz : s.ownRate();
     if (! (rate_hz >= 1.0 && rate_hz <= 768e3) || std::floor (rate_hz) != rate_hz)
         return Message::error ("wav/sample_rate", {}, "a WAV file cannot have a sample rate of " + roundedText (rate_hz, 12) + " Hz",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Stems: what a graph gives to its motors, and each part of it, as WAV files for other programs.
+/// Stems: the signals that a graph sends to its motors, and each part of them, as WAV files for other programs.
 
 #include "sink_mixes.hpp"
 
@@ -22,9 +22,9 @@ struct StemOptions
 {
     SampleFormat format = SampleFormat::float32;
     double rate_hz = 0.0;     ///< of the files, in whole Hz; 0: the rate of the samples
-    double loop_s = 0.0;      ///< the end is blended into the start over this time, so that a file can be repeated without a click; 0: not
+    double loop_s = 0.0;      ///< the end is blended into the start over this time, so that a file can be repeated without a click; 0: no blend
     bool is_mono = false;     ///< vectors become their component in the direction in which the mix of their motor moves most
-    bool has_dither = true;   ///< integers get triangular noise of one step, always the same; silence stays silence
+    bool has_dither = true;   ///< integers get triangular noise, one step wide on each side, the same in each export; silence stays silence
 
     enum class Scale
     {
@@ -53,17 +53,17 @@ struct WrittenStems
     double rate_hz = 0.0;
     std::size_t frames = 0;
 
-    /// A comparison of what a mixer has given with the sum of its layers.
+    /// A comparison of the mix of a run with the sum of its layers.
     struct Sum
     {
         std::string mixer, unit;
-        double difference = 0.0, peak = 0.0;   ///< the largest, in the unit
+        double difference = 0.0, peak = 0.0;   ///< the largest values, in the unit
     };
     std::vector<Sum> sums {};
 };
 
-/// Records the parts of a run: the signals of all actuators of each role, each of these signals, each layer of the mixers before them, and what reaches
-/// them past a mixer. A layer is what its mixer adds of it: after gain, mute, solo, ducking and ceiling.
+/// Records the parts of a run: the signals of all actuators of each role, each of these signals, each layer of the mixers before them, and the
+/// signals that reach them without a mixer. A layer is recorded as its mixer adds it: after gain, mute, solo, ducking and ceiling.
 class Stems
 {
 public:
@@ -81,7 +81,7 @@ public:
     /// Ids: stems/nothing, stems/loop, wav/sample_rate, and those of AtomicFolder.
     Result<WrittenStems> write (const std::filesystem::path& folder, const std::string& name);
 
-    /// Refuses such a folder before the run.
+    /// Checks before the run that write() will accept a folder.
     static Result<> check (const std::filesystem::path& folder);
 
 private:

@@ -13,10 +13,10 @@ constexpr double tau = 0.005;        // of the speed so far, in s; that of the g
 constexpr double silence = 1.5;      // in periods
 constexpr double much_less = 0.75;   // of the motion that the speed so far explains
 constexpr double much_more = 1.5;
-constexpr double slow = 0.05;   // m/s: no delay makes such a tool seem too fast
+constexpr double slow = 0.05;   // m/s: such a tool moves little during a delay
 }   // namespace
 
-/// Measures how fast the clock of the device runs, from one reading that is on time to another.
+/// Measures the speed of the device's clock, from one reading to another, both on time if possible.
 void MeasuredTime::learnRate (bool is_on_time, double late) noexcept
 {
     const double passed = now - span_now;
@@ -34,7 +34,7 @@ void MeasuredTime::learnRate (bool is_on_time, double late) noexcept
     rate = r;
     from = now;
     from_clock = clock;
-    offset = -late;   // so that the lag goes on
+    offset = -late;   // so that the lag is continuous
     is_learnt = true;
 }
 

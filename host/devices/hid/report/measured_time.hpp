@@ -11,7 +11,7 @@ namespace tactus::host::hid
 ///
 ///  - With a clock s of the device (a time stamp, or the number of the reading times its period), the reading is older than its arrival t by
 ///
-///        lag = (t - r s) - o      o' = min (o + d T, t - r s)      T: time since the last reading, d: 1 %
+///        lag = (t - r s) - o,    o = min (o of the last reading + d T, t - r s)    T: time since the last reading, d: 1 %
 ///
 ///    r is the speed of the computer's clock divided by that of the device, measured over spans of 2 s, so a clock that is always too fast or too slow
 ///    does no harm. Before the end of the first span, the device counts as one without a clock. If the lag exceeds 0.1 s, the clock is wrong, and is
@@ -28,10 +28,10 @@ class MeasuredTime
 public:
     static constexpr double span_s = 2.0, drift = 0.01, most_lag_s = 0.1;
 
-    /// `period_s`: between two readings; 0: unknown, so nothing is known without a clock of the device.
+    /// `period_s`: between two readings; 0: unknown, so that the lag is 0 without a clock of the device.
     explicit MeasuredTime (bool has_clock, double period_s) noexcept : is_timed (has_clock), period (period_s) {}
 
-    /// A new reading has arrived, this much later on the clock of the device than the last one. Returns how much older it is than its arrival, in s.
+    /// Takes a new reading. `passed_on_clock_s`: the time since the last one, by the clock of the device. Returns its lag, in s.
     double operator() (double passed_on_clock_s, double arrived_s, const Vec3& position) noexcept;
 
 private:

@@ -35,7 +35,8 @@ void writePlate (const TemporaryFolder& folder, int n)
     folder.write ("plate.obj", mesh);
     folder.write ("plate.json", R"({ "format": "tactus-graph", "version": 1, "name": "Plate", "rate_hz": 1000, "devices": { "stylus": { "driver": "sim" } },
         "nodes": { "hand": { "type": "device.position", "role": "stylus" },
-            "plate": { "type": "deform.surface", "settings": { "surface": { "mesh": "plate.obj", "curves": [[{ "power": [300, 1] }, { "power": [300, 1] }, { "power": [300, 1] }]],
+            "plate": { "type": "deform.surface", "settings": { "surface": { "mesh": "plate.obj",
+                "curves": [[{ "power": [300, 1] }, { "power": [300, 1] }, { "power": [300, 1] }]],
                 "mu": 0.1 }, "search_ticks": 8 } },
             "motor": { "type": "device.force", "role": "stylus" } },
         "wires": ["hand.position -> plate.position", "plate.force -> motor.force"] })");
