@@ -45,8 +45,8 @@ public:
     /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);
 
-    /// As perform(). The new nodes and notes with these ids have places. If they would cover others there, they go together to the next free place above
-    /// or below.
+    /// Like perform(), for a command that brings new nodes and notes, with these ids, and their places. If they would cover others there, they go together
+    /// to a free place.
     bool performBeside (graph::Command, const Selection& made);
 
     /// As perform(). New nodes without a position get a free place where their wires are short, and come into view. Returns their ids; none if the

@@ -14,7 +14,7 @@ namespace tactus::host
 
 void DevicesPanel::bind (const std::string& role, const std::string& label)
 {
-    if (const auto* choice = choiceOf (role, label)) bindTo (role, BindingChoice (*choice));   // a copy, because the choices are made anew
+    if (const auto* choice = choiceOf (role, label)) bindTo (role, BindingChoice (*choice));   // a copy, because the choices are rebuilt
 }
 
 void DevicesPanel::bindAddress (const std::string& role, const juce::String& address)
@@ -30,7 +30,7 @@ void DevicesPanel::bindAddress (const std::string& role, const juce::String& add
         bindTo (role, { text.toStdString(), *std::move (device) });
 }
 
-/// A step that can be undone. What undo leaves is what redo brings back: a limit that was changed in between stays.
+/// Binds a role in a step that can be undone. Redo brings back the binding that undo has left, so a limit that was changed in between stays.
 void DevicesPanel::bindTo (const std::string& role, const BindingChoice& choice)
 {
     const auto profile = choice.numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice.numbers);

@@ -147,7 +147,7 @@ void LayersPanel::rebuildStrips (std::size_t layers)
     requestTraces();
 }
 
-/// Looks at all nodes, so it is not done while the panel is hidden.
+/// Visits all nodes of the graph, so it is not called while the panel is hidden.
 void LayersPanel::rebuildUnmixed()
 {
     auto now = all.empty() ? BehindMixer {} : behindMixer (document.graph(), chosen, catalogue);
@@ -265,7 +265,7 @@ void LayersPanel::add (const std::string& type, const std::filesystem::path& cli
     showNewest();
 }
 
-/// The last layer comes into view, with what reaches the motor past the mixer behind it.
+/// Scrolls so that the last layer is in view, and the unmixed signals behind it.
 void LayersPanel::showNewest()
 {
     const int hidden = std::max (0, static_cast<int> (strips.size()) * LayerStrip::width - scroll.getViewWidth());

@@ -25,7 +25,7 @@ public:
     std::function<void (const std::string& patch, graph::Id node)> onSelect;
     std::function<void (const std::string& patch, graph::Id node)> onAdded;   ///< receives the node of a layer that the user has just added
     std::function<void (const juce::String&)> onHint;
-    /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. Empty: the layer begins without a file.
+    /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. If this is not set, the layer begins without a file.
     std::function<void (std::function<void (const std::filesystem::path&)> chosen)> onChooseClip;
 
     /// The edit that makes a layer of a signal. Must be set before mixIn().
@@ -79,7 +79,7 @@ private:
     Document& document;
     const Catalogue& catalogue;
     Traces::Client traces;    // the levels
-    Traces::Client spectra;   // as many as can be recorded
+    Traces::Client spectra;   // as many as fit into the record
     std::vector<MixerPlace> all;
     MixerPlace chosen;
     std::vector<std::unique_ptr<ToolButton>> names;   // one button for each mixer

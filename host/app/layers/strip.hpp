@@ -118,7 +118,7 @@ public:
     explicit MixStrip (std::shared_ptr<const MixerContext>);
 
     void show();
-    /// `motors`: the inputs that the mix reaches. The strip shows what the first one gets in all, which is the force of the status line unless the guard acts.
+    /// `motors`: the inputs that the mix reaches. The strip shows the total of the first one, which is the force of the status line unless the guard acts.
     void refresh (const Traces::Client&, const std::vector<std::string>& motors, double dt_s);
     double reduction() const noexcept { return over_db; }
     const Meter& meter() const noexcept { return feed.meter; }

@@ -27,7 +27,7 @@ public:
     /// Cancels the previous job, and starts a new one.
     void start (graph::Graph, const Catalogue&, std::filesystem::path folder, const StemOptions&);
 
-    /// Asks the thread to end, without waiting for it. Nothing is written.
+    /// Asks the thread to end, without waiting for it. Nothing is written, unless the run is over and the files are being written.
     void cancel();
 
     bool isRunning() const noexcept { return work != nullptr; }

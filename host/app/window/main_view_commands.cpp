@@ -94,8 +94,8 @@ bool MainView::isAnythingOpen() const
            || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
 }
 
-/// Esc closes a page, a dialog or a field before it stops, unless there are motors: then you should not have to look first. It never closes the palette
-/// or a menu before it stops: they open in passing, over the graph that runs.
+/// Esc closes a page, a dialog or a field before it stops, unless there are motors: then the user should not have to look first. While a graph runs, it
+/// stops before it closes the palette or a menu, which open briefly over the graph.
 bool MainView::escStops()
 {
     const auto* modal = juce::Component::getCurrentlyModalComponent();

@@ -81,13 +81,13 @@ std::vector<std::string> graphsIn (const fs::path& folder)
 void StemCommand::addTo (const Command& command)
 {
     const auto stems = command.addOption (
-        "--stems", folder, "Write the mix, each axis or actuator, each layer, and what is not mixed, as WAV files into this folder; the graph may be a "
+        "--stems", folder, "Write the mix, each axis or actuator, each layer, and each unmixed signal as WAV files into this folder; the graph may be a "
                            "folder of graphs");
     const auto formats = oneOf ({ "float", "pcm16", "pcm24" });
     const auto needing = { command.addOption ("--stem-format", format, "The samples of the files; default: float").check (formats),
                            command.addOption ("--stem-rate", rate_hz, "Samples per second; default: those of the run").check (finiteWithin (1.0, 768e3)),
                            command.addOption ("--stem-scale", scale,
-                                              "What a sample of 1 means: an amount such as \"4 N\" (default for float: 1); `together`: the loudest sample "
+                                              "The value of a sample of 1: an amount such as \"4 N\" (default for float: 1); `together`: the loudest sample "
                                               "of all files is at -1 dBFS (default for integers); `each`: that of each file"),
                            command.addFlag ("--stem-mono", is_mono, "Vectors become their component in the direction in which the mix moves most"),
                            command.addOption ("--stem-loop", loop,

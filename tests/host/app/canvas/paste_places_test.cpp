@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where nodes go that come with places of their own.
+// Places of new nodes that bring places of their own.
 #include "host/app/support/canvas_rig.hpp"
 
 using namespace tactus;

@@ -66,7 +66,7 @@ private:
     std::uint64_t ticks = 0;
 };
 
-/// What the devices get from a graph, by role. `path`: the role whose path the tool of a role follows.
+/// The signals that the devices get from a graph, by role. `path`: the role whose path the tool of a role follows.
 std::map<std::string, std::vector<Effort>> played (const graph::Graph& g, double rate_hz, const RoleMap& path)
 {
     FileAssets assets;

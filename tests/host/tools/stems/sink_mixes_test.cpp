@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reaches a motor past the mixers. The reference is a run: with all layers muted and without the wires that were found, the motors get nothing.
+// Signals that reach a motor without a mixer. The reference is a run: with all layers muted and without the wires that were found, the motors get nothing.
 #include <host/tools/stems/sink_mixes.hpp>
 
 #include <tactus/file/graph_file.hpp>
