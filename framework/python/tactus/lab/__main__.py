@@ -32,6 +32,8 @@ def experiment(given: argparse.Namespace) -> int:
     protocol = Protocol.load(given.file)
     browser = Browser() if given.web else None
     window = browser or (Simulated(observer_of(given.observer)) if given.observer else Terminal())
+    if given.osc != "off" and not (given.osc.isdecimal() and int(given.osc) <= 65535):
+        raise ValueError(f"--osc: '{given.osc}' is not a port; give a number such as {PORT}, 0 for any free port, or off")
     receiver = None if given.osc == "off" else Receiver(int(given.osc))
     stage = Silent() if given.no_devices else None
     made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver,
