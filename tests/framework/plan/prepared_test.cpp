@@ -1,46 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/plan/prepared_shelf.hpp>
 
-#include <host/base/assets/file_assets.hpp>
-#include <tactus/file/graph_file.hpp>
-#include <tactus/nodes/deform/surface.hpp>
-#include <tactus/plan/compile.hpp>
-
 #include <catch2/catch.hpp>
 
-#include <filesystem>
-#include <map>
+#include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 using namespace tactus;
 
 namespace
 {
-using Key = PreparedData::Key;
-
 std::shared_ptr<const int> number (const std::shared_ptr<const void>& source, const std::string& rest, int value,
                                    PreparedData::Until until = PreparedData::Until::unused)
 {
-    return prepared<int> (&plan::preparedOfAll(), source, rest, [&] { return std::make_shared<const int> (value); }, until);
+    return prepared<int> (
+        &plan::preparedOfAll(), source, rest, [&] { return std::make_shared<const int> (value); }, until);
 }
-
-/// A shelf that counts what is asked for and what is put on it.
-class CountingShelf final : public PreparedData
-{
-public:
-    int asked = 0, put = 0;
-
-    std::shared_ptr<const void> find (const Key& key) override
-    {
-        ++asked;
-        return plan::preparedOfAll().find (key);
-    }
-    void keep (const Key& key, const std::shared_ptr<const void>& data, Until until) override
-    {
-        ++put;
-        plan::preparedOfAll().keep (key, data, until);
-    }
-};
 }   // namespace
 
 TEST_CASE ("prepared data serve others with the same source and the same rest", "[plan][prepared]")
@@ -89,24 +66,4 @@ TEST_CASE ("prepared data may be asked for by several threads at once", "[plan][
     }
     for (std::size_t i = 0; i < found.size(); ++i)
         CHECK (*found[i] == static_cast<int> (i % 10));
-}
-
-TEST_CASE ("plans of the same preset share their surfaces and height maps, and tick as if they did not", "[plan][prepared]")
-{
-    for (const auto* preset : { "liver", "nodule_under_skin", "padded_bench", "pebbled_leather", "two_fingers" })
-    {
-        INFO (preset);
-        const auto file = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / (std::string (preset) + ".json");
-        const auto graph = loadGraph (file).graph;
-        host::FileAssets assets;
-        CountingShelf shelf;
-        const auto compiled = [&] { return compile (graph, catalogue(), { .assets = &assets, .services = { .prepared = &shelf } }).plan; };
-        const auto first = compiled();
-        REQUIRE (first);
-        CHECK (shelf.put > 0);
-        const int put = shelf.put, asked = shelf.asked;
-        const auto second = compiled();
-        CHECK (shelf.put == put);
-        CHECK (shelf.asked == 2 * asked);
-    }
 }
