@@ -163,6 +163,17 @@ class Order(TestCase):
         self.assertTrue(0.1 < counts["catch"] / (counts["catch"] + counts["main"]) < 0.4, counts)
         self.assertEqual({t.level for t in trials if t.kind == "catch"}, {0.0})
 
+    def test_a_trial_without_an_answer_brings_no_second_break(self):
+        plan, texts, trials = lab.Plan(protocol(block(break_every=2, procedure=lab.Constant(levels=(1.0,), repeats=6)))), 0, 0
+        while (step := plan.step) is not None:
+            if isinstance(step, lab.Text):
+                texts += step.text == "Take a break."
+                plan.answer()
+            else:
+                trials += 1
+                plan.answer(None if trials % 3 == 0 else "first")
+        self.assertEqual(texts, 2)   # after two and after four trials that count
+
     def test_abx_and_match_have_their_intervals(self):
         for t in trials_of(lab.Plan(protocol(block(task="abx"))), lambda t: "a"):
             self.assertEqual(t.intervals[2].level, t.intervals["ab".index(t.expected)].level)

@@ -23,7 +23,7 @@ import numpy as np
 import tactus
 from lab_protocol_test import block, protocol
 from support import PROGRAM, ROOT, TestCase
-from tactus import lab
+from tactus import _messages, lab
 from tactus.lab import _marks
 from waiting import eventually
 
@@ -93,6 +93,45 @@ class Sessions(Case):
         self.assertTrue(self.run_session(self.made, resume=True).is_complete)
         self.fails("lab/exists", self.run_session, self.made, resume=True)
         self.fails("lab/value", self.run_session, self.made, participant="../x")
+        self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
+
+    def test_a_session_that_ended_before_its_protocol_was_written_goes_on(self):
+        experiment = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))
+        experiment._journal.close()
+        experiment.stage.close()
+        own = next(self.out.rglob("*_protocol.json"))
+        own.unlink()
+        self.assertTrue(self.run_session(self.made, resume=True).is_complete)
+        self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
+
+    def test_answers_by_osc_that_are_none_or_come_early_do_not_count(self):
+        answers = []
+
+        class Given(lab.Simulated):
+            def ask(self, trial, level, keys, limit, hand):
+                receiver.answers.put("xyz")
+                receiver.answers.put(keys["yes"] if trial.number % 2 else "no")
+                answers.append((hand(), hand()))
+                receiver.answers.put("yes")   # for the next trial
+                return answers[-1][1]
+        receiver = lab.Receiver(0)
+        receiver.answers.put("yes")
+        try:
+            made = protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=4)))
+            data = lab.Experiment(made, self.out, window=Given(OBSERVER), receiver=receiver).run()
+        finally:
+            receiver.close()
+        self.assertEqual(answers, [(None, "yes"), (None, "no")] * 2)
+        self.assertTrue(data.is_complete)
+
+    def test_a_level_that_the_graph_refuses_ends_a_simulated_adjustment(self):
+        class Narrow(lab.Silent):
+            def show(self, condition, target, level):
+                if level > 2.5:
+                    _messages.fail("param/range", "/", "too large", "give less")
+        made = protocol(block("set", "adjust", lab.Constant(levels=(1.0,), repeats=1), step=0.25))
+        data = self.run_session(made, lab.Simulated(lab.Observer(threshold=9.0, width=0.0)), stage=Narrow())
+        self.assertEqual(list(data.chosen("set")["outcomes"]), [2.5])
 
     def test_one_process_at_a_time(self):
         held = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))

@@ -21,7 +21,7 @@ from ._marks import Receiver, TriggerLine
 from ._protocol import ANSWERS, Block, Protocol, checked
 from ._stages import Live, Moment, Silent
 from ._trials import Answer, Plan, Text, Trial
-from ._windows import Aborted, Simulated, Window
+from ._windows import Aborted, Simulated, Window, number_of
 
 
 class Experiment:
@@ -49,14 +49,20 @@ class Experiment:
         path = self.folder / f"{self.stem}_journal.jsonl"
         past = _journal.read(path) if resume else []
         self._replay(past)
-        self._triggers = TriggerLine(protocol.triggers) if protocol.triggers else None
         if not resume:
             self.folder.mkdir(parents=True, exist_ok=True)
-        self._journal = _journal.Journal(path, None if resume else self._header())
+        self._triggers = TriggerLine(protocol.triggers) if protocol.triggers else None
+        try:
+            self._journal = _journal.Journal(path, None if resume else self._header())
+        except BaseException:
+            if self._triggers:
+                self._triggers.close()
+            raise
         if resume:
             self._journal.add({"event": "resumed", **Silent().now()._asdict()})
-        else:
-            (self.folder / f"{self.stem}_protocol.json").write_text(protocol.text(), encoding="utf-8")
+        own = self.folder / f"{self.stem}_protocol.json"
+        if not resume or not own.exists():   # a session may end between its first line and this file
+            own.write_text(protocol.text(), encoding="utf-8")
         self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
         self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.jsonl"
         self.stage = stage if stage is not None else Live(protocol, str(self.log), devices, device) if protocol.graph or protocol.conditions else Silent()
@@ -93,7 +99,7 @@ class Experiment:
         if not past:
             return
         if past[0]["protocol"] != self.protocol.hash():
-            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give its own: {self.stem}_protocol.json in this folder")
+            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give the file with which it began; {self.stem}_protocol.json in this folder has its text")
         for event in past:
             if event.get("event") == "end":
                 fail("lab/exists", str(self.folder), "the session is complete", "choose another session")
@@ -157,6 +163,8 @@ class Experiment:
             self.stage.wait(trial.block.interval)
         if varies.rest is not None and trial.block.task not in ("adjust", "match"):
             self.stage.show(condition, varies.target, varies.rest)
+        while self.receiver is not None and self.receiver.answer() is not None:
+            pass   # sent before the question
         asked = self.stage.now().monotonic
         answer = self._answer(trial, trial.level)
         end = self.mark("answer", "" if answer is None else str(answer))
@@ -179,7 +187,7 @@ class Experiment:
         keys = {name: self.protocol.key(name) for name in names}
         condition, block = self.protocol.condition(trial.condition), trial.block
         while True:
-            answer = self.window.ask(trial, level, keys, block.time_limit, self._by_hand)
+            answer = self.window.ask(trial, level, keys, block.time_limit, lambda: self._by_hand(keys))
             if block.task not in ("adjust", "match") or answer is None:
                 return answer
             if answer == "done":
@@ -188,13 +196,22 @@ class Experiment:
             try:
                 self.stage.show(condition, block.varies.target, moved)
             except Error:   # out of the range of the parameter
+                if isinstance(self.window, Simulated):
+                    return float(level)   # would ask for the same again, for ever
+                self.window.say("no further")
                 continue
             level = moved
             self.mark("stimulus", f"{level!r}")
 
-    def _by_hand(self) -> Optional[str]:
+    def _by_hand(self, keys: Dict[str, str]) -> Optional[str]:
+        """The answer of the hand or by OSC: one of the answers, or their keys; without these, a number. Others are left out."""
         self._take_marks()
-        return self.stage.hand() or (self.receiver.answer() if self.receiver else None)
+        answer = self.stage.hand() or (self.receiver.answer() if self.receiver else None)
+        if answer is None or answer in keys:
+            return answer
+        if keys:
+            return next((name for name, key in keys.items() if key == answer), None)
+        return answer if number_of(answer) is not None else None
 
     # ------------------------------------------------------------------------ Marks
 

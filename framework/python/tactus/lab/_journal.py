@@ -21,7 +21,11 @@ Event = Dict[str, Any]
 def read(path: pathlib.Path) -> List[Event]:
     """The events of a journal, the header first. A line that was cut off by a crash is left out: it is the last one, or a line `resumed` follows it."""
     events: List[Event] = []
-    lines = path.read_bytes().split(b"\n")
+    try:
+        lines = path.read_bytes().split(b"\n")
+    except OSError as why:
+        fail("lab/journal", str(path), f"the journal cannot be read: {why.strerror}",
+             "begin the session without --resume, or give its --out, --participant and --session")
     for i, line in enumerate(lines):
         if not line:
             continue

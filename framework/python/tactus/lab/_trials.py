@@ -112,9 +112,10 @@ class Plan:
             yield self._trial(block, "practice", name, number, self._practice_level(block, draw))
         if block.practice:
             yield Text("The practice is over.")
-        count = 0
+        count = rested = 0
         while still := [each for each in tracks if each[2].level() is not None]:
-            if block.break_every and count and count % block.break_every == 0:
+            if block.break_every and count > rested and count % block.break_every == 0:
+                rested = count   # a trial without an answer brings no second break
                 yield Text("Take a break.")
             if draw.uniform() < block.catch / (1.0 - block.catch):
                 yield self._trial(block, "catch", still[draw.below(len(still))][0], 0, block.varies.standard)

@@ -137,7 +137,7 @@ class Browser(Window):
                     try:
                         given = json.loads(body)
                         window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
-                    except (ValueError, TypeError, KeyError, queue.Full):
+                    except (ValueError, TypeError, KeyError, OverflowError, RecursionError, queue.Full):
                         self._send("text/plain", "no answer", 400)
                         return
                 else:
