@@ -161,6 +161,7 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
     const auto [value, low, high] = usualSweep (now, sheet);
     const double si = value.si();
     double depth = si == 0.0 ? part_of_range * (high - low) : part_of_value * std::abs (si);
+    if (is_speed) depth /= slow;
     bool has_unit = carried != Quantity::any && carried != Quantity::gain;
     if (const auto* amplitude = face.find (Role::param, "amplitude"); amplitude != nullptr && amplitude->sheet != nullptr)
     {
@@ -173,7 +174,7 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
     const auto symbol = is_fixed ? std::string (sheet.unit.unit.symbol) : std::string();
     const bool is_number = symbol.empty() || symbol == "1" || symbol == unit::decibel.symbol;   // a factor has no dB
     if (is_speed && carried != (is_fixed ? sheet.unit.unit.quantity : Quantity::any))
-        return Json (numberText (value.moved (depth / slow).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
+        return Json (numberText (value.moved (depth).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
     if (has_unit && is_fixed && carried != Quantity::any && carried != sheet.unit.unit.quantity) return std::nullopt;
     if (has_unit || is_number) return Json (QuantityText { 0.0, {}, 1.0 }.moved (depth).number);
     auto text = withBestPrefix (value.moved (depth), sheet);
