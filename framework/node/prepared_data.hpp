@@ -36,14 +36,15 @@ public:
     virtual void keep (const Key&, const std::shared_ptr<const void>&, Until) = 0;
 };
 
-/// The data of a type, a source and all else that they depend on. `make` computes them, as a shared pointer, unless the shelf has them.
-template <typename T, typename Make>
-std::shared_ptr<const T> prepared (PreparedData* shelf, std::shared_ptr<const void> source, std::string rest, Make&& make,
+/// The data of a type, a source and all else that they depend on, which `rest` returns as the text of a key. `make` computes them, as a shared pointer,
+/// unless the shelf has them. Without a shelf, only `make` is called.
+template <typename T, typename Rest, typename Make>
+std::shared_ptr<const T> prepared (PreparedData* shelf, std::shared_ptr<const void> source, Rest&& rest, Make&& make,
                                    PreparedData::Until until = PreparedData::Until::unused)
 {
     static constexpr char type = 0;
     if (shelf == nullptr) return make();
-    const PreparedData::Key key { std::move (source), std::move (rest), &type };
+    const PreparedData::Key key { std::move (source), rest(), &type };
     if (auto known = std::static_pointer_cast<const T> (shelf->find (key))) return known;
     std::shared_ptr<const T> made = make();
     shelf->keep (key, made, until);

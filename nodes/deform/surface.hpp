@@ -243,10 +243,13 @@ struct ElasticSurface
     std::string warning (const Setup& setup) const
     {
         const auto& surface = *settings.surface;
-        auto numbers = settings.tool_radius;
-        numbers.push_back (creaseAngle());
+        const auto key = [&] {
+            auto numbers = settings.tool_radius;
+            numbers.push_back (creaseAngle());
+            return keyOf (numbers);
+        };
         const auto faults = [&] { return std::make_shared<const std::string> (faultsOf (surface, creaseAngle(), settings.tool_radius)); };
-        std::string all = *prepared<std::string> (setup.services.prepared, settings.surface, keyOf (numbers), faults, PreparedData::Until::no_source);
+        std::string all = *prepared<std::string> (setup.services.prepared, settings.surface, key, faults, PreparedData::Until::no_source);
         const auto add = [&] (const std::string& more) { all += (all.empty() ? "" : "; ") + more; };
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             add (std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks");
@@ -257,9 +260,13 @@ struct ElasticSurface
     {
         dt = setup.dt_s();
         const auto &o = settings.origin, &r = settings.rotation;
-        std::vector<double> numbers { settings.scale, o.x(), o.y(), o.z(), r.x(), r.y(), r.z(), creaseAngle() };
-        numbers.insert (numbers.end(), settings.tool_radius.begin(), settings.tool_radius.end());
-        body = prepared<PlacedSurface> (setup.services.prepared, settings.surface, keyOf (numbers), [&] {
+        const auto key = [&] {
+            std::vector<double> numbers { settings.scale, o.x(), o.y(), o.z(), r.x(), r.y(), r.z(), creaseAngle() };
+            for (const double radius : settings.tool_radius)
+                numbers.push_back (radius);
+            return keyOf (numbers);
+        };
+        body = prepared<PlacedSurface> (setup.services.prepared, settings.surface, key, [&] {
             return std::make_shared<const PlacedSurface> (settings.surface, settings.scale, o, r, creaseAngle(), settings.tool_radius);
         });
         tool = trial = body->noTool();

@@ -309,8 +309,9 @@ inline void HeightMap::build (PreparedData* shelf)
     deep = grid() && grid()->rows > 1;
     if (! grid()) return;
     const Map& m = settings.map;
-    levels = prepared<Levels> (shelf, grid(), keyOf (std::array { m.image.grid ? 1.0 : 0.0, m.pitch, m.height, m.smooth }),
-                               [&] { return std::make_shared<const Levels> (made()); });
+    levels = prepared<Levels> (
+        shelf, grid(), [&] { return keyOf (std::array { m.image.grid ? 1.0 : 0.0, m.pitch, m.height, m.smooth }); },
+        [&] { return std::make_shared<const Levels> (made()); });
 }
 
 inline HeightMap::Levels HeightMap::made() const

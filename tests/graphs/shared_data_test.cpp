@@ -34,7 +34,7 @@ public:
 
 TEST_CASE ("plans of the same preset share their surfaces and height maps", "[plan][prepared]")
 {
-    for (const auto* preset : { "liver", "nodule_under_skin", "padded_bench", "pebbled_leather", "two_fingers" })
+    for (const auto* preset : { "liver", "nodule_under_skin", "padded_bench", "pebbled_leather" })
     {
         INFO (preset);
         const auto file = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / (std::string (preset) + ".json");

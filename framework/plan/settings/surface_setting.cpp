@@ -213,9 +213,11 @@ std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files
 {
     objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu", "weights" }, "it", key);
     const auto make = [&] (std::shared_ptr<const Mesh> mesh) { return surfaceOf (json, std::move (mesh), key); };
-    if (member (json, "mesh") == nullptr) return prepared<Surface> (&preparedOfAll(), nullptr, json.dump(), [&] { return make (meshFrom (json, files, key)); });
+    if (member (json, "mesh") == nullptr) return prepared<Surface> (
+        &preparedOfAll(), nullptr, [&] { return json.dump(); }, [&] { return make (meshFrom (json, files, key)); });
     const auto mesh = meshFrom (json, files, key);
-    return prepared<Surface> (&preparedOfAll(), mesh, json.dump(), [&] { return make (mesh); });
+    return prepared<Surface> (
+        &preparedOfAll(), mesh, [&] { return json.dump(); }, [&] { return make (mesh); });
 }
 
 }   // namespace tactus::plan

@@ -16,7 +16,7 @@ std::shared_ptr<const int> number (const std::shared_ptr<const void>& source, co
                                    PreparedData::Until until = PreparedData::Until::unused)
 {
     return prepared<int> (
-        &plan::preparedOfAll(), source, rest, [&] { return std::make_shared<const int> (value); }, until);
+        &plan::preparedOfAll(), source, [&] { return rest; }, [&] { return std::make_shared<const int> (value); }, until);
 }
 }   // namespace
 
@@ -28,8 +28,12 @@ TEST_CASE ("prepared data serve others with the same source and the same rest", 
     CHECK (*number (source, "b", 3) == 3);
     CHECK (*number (other, "a", 4) == 4);
     CHECK (*number (nullptr, "a", 5) == 5);
-    CHECK (*prepared<long> (&plan::preparedOfAll(), source, "a", [] { return std::make_shared<const long> (6); }) == 6);   // another type
-    CHECK (*prepared<int> (nullptr, source, "a", [] { return std::make_shared<const int> (7); }) == 7);                    // without a shelf
+    CHECK (*prepared<long> (
+               &plan::preparedOfAll(), source, [] { return "a"; }, [] { return std::make_shared<const long> (6); })
+           == 6);   // another type
+    CHECK (*prepared<int> (
+               nullptr, source, [] { return "a"; }, [] { return std::make_shared<const int> (7); })
+           == 7);   // without a shelf
     const double zero = 0.0, negative = -0.0;
     CHECK (keyOf ({ &zero, 1 }) != keyOf ({ &negative, 1 }));
 }
