@@ -87,7 +87,7 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     {
         auto* more = w.titled ("Menu");
         REQUIRE (more != nullptr);
-        w.choose (w.middleOf (*more), 11, juce::ModifierKeys::leftButtonModifier, end);   // the theme
+        w.choose (w.middleOf (*more), 14, juce::ModifierKeys::leftButtonModifier, end);   // the theme
         d.checkKeys (std::string ("the menu of the window, ") + end);
     }
 
