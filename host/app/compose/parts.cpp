@@ -182,7 +182,7 @@ void prune (graph::Graph& g)
     std::erase_if (g.controls, [] (const graph::Control& c) { return c.to.empty(); });
 }
 
-/// What is left out leaves empty layers in the mixers through which it went.
+/// Removes the layers that have no wire any more, because the nodes before them were left out.
 void removeEmptyLayers (graph::Graph& g, const Catalogue& catalogue)
 {
     for (const auto& at : mixersOf (g))

@@ -60,7 +60,7 @@ Result<WrittenStems> StemJob::render (const graph::Graph& g, const Catalogue& ca
         run.tick();
         if (auto taken = stems.frame(); ! taken) return taken.error();
         course.share = static_cast<double> (k) / static_cast<double> (ticks);
-        if (course.is_cancelled) return Message::error ("run/interrupted", {}, "cancelled; nothing was written");
+        if (course.is_cancelled) return Message::error ("run/interrupted", {}, "cancelled; nothing was written", "export the stems again to get them");
     }
     return stems.write (folder, g.name);
 }

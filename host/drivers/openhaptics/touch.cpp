@@ -47,7 +47,7 @@ constexpr auto until_open = 10s, until_stuck = 1s, until_ended = 3s;
 constexpr std::int64_t between_looks_ns = 5'000'000;   // at whether the helper lives
 constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium with six motors, as the library tells none
 constexpr const char* program = "openhaptics-helper";
-constexpr const char* nobody_knows = ". Nobody knows whether the arm still pushes: switch it off";
+constexpr const char* may_push = ". The arm may still push: switch it off";
 
 struct Wanted
 {
@@ -261,11 +261,11 @@ public:
                 return TACTUS_DEVICE_OK;
             }
             if (arm.state == SharedArm::failed) return leave (why, arm.text);
-            if (helper->hasEnded (0)) return leave (why, std::string ("the process that owns its library has died") + nobody_knows);
+            if (helper->hasEnded (0)) return leave (why, std::string ("the process that owns its library has died") + may_push);
             if (Clock::now() - heard > until_stuck)
             {
                 helper->kill();
-                return leave (why, std::string ("its library has not moved for a second, so its process was killed") + nobody_knows);
+                return leave (why, std::string ("its library has not moved for a second, so its process was killed") + may_push);
             }
             if (Clock::now() >= until) return TACTUS_DEVICE_NONE;
             waitWhile (arm.ticks, newest, between_looks_ns);

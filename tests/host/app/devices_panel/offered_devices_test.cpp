@@ -93,7 +93,7 @@ TEST_CASE ("a device is added by its address, and a wrong address is refused and
         { "nosuch:localhost:1", "there is no driver 'nosuch'" },
         { "my arm", "'my arm' is not the address of a device" },
         { "sim", "not the address of a real device" },
-        { "/tmp/device.json", "not the address of a device" },
+        { "/folder/device.json", "not the address of a device" },
         { "a=b", "not the address of a device" },
     }));
     const auto before = r.home.textOf ("session.json");
