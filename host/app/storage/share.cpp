@@ -32,7 +32,9 @@ Result<> sharePreset (const graph::Graph& g, const std::filesystem::path& file)
     if (! pack && pack.error().id == "pack/outside")
         return Message::error ("share/outside", file.string(), pack.error().text,
                                TRANS ("copy that file into the folder of the graph, and choose it there").toStdString());
-    if (! pack) return pack.error();
+    if (! pack && pack.error().id == "pack/name")
+        return Message::error ("share/name", file.string(), pack.error().text, TRANS ("rename that file, and choose it again").toStdString());
+    if (! pack) return Message::error (pack.error().id, file.string(), pack.error().text, pack.error().remedy);
     return writeTextFile (file, *pack);
 }
 

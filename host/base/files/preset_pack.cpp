@@ -29,6 +29,15 @@ namespace
 constexpr const char* graph_name = "graph.json";
 constexpr std::size_t longest_name = 200, deepest_folder = 8;
 
+/// True for names that Windows takes for devices, with any ending: "nul", "COM1".
+bool isDeviceOfWindows (std::string_view name)
+{
+    std::string lower (name);
+    std::ranges::transform (lower, lower.begin(), [] (char c) { return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c; });
+    if (lower == "con" || lower == "prn" || lower == "aux" || lower == "nul") return true;
+    return lower.size() == 4 && (lower.starts_with ("com") || lower.starts_with ("lpt")) && lower[3] >= '1' && lower[3] <= '9';
+}
+
 /// True if the path of a file stays below the top, and has no characters that are special on some systems.
 bool isPlainName (std::string_view name)
 {
@@ -40,6 +49,7 @@ bool isPlainName (std::string_view name)
         static constexpr std::string_view special = "\\:*?\"<>|";   // on some systems
         const auto isBad = [] (char c) { return static_cast<unsigned char> (c) < 0x20 || c == 0x7f || special.find (c) != special.npos; };
         if (part.empty() || part.front() == '.' || part.back() == '.' || part.back() == ' ' || std::ranges::any_of (part, isBad)) return false;
+        if (isDeviceOfWindows (part.substr (0, part.find ('.')))) return false;
         if (++parts > deepest_folder) return false;
         if (part.size() == name.size()) return true;
         name.remove_prefix (part.size() + 1);
@@ -116,6 +126,16 @@ Result<> checkPaths (const std::vector<PackedFile>& files, const std::string& wh
     return {};
 }
 
+/// Checks an archive of so many files with so many bytes in all.
+Result<> checkBudgets (const std::string& where, double count, double total)
+{
+    const auto over = count > budgets().files     ? overBudget ("pack/too_many", &Budgets::files, "it", count, "pack fewer files")
+                      : total > budgets().reading ? overBudget ("pack/too_large", &Budgets::reading, "it", total, "pack smaller files")
+                                                  : Message {};
+    if (over.id.empty()) return {};
+    return Message::error (over.id, where, over.text, over.remedy);
+}
+
 /// The folders that were made. They are removed when the program exits normally.
 class Folders
 {
@@ -159,12 +179,18 @@ Result<std::string> presetPack (const std::vector<PackedFile>& files)
 {
     if (auto fine = checkNames (files, {}); ! fine) return fine.error();
     if (auto fine = checkPaths (files, {}); ! fine) return fine.error();
+    double total = 0.0;
+    for (const auto& f : files)
+        total += static_cast<double> (f.bytes.size());
+    if (auto fits = checkBudgets ({}, static_cast<double> (files.size()), total); ! fits) return fits.error();
     juce::ZipFile::Builder builder;
     const juce::Time when (2000, 0, 1, 0, 0);
     for (const auto& f : files)
         builder.addEntry (new juce::MemoryInputStream (f.bytes.data(), f.bytes.size(), true), 9, juce::String::fromUTF8 (f.name.c_str()), when);
     juce::MemoryOutputStream out;
     if (! builder.writeToStream (out, nullptr)) return damaged ({}, "the archive cannot be made");
+    if (const auto size = static_cast<double> (out.getDataSize()); size > budgets().file)
+        return overBudget ("pack/too_large", &Budgets::file, "it", size, "pack smaller files");
     return std::string (static_cast<const char*> (out.getData()), out.getDataSize());
 }
 
@@ -180,11 +206,7 @@ Result<std::vector<PackedFile>> readPresetPack (const fs::path& path)
     juce::ZipFile zip (new juce::MemoryInputStream (read->data(), read->size(), false), true);
     const int count = zip.getNumEntries();
     if (count == 0) return notAPack ("it is an empty or damaged ZIP archive");
-    if (count > budgets().files)
-    {
-        const auto over = overBudget ("pack/too_many", &Budgets::files, "it", count, "pack fewer files");
-        return Message::error (over.id, where, over.text, over.remedy);
-    }
+    if (auto fits = checkBudgets (where, count, 0.0); ! fits) return fits.error();
     std::vector<PackedFile> files;
     double total = 0.0;
     for (int i = 0; i < count; ++i)
@@ -196,11 +218,8 @@ Result<std::vector<PackedFile>> readPresetPack (const fs::path& path)
         if (entry->isSymbolicLink)
             return Message::error ("pack/name", where, "it has a link: " + quote (name), "do not use it: a preset has no such file");
         if (entry->uncompressedSize < 0) return damaged (where, "it has a file of a negative size");
-        if ((total += static_cast<double> (entry->uncompressedSize)) > budgets().reading)
-        {
-            const auto over = overBudget ("pack/too_large", &Budgets::reading, "it", total, "pack smaller files");
-            return Message::error (over.id, where, over.text, over.remedy);
-        }
+        total += static_cast<double> (entry->uncompressedSize);
+        if (auto fits = checkBudgets (where, count, total); ! fits) return fits.error();
         const std::unique_ptr<juce::InputStream> stream (zip.createStreamForEntry (i));
         const auto size = static_cast<std::size_t> (entry->uncompressedSize);
         juce::MemoryBlock bytes;

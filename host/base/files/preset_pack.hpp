@@ -21,7 +21,7 @@ struct PackedFile
 /// True if the name ends in .tactus.
 bool isPresetPack (const std::filesystem::path&);
 
-/// The bytes of an archive. The same files give the same bytes. Ids: as for readPresetPack.
+/// The bytes of an archive that readPresetPack would read. The same files give the same bytes. Ids: as for readPresetPack.
 Result<std::string> presetPack (const std::vector<PackedFile>&);
 
 /// Reads an archive, which may come from a stranger. Refuses links, hidden names, names that occur twice and paths out of it. The archive must be

@@ -79,7 +79,7 @@ class Packs(unittest.TestCase):
 
     def test_no_file_leaves_the_folder(self):
         for name in ("../evil.csv", "/tmp/evil.csv", "a/../../evil.csv", "..\\evil.csv", "C:/evil.csv", ".bashrc", "a/.hidden/x.csv", "a//b.csv", "x\x01.csv",
-                     "trailing./x.csv", "a/" * 20 + "x.csv", "n" * 300):
+                     "trailing./x.csv", "nul", "a/COM1.csv", "a/" * 20 + "x.csv", "n" * 300):
             self.write(self.good() + [(name, "1,2\n")])
             self.refused("pack/name")
         self.assertFalse((self.folder / "evil.csv").exists())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presets that are shared as one file. tests/host/cli/pack_test.py makes files that do harm.
 #include "host/app/support/window_rig.hpp"
+#include "support/with_limits.hpp"
 
 #include <host/app/storage/share.hpp>
 #include <host/base/assets/file_assets.hpp>
@@ -79,6 +80,34 @@ TEST_CASE ("a graph that names a file elsewhere is not shared", "[app][share]")
     REQUIRE_FALSE (shared);
     CHECK (shared.error().id == "share/outside");
     CHECK_FALSE (std::filesystem::exists (folder / "x.tactus"));
+}
+
+TEST_CASE ("what no program would open again is not shared", "[app][share]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "x.tactus";
+    const auto refused = [&] (const graph::Graph& g) {
+        const auto shared = sharePreset (g, file);
+        REQUIRE_FALSE (shared);
+        CHECK_FALSE (std::filesystem::exists (file));
+        CHECK (shared.error().where == file.string());
+        CHECK_FALSE (shared.error().remedy.empty());
+        return shared.error().id;
+    };
+    const auto beat = loadGraph (TACTUS_SOURCE_DIR "/graphs/heartbeat.json").graph;
+    for (const auto* limit : { "reading=1kB", "file=1kB", "files=1" })
+    {
+        const WithLimits limits (limit);
+        CAPTURE (limit);
+        CHECK (refused (beat).starts_with ("pack/too_"));
+    }
+    std::filesystem::create_directories (folder / "assets");
+    std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", folder / "assets/.beat.haptic");
+    std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/heartbeat.json", folder / "beat.json");
+    auto g = loadGraph (folder / "beat.json").graph;
+    for (auto& n : g.root.nodes)
+        if (n.type == "signal.clip") n.settings["clip"] = "assets/.beat.haptic";
+    CHECK (refused (g) == "share/name");
 }
 
 TEST_CASE ("the window shares the open graph, and opens such a file as a copy", "[app][share]")
