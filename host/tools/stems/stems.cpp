@@ -389,13 +389,14 @@ struct Stems::Impl
 
     double ownRate() const { return plan.rateHz() * per_tick; }
 
-    /// Each vector as its component in the main direction of the mix of its role. Scalar signals stay as they are.
+    /// Each vector as its component in the main direction of the mix of its role, if this mix is a vector. All else stays as it is, so that the parts
+    /// still add up.
     void fold()
     {
         std::map<std::string, std::vector<double>> directions;
         for (const auto& s : stems)
         {
-            if (s.to.kind != "mix" || s.channels.size() < 3) continue;
+            if (s.to.kind != "mix" || s.channels.size() != 3) continue;
             const std::vector<const std::vector<float>*> force { &s.channels[0], &s.channels[1], &s.channels[2] };
             directions[s.role] = mainDirection (force);
         }

@@ -23,7 +23,7 @@ struct StemOptions
     SampleFormat format = SampleFormat::float32;
     double rate_hz = 0.0;     ///< of the files, in whole Hz; 0: the rate of the samples
     double loop_s = 0.0;      ///< the end is blended into the start over this time, so that a file can be repeated without a click; 0: no blend
-    bool is_mono = false;     ///< vectors become their component in the direction in which the mix of their motor moves most
+    bool is_mono = false;     ///< vectors become their component in the direction in which the mix of their motor moves most, if that mix is one vector
     bool has_dither = true;   ///< integers get triangular noise, one step wide on each side, the same in each export; silence stays silence
 
     enum class Scale
