@@ -7,7 +7,7 @@
 
 #include <host/devices/hid/physics.hpp>
 #include <tactus/check/report.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/list_text.hpp>

@@ -7,7 +7,7 @@
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

@@ -10,7 +10,7 @@
 #include <host/devices/sessions/needs.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 

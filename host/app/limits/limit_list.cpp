@@ -9,7 +9,7 @@
 #include <host/devices/sessions/binding.hpp>
 #include <host/devices/sessions/choose_clock.hpp>
 #include <host/devices/sessions/role_fits.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>

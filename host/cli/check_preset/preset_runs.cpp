@@ -3,7 +3,7 @@
 
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/json_text.hpp>

@@ -9,7 +9,7 @@
 #include "support/sketch.hpp"
 
 #include <tactus/check/judge.hpp>
-#include <tactus/check/trials.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

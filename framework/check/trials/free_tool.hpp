@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sampled_loop.hpp"
+#include <tactus/check/sampled_loop.hpp>
 
 #include <tactus/node/device.hpp>
 #include <tactus/run/device/sim.hpp>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "trials.hpp"
-#include "bench.hpp"
 #include "free_tool.hpp"
-#include "side_by_side.hpp"
+#include "trial_starts.hpp"
 
+#include <tactus/check/bench.hpp>
+#include <tactus/check/side_by_side.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <algorithm>
@@ -24,9 +25,8 @@ constexpr double little = 0.2;                      // of the least swing; less 
 constexpr double steady = 0.9;                      // of the swing in the stretch before: a smaller swing dies, and one larger by the inverse grows
 constexpr double window_s = 0.125;
 constexpr double far_m = 1.0;
-constexpr double beside = 5e-3;                                      // m outside the motion: too far to count for it
-constexpr std::size_t most_over = 4;                                 // times the planned ticks
-constexpr double near_off = 2e-4, far_off = 2e-3, hard_off = 3e-3;   // m
+constexpr double beside = 5e-3;        // m outside the motion: too far to count for it
+constexpr std::size_t most_over = 4;   // times the planned ticks
 
 /// The range of a coordinate, and its largest rise and fall.
 struct Reached
@@ -98,7 +98,7 @@ public:
         {
             const auto at = std::ranges::find (devices, role.role, &RoleDevice::role);
             const bool is_known = at != devices.end() && at->numbers.mass && at->numbers.damping && ! isSlow (at->numbers);
-            known.push_back (is_known);
+            tried.known.push_back (is_known);
             DeviceNumbers numbers = at != devices.end() ? at->numbers : DeviceNumbers {};
             if (! is_known) numbers.mass = numbers.damping = DeviceNumber { .value = 1.0 };
             const auto* simulated = at != devices.end() && at->simulated ? &*at->simulated : nullptr;
@@ -108,7 +108,7 @@ public:
             GuardLimits limits;
             if (numbers.peak_force) limits.max_force = numbers.peak_force->value;
             engine->attach (role.role, *tools.back(), limits);
-            devices_of.push_back (numbers);
+            tried.numbers.push_back (numbers);
             found.are_dry = found.are_dry || (is_known && numbers.coulomb && numbers.coulomb->value > 0.0);
             for (int i = 0; i < 3; ++i)
                 thresholds.push_back (std::max (least_swing, 2.0 * (numbers.quantum ? numbers.quantum->value : 0.0)));
@@ -116,15 +116,15 @@ public:
         for (const auto& role : demand.roles)
         {
             found.by_role.push_back ({ .role = role.role, .axis = role.axis });
-            owners.push_back (ownerOf (role));
+            tried.owners.push_back (ownerOf (role));
         }
     }
 
     /// The places of the motion at which the tools are let go, as ticks, in order. Empty if no tool is free.
     std::vector<std::size_t> places() const
     {
-        for (std::size_t d = 0; d < owners.size(); ++d)
-            if (motion.ticks > 0 && isFree (d)) return chosen();
+        for (std::size_t d = 0; d < tried.owners.size(); ++d)
+            if (motion.ticks > 0 && tried.isFree (d)) return starts.places();
         return {};
     }
 
@@ -136,8 +136,8 @@ public:
             holdAt (now);
         ticks = 0;   // the budget is for the trials
         tryAt (place);
-        for (std::size_t d = 0; d < owners.size(); ++d)
-            found.by_role[d].is_tried = isFree (d) && (found.by_role[d].swings || ! is_over);
+        for (std::size_t d = 0; d < tried.owners.size(); ++d)
+            found.by_role[d].is_tried = tried.isFree (d) && (found.by_role[d].swings || ! is_over);
         return std::move (found);
     }
 
@@ -151,25 +151,17 @@ private:
     std::stop_token stop;
     std::unique_ptr<Engine> engine;
     std::vector<std::unique_ptr<FreeTool>> tools;
-    std::vector<DeviceNumbers> devices_of;
-    std::vector<bool> known;
+    TriedTools tried {};
+    TrialStarts starts { motion, demand, tried, effort };
     std::vector<double> thresholds;
     Trials found {};
     std::size_t ticks = 0;
     bool is_over = false;          // no ticks are left
     std::vector<bool> silent {};   // by node; empty if none is
 
-    /// The tool of a role of the demand, and the number of its axis; -1: the tool itself, -2: an axis that is not known.
-    struct Owner
+    TriedTools::Owner ownerOf (const RoleDemand& d) const
     {
-        std::size_t tool = 0;
-        int axis = -1;
-    };
-    std::vector<Owner> owners {};   // in the order of the demand
-
-    Owner ownerOf (const RoleDemand& d) const
-    {
-        Owner o;
+        TriedTools::Owner o;
         while (o.tool < motion.roles.size() && motion.roles[o.tool].role != d.role)
             ++o.tool;
         if (d.axis.empty()) return o;
@@ -178,13 +170,11 @@ private:
         return o;
     }
 
-    bool isFree (std::size_t d) const { return owners[d].axis >= 0 || (owners[d].axis == -1 && known[owners[d].tool]); }
-
     /// The trial of a coordinate of a tool; null if nothing is judged there.
     Trial* trialOf (std::size_t tool, int axis)
     {
-        for (std::size_t d = 0; d < owners.size(); ++d)
-            if (owners[d].tool == tool && owners[d].axis == axis && isFree (d)) return &found.by_role[d];
+        for (std::size_t d = 0; d < tried.owners.size(); ++d)
+            if (tried.owners[d].tool == tool && tried.owners[d].axis == axis && tried.isFree (d)) return &found.by_role[d];
         return nullptr;
     }
 
@@ -220,213 +210,6 @@ private:
             holdAt (k);
     }
 
-    Vec3 speedAt (std::size_t role, std::size_t k) const
-    {
-        const auto& readings = motion.roles[role].readings;
-        const auto half = std::max<std::size_t> (1, static_cast<std::size_t> (2.5e-3 * motion.rate_hz));
-        const auto from = k > half ? k - half : 0, to = std::min (k + half, readings.size() - 1);
-        if (from == to) return Vec3::Zero();
-        return (readings[to].position - readings[from].position) * motion.rate_hz / static_cast<double> (to - from);
-    }
-
-    std::size_t tickOf (double t_s) const
-    {
-        return std::min (static_cast<std::size_t> (std::max (0.0, std::round (t_s * motion.rate_hz))), motion.ticks - 1);
-    }
-
-    /// The ticks at which the tools are let go, in order.
-    std::vector<std::size_t> chosen() const
-    {
-        struct Candidate
-        {
-            std::size_t place;
-            double weight;
-        };
-        std::vector<Candidate> candidates;
-        std::vector<std::size_t> ticks_of;
-        std::vector<std::size_t> picked;   // places
-        const auto weigh = [&] (std::size_t i) {
-            const auto& l = demand.linked[i];
-            double most = 0.0;
-            for (const auto& response : l.responses)
-                most = std::max (most, response.norm());
-            return std::max (most, l.settled.norm()) + l.excess.norm() * motion.rate_hz;
-        };
-        double heaviest = 0.0;
-        for (std::size_t i = 0; i < demand.linked.size(); ++i)
-        {
-            candidates.push_back ({ i, weigh (i) });
-            heaviest = std::max (heaviest, candidates.back().weight);
-        }
-        std::ranges::stable_sort (candidates, std::ranges::greater {}, &Candidate::weight);
-        const auto differs = [&] (std::size_t a, std::size_t b) {
-            const auto& x = demand.linked[a];
-            const auto& y = demand.linked[b];
-            const double most = std::max ({ x.settled.norm(), y.settled.norm(), 1e-3 * heaviest }), b_most = std::max (x.excess.norm(), y.excess.norm());
-            return (x.settled - y.settled).norm() > 0.2 * most || (x.excess - y.excess).norm() > 0.2 * std::max (b_most, 1e-3 * heaviest / motion.rate_hz);
-        };
-        const auto each = static_cast<std::size_t> (8.0 * 0.6 * motion.rate_hz);   // ticks that the trials at a place usually take
-        auto most_places = std::clamp<std::size_t> (effort.ticks / each, 2, std::max<std::size_t> (2, effort.places));
-        const auto pick = [&] (std::size_t place) {
-            if (picked.size() < most_places && std::ranges::count (picked, place) == 0) picked.push_back (place);
-        };
-        std::vector<std::size_t> unlike;   // one of each kind of response
-        for (const auto& c : candidates)
-            if (std::ranges::all_of (unlike, [&] (std::size_t u) { return differs (u, c.place); })) unlike.push_back (c.place);
-        constexpr std::size_t most_loops = 16;
-        if (unlike.size() > most_loops) unlike.resize (most_loops);
-        std::size_t nearest = candidates.empty() ? 0 : candidates.front().place;
-        double largest = 0.0;
-        for (const auto u : unlike)
-            if (const double radius = isCalm (u) ? 0.0 : worstHand (u).second; radius > largest)
-            {
-                largest = radius;
-                nearest = u;
-            }
-        const bool swings = largest > at_rest;   // so the trials must show that something calms the tool
-        if (swings) most_places *= 3;
-        if (! candidates.empty()) pick (nearest);
-        if (! candidates.empty()) pick (candidates.front().place);
-        // The places with the largest force, a small one, and the largest speed.
-        for (std::size_t r = 0; r < demand.roles.size(); ++r)
-        {
-            const auto& slopes = demand.roles[r].slopes;
-            if (slopes.size() != demand.linked.size() || slopes.empty() || owners[r].axis != -1) continue;
-            const auto forceOf = [] (const Slope& s) { return s.force.norm(); };
-            pick (static_cast<std::size_t> (std::ranges::max_element (slopes, {}, forceOf) - slopes.begin()));
-            std::size_t fastest = 0, lightest = slopes.size();
-            const double light = 0.3 * forceOf (*std::ranges::max_element (slopes, {}, forceOf));   // a tool that is hardly pressed takes long to settle
-            for (std::size_t i = 0; i < slopes.size(); ++i)
-            {
-                if (speedAt (owners[r].tool, tickOf (slopes[i].t_s)).norm() > speedAt (owners[r].tool, tickOf (slopes[fastest].t_s)).norm()) fastest = i;
-                if (slopes[i].force.norm() > light && (lightest == slopes.size() || forceOf (slopes[i]) < forceOf (slopes[lightest]))) lightest = i;
-            }
-            pick (fastest);
-            if (lightest < slopes.size()) pick (lightest);
-        }
-        for (const auto& c : candidates)
-            if (std::ranges::all_of (picked, [&] (std::size_t p) { return differs (p, c.place); })) pick (c.place);
-        const auto more = swings ? most_places : 0;
-        for (std::size_t i = 0; i < more; ++i)   // evenly along the motion, where something is felt
-        {
-            const auto place = (2 * i + 1) * demand.linked.size() / (2 * more);
-            if (weigh (place) > 0.0) pick (place);
-        }
-        for (const auto p : picked)
-            ticks_of.push_back (tickOf (demand.linked[p].t_s));
-        if (ticks_of.empty())   // nothing has a slope: evenly along the motion
-            for (std::size_t i = 0; i < effort.places; ++i)
-                ticks_of.push_back ((2 * i + 1) * motion.ticks / (2 * effort.places));
-        std::ranges::sort (ticks_of);
-        ticks_of.erase (std::unique (ticks_of.begin(), ticks_of.end()), ticks_of.end());
-        return ticks_of;
-    }
-
-    /// The release of all tools at once.
-    struct Release
-    {
-        double along = 0.0, across = 0.0, third = 0.0;   // m; out of the contact, sideways
-        double speed = 0.0;                              // times that of the motion
-        HeldHand hand {};
-        double off() const noexcept { return std::sqrt (along * along + across * across + third * third); }
-    };
-
-    /// The hand that makes the loops of the tools swing most at a place, and the largest radius with it.
-    std::pair<HeldHand, double> worstHand (std::size_t place) const
-    {
-        std::pair<HeldHand, double> worst { usualHands()[2], 0.0 };
-        for (std::size_t r = 0; r < demand.roles.size(); ++r)
-        {
-            if (owners[r].axis != -1 || ! isFree (r)) continue;
-            const auto first = static_cast<Eigen::Index> (3 * r);
-            std::vector<Jacobian> own;
-            for (const auto& m : demand.linked[place].responses)
-                own.emplace_back (m.block (first, first, 3, 3));
-            if (own.empty()) continue;
-            const auto* device = &devices_of[owners[r].tool];
-            const std::array<const DeviceNumbers*, 3> axes { device, device, device };
-            for (const auto& hand : usualHands())
-                if (const auto radius = loopRadius (own, axes, 1.0 / motion.rate_hz, hand); radius && *radius > worst.second) worst = { hand, *radius };
-        }
-        return worst;
-    }
-
-    /// The ratio of the damping that the loop at a place needs to that of the device of a role; 0 if it needs none.
-    double loadOf (std::size_t role, std::size_t place) const
-    {
-        const auto& s = demand.roles[role].slopes[place];
-        const auto& device = devices_of[owners[role].tool];
-        const double load = s.stiffness / motion.rate_hz * (0.5 + (device.delay ? device.delay->value : 0.0)) + s.lag + s.damping;
-        return load > 0.0 ? load / (device.damping->value + s.brake) : 0.0;
-    }
-
-    bool isLoopKnown (std::size_t role, std::size_t place) const
-    {
-        return ! demand.roles[role].slopes[place].responses.empty() && ! demand.linked[place].responses.empty();
-    }
-
-    /// True if some place is not passive and its loop cannot be computed, as with a friction. Only the trials show then whether the tool rests.
-    bool isLoopUnknown() const
-    {
-        for (std::size_t r = 0; r < demand.roles.size(); ++r)
-            for (std::size_t i = 0; i < demand.roles[r].slopes.size() && i < demand.linked.size() && isFree (r) && owners[r].axis == -1; ++i)
-                if (! isLoopKnown (r, i) && loadOf (r, i) > 1.0) return true;
-        return false;
-    }
-
-    /// True if the loops of all tools at a place are known, and would be passive with half of the device's damping, or with a quarter of it if a friction
-    /// slips. There, only a few trials are made.
-    bool isCalm (std::size_t place) const
-    {
-        if (place >= demand.linked.size()) return false;
-        const double most = demand.linked[place].is_smooth ? 0.5 : 0.25;
-        for (std::size_t r = 0; r < demand.roles.size(); ++r)
-            if (! isFree (r) || owners[r].axis != -1 || place >= demand.roles[r].slopes.size() || ! isLoopKnown (r, place) || ! (loadOf (r, place) <= most))
-                return false;
-        return true;
-    }
-
-    std::vector<Release> releasesAt (std::size_t at) const
-    {
-        const double t_s = static_cast<double> (at) / motion.rate_hz;
-        const auto place = std::ranges::min_element (demand.linked, {}, [&] (const Linked& l) { return std::abs (l.t_s - t_s); });
-        auto worst = place != demand.linked.end() ? worstHand (static_cast<std::size_t> (place - demand.linked.begin())).first : usualHands()[2];
-        if (worst.mass == 0.0) worst = usualHands()[2];   // without a hand, it is let go anyway
-        const auto arm = usualHands().back();
-        if (place != demand.linked.end() && isCalm (static_cast<std::size_t> (place - demand.linked.begin())))
-            return { { .along = far_off },
-                     { .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off },
-                     { .across = -far_off, .hand = worst },
-                     { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst } };
-        double fastest = 0.0;
-        for (std::size_t r = 0; r < tools.size(); ++r)
-            fastest = std::max (fastest, speedAt (r, at).norm());
-        std::vector<Release> all {
-            { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off },
-            { .along = far_off },
-            { .across = -far_off },
-            { .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off },
-            { .along = 0.6 * near_off, .across = 0.64 * near_off, .third = 0.48 * near_off, .hand = worst },
-            { .along = far_off, .hand = worst },
-            { .across = -far_off, .hand = worst },
-        };
-        if (worst != arm) all.push_back ({ .along = 0.6 * far_off, .across = 0.64 * far_off, .third = 0.48 * far_off, .hand = arm });
-        if (isLoopUnknown())   // so the worst hand is not known either
-            for (const auto& hand : usualHands())
-            {
-                if (hand.mass == 0.0) continue;
-                all.push_back ({ .across = -far_off, .hand = hand });
-                all.push_back ({ .along = -0.8 * far_off, .across = 0.48 * far_off, .third = 0.36 * far_off, .hand = hand });
-            }
-        // To a damper, a start off its rest is a blow.
-        if (place != demand.linked.end() && place->excess.norm() > 0.0)
-            all.push_back ({ .along = 0.6 * hard_off, .across = 0.64 * hard_off, .third = 0.48 * hard_off });
-        if (fastest > 0.05)
-            for (const double way : { 1.0, -1.0 })
-                all.push_back ({ .speed = way });
-        return all;
-    }
-
     void tryAt (std::size_t at)
     {
         ++found.places;
@@ -436,7 +219,7 @@ private:
         std::vector<std::vector<double>> axis_pushes;
         for (std::size_t r = 0; r < tools.size(); ++r)
         {
-            const Vec3 v = speedAt (r, at), f = tools[r]->effort().force;
+            const Vec3 v = starts.speedAt (r, at), f = tools[r]->effort().force;
             Vec3 push = -f;
             // A hand that stops pushes with a force between those that slide the tool forwards and backwards.
             if (v.norm() > 1e-3) push += 0.5 * f.dot (v.normalized()) * v.normalized();
@@ -447,7 +230,7 @@ private:
             for (std::size_t i = 0; i < tools[r]->axes(); ++i)
                 axes.push_back (-tools[r]->effort().axes[static_cast<int> (i)]);
         }
-        for (const auto& plan : releasesAt (at))
+        for (const auto& plan : starts.releasesAt (at))
         {
             if (is_over) return;
             for (std::size_t r = 0; r < tools.size(); ++r)
@@ -458,7 +241,7 @@ private:
                                    .push = pushes[r],
                                    .axis_off = plan.off(),
                                    .axis_push = axis_pushes[r],
-                                   .moves = known[r],
+                                   .moves = tried.known[r],
                                    .hand = plan.hand });
             }
             run (at, plan);
@@ -582,8 +365,8 @@ private:
                 eachCoordinate ([&] (std::size_t c, std::size_t r, int, double, double, double) {
                     // A tool that hardly swung on its way shows no loop that swings.
                     const bool swung = all[c].swung > 0.5 * std::max (near_off, plan.off());
-                    for (std::size_t d = 0; d < owners.size() && lost[r] && swung; ++d)
-                        if (owners[d].tool == r) found.by_role[d].is_lost = true;
+                    for (std::size_t d = 0; d < tried.owners.size() && lost[r] && swung; ++d)
+                        if (tried.owners[d].tool == r) found.by_role[d].is_lost = true;
                 });
                 break;
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "judge.hpp"
+#include <tactus/check/judge.hpp>
 
 namespace tactus::check
 {
