@@ -389,8 +389,7 @@ struct Stems::Impl
 
     double ownRate() const { return plan.rateHz() * per_tick; }
 
-    /// Each vector as its component in the main direction of the mix of its role, if this mix is a vector. All else stays as it is, so that the parts
-    /// still add up.
+    /// Turns each vector into its component in the main direction of the mix of its role, if this mix is a vector. All else stays as it is.
     void fold()
     {
         std::map<std::string, std::vector<double>> directions;

@@ -163,10 +163,33 @@ class Stems(unittest.TestCase):
         self.render("--stem-loop", "800 ms", status=1)
         self.assertIn("stems/loop", self.done.stderr)
 
-    def test_mono_adds_up_too(self):
+    def test_mono(self):
         self.render("--stem-mono", graph=GRAPHS / "bronze_bell.json")
         for file in self.out.glob("*.wav"):
             self.assertEqual(len(floats(file)[0]), 1, file)
+
+    def test_mono_files_of_vectors_add_up_unless_there_is_a_torque_too(self):
+        def tone(frequency):
+            return {"type": "signal.lfo", "params": {"frequency": f"{frequency} Hz"}}
+        graph = {
+            "format": "tactus-graph", "version": 2, "name": "Vectors", "rate_hz": 4000, "devices": {"tip": {"driver": "sim"}},
+            "nodes": {"a": tone(5), "b": tone(30), "c": tone(80), "ab": {"type": "vector.join"}, "bc": {"type": "vector.join"},
+                      "desk": {"type": "layer.mix_vectors", "settings": {"inputs": 2}}, "motor": {"type": "device.force", "role": "tip"}},
+            "wires": ["a.out -> ab.x", "b.out -> ab.y", "b.out -> bc.y", "c.out -> bc.z", "ab.out -> desk.in[0]", "bc.out -> desk.in[1]",
+                      "desk.out -> motor.force"]}
+        file = self.folder / "vectors.json"
+        file.write_text(json.dumps(graph))
+        said = self.render("--stem-mono", graph=file)
+        mix, *layers = [floats(self.out / f["file"])[0] for kind in ("mix", "layer") for f in said["files"] if f["kind"] == kind]
+        self.assertEqual(([len(c) for c in (mix, *layers)], len(layers)), ([1, 1, 1], 2))
+        self.assertLess(max(abs(m - sum(v)) for m, *v in zip(mix[0], *(c[0] for c in layers))), 1e-6)
+        self.assertGreater(max(mix[0]), 0.5)
+
+        graph["wires"].append({"wire": "bc.out -> motor.torque", "gain": "0.1 m"})
+        file.write_text(json.dumps(graph))
+        said = self.render("--stem-mono", graph=file)
+        widths = {f["kind"]: len(f["channels"]) for f in said["files"]}
+        self.assertEqual((widths["mix"], widths["layer"]), (6, 3))
 
     def test_the_presets_with_a_mixer(self):
         said = self.render("--stem-format", "pcm24", "--stem-rate", "48000", graph=GRAPHS / "bronze_bell.json")
