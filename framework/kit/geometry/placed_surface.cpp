@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "placed_surface.hpp"
 
+#include <array>
+#include <numeric>
 #include <utility>
 
 namespace tactus
@@ -29,16 +31,18 @@ void pull (Sample& felt, const Vec3& anchor) noexcept
     felt.height = pulled.z();
 }
 
-/// Adds the response of the curves along x and y. Eq. (6), of one node.
-void stretch (Sample& felt, const Surface::Curves& curves, double amount) noexcept
+/// Force along x and y, and the energy of these springs. Eq. (6), of one node.
+Vec3 sidewaysOf (const Surface::Curves& curves, const Vec3& d) noexcept
 {
+    Vec3 response = Vec3::Zero();
     for (int axis = 0; axis < 2; ++axis)
     {
-        if (felt.d[axis] == 0.0) continue;
-        const auto [force, stored] = curves[at (axis)].at (std::abs (felt.d[axis]));
-        felt.f[axis] += amount * (felt.d[axis] < 0.0 ? -force : force);
-        felt.energy += amount * stored;
+        if (d[axis] == 0.0) continue;
+        const auto [force, stored] = curves[at (axis)].at (std::abs (d[axis]));
+        response[axis] = d[axis] < 0.0 ? -force : force;
+        response.z() += stored;
     }
+    return response;
 }
 
 /// The energy of the springs of one node.
@@ -53,8 +57,12 @@ double energyOf (const Surface::Curves& curves, const Vec3& d) noexcept
 
 PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation, double crease, std::vector<double> r)
     : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), smooth_body (mesh_walk, crease),
-      radii (std::move (r)), alike (std::ranges::all_of (surface->curves, [] (const auto& nodes) { return nodes.size() == 1; }))
+      radii (std::move (r))
 {
+    laws.reserve (surface->curves.size());
+    for (const auto& nodes : surface->curves)
+        laws.push_back (lawsOf (nodes));
+    alike = std::ranges::all_of (laws, [] (const Laws& its) { return its.of_node.empty(); });
     across.reserve (std::max (mesh_walk.mesh().points.size(), surface->frames.size()));
     if (surface->frames.empty())
         for (const auto& n : normalsOf (mesh_walk.mesh()))
@@ -63,24 +71,55 @@ PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, co
         across.push_back (rotationMatrix (rotation) * f.row (0).transpose());
 }
 
+PlacedSurface::Laws PlacedSurface::lawsOf (const std::vector<Surface::Curves>& curves)
+{
+    Laws laws;
+    laws.sets.reserve (std::min (curves.size(), at (most_sets + 1)));
+    laws.of_node.reserve (curves.size());
+    for (const auto& c : curves)
+    {
+        const auto same = std::ranges::find (laws.sets, c);
+        laws.of_node.push_back (static_cast<int> (same - laws.sets.begin()));
+        if (same == laws.sets.end()) laws.sets.push_back (c);
+        if (laws.sets.size() > at (most_sets))   // too many to be worth it
+        {
+            laws.sets = curves;
+            laws.of_node.resize (curves.size());
+            std::iota (laws.of_node.begin(), laws.of_node.end(), 0);
+            return laws;
+        }
+    }
+    if (laws.sets.size() == 1) laws.of_node.clear();
+    return laws;
+}
+
 PlacedSurface::ContactSample PlacedSurface::feel (const Foot& foot, const Vec3* anchor, const Tool& tool) const noexcept
 {
     ContactSample felt;
     const Vec3 z = -foot.normal;
     felt.place = placeOf (foot, tool);
     felt.d.z() = tool.radius - foot.distance;
-    if (anchor) smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) { felt.mixed += share.amount * acrossAt (share.node, tool); });
+    if (anchor)
+        felt.mixed = smooth_body.mean (foot, Vec3 (Vec3::Zero()), [&] (Vec3& sum, int node, double weight) {
+            const Vec3 x = acrossAt (node, tool);
+            for (int k = 0; k < 3; ++k)
+                sum[k] += weight * x[k];
+        });
     Vec3 x = direction (felt.mixed - felt.mixed.dot (z) * z);
     if (x.isZero (0.0)) x = z.unitOrthogonal();
     felt.frame << x.transpose(), z.cross (x).transpose(), z.transpose();
     if (anchor) pull (felt, *anchor);
-    mixCurves (foot, tool, [&] (const Surface::Curves& curves, double amount) {
+    using Response = Eigen::Matrix<double, 5, 1>;   // f, then the energies of the springs sideways and along the normal
+    const Response response = meanOf (foot, tool, Response (Response::Zero()), [&] (const Surface::Curves& curves) {
+        const Vec3 sideways = sidewaysOf (curves, felt.d);
         const auto [force, stored] = curves[2].at (felt.d.z());
-        felt.f.z() += amount * force;
-        felt.pressed += amount * stored;
-        stretch (felt, curves, amount);
+        Response its;
+        its << sideways.x(), sideways.y(), force, sideways.z(), stored;
+        return its;
     });
-    felt.energy += felt.pressed;
+    felt.f = response.head<3>();
+    felt.pressed = response[4];
+    felt.energy = response[3] + felt.pressed;
     return felt;
 }
 
@@ -88,10 +127,10 @@ PlacedSurface::ContactSample PlacedSurface::stretched (const ContactSample& befo
 {
     ContactSample felt = before;
     pull (felt, anchor);
-    felt.f.head<2>().setZero();
-    felt.energy = 0.0;
-    mixCurves (foot, tool, [&] (const Surface::Curves& curves, double amount) { stretch (felt, curves, amount); });
-    felt.energy += felt.pressed;
+    const Vec3 response =
+        meanOf (foot, tool, Vec3 (Vec3::Zero()), [&] (const Surface::Curves& curves) { return sidewaysOf (curves, felt.d); });
+    felt.f.head<2>() = response.head<2>();
+    felt.energy = response.z() + felt.pressed;
     return felt;
 }
 
@@ -111,13 +150,20 @@ Vec3 PlacedSurface::forceOf (const Foot& foot, const ContactSample& felt, const 
     const double twist = felt.f.x() * felt.d.y() - felt.f.y() * felt.d.x(), length = (felt.mixed - felt.mixed.dot (z) * z).norm();
     const bool turns = stretched && length > 0.0;
     if (turns) force -= twist * felt.mixed.dot (z) / length * (motion.normal * y);
-    smooth_body.mix (foot, &motion, [&] (const SmoothBody::Share& share) {
-        double change = turns ? twist / length * y.dot (acrossAt (share.node, tool)) : 0.0;
-        if (! alike)
-            for (int i = 0; i < tool.count; ++i)
-                if (const auto& curves = surface->curves[at (tool.shares[at (i)].shape)]; curves.size() > 1)
-                    change += tool.shares[at (i)].amount * energyOf (curves[at (share.node)], felt.d);
-        force -= change * share.slope;
+    std::array<double, at (most_sets)> energies {};
+    const bool few = setsOf (tool) <= most_sets;
+    if (few)
+        eachShape (tool, [&] (const Laws& its, int first, double) {
+            for (std::size_t k = 0; k < its.sets.size(); ++k)
+                energies[at (first) + k] = energyOf (its.sets[k], felt.d);
+        });
+    force -= smooth_body.meanSlope (foot, motion, [&] (int node) {
+        double number = turns ? twist / length * y.dot (acrossAt (node, tool)) : 0.0;
+        eachShape (tool, [&] (const Laws& its, int first, double amount) {
+            const auto set = its.of_node[at (node)];
+            number += amount * (few ? energies[at (first + set)] : energyOf (its.sets[at (set)], felt.d));
+        });
+        return number;
     });
     return force;
 }
@@ -128,15 +174,13 @@ double PlacedSurface::ratio (const Foot& foot, double depth, const Tool& tool) c
     if (mu.empty()) return 0.0;
     if (mu.size() == 1) return mu[0](depth);
     const auto nodes = mesh_walk.mesh().points.size();
-    double sum = 0.0;
-    smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
+    return smooth_body.mean (foot, 0.0, [&] (double& sum, int node, double weight) {
         if (mu.size() == nodes)
-            sum += share.amount * mu[at (share.node)](depth);
+            sum += weight * mu[at (node)](depth);
         else
             for (int i = 0; i < tool.count; ++i)
-                sum += share.amount * tool.shares[at (i)].amount * mu[at (tool.shares[at (i)].shape) * nodes + at (share.node)](depth);
+                sum += weight * tool.shares[at (i)].amount * mu[at (tool.shares[at (i)].shape) * nodes + at (node)](depth);
     });
-    return sum;
 }
 
 }   // namespace tactus

@@ -80,16 +80,31 @@ private:
     double radiusOf (int tool) const noexcept { return radii.empty() ? 0.0 : radii[radii.size() == 1 ? 0 : at (tool)]; }
     Vec3 acrossAt (int node, const Tool&) const noexcept;
 
-    /// Calls `use (curves, amount)` for each set of curves that is mixed at a foot.
+    /// The curves of a shape. Nodes often share a set of them, and then each set is evaluated once.
+    struct Laws
+    {
+        std::vector<Surface::Curves> sets;   // all different, if there are at most most_sets
+        std::vector<int> of_node;            // empty if there is one set
+    };
+    static Laws lawsOf (const std::vector<Surface::Curves>& curves);
+    static constexpr int most_sets = 8;   // of the shapes of a tool; with more, the curves of each node are evaluated
+    int setsOf (const Tool&) const noexcept;
+
+    /// Calls `use (laws, number of their first set, amount)` for each shape of a tool whose nodes differ.
     template <typename Use>
-    void mixCurves (const Foot&, const Tool&, const Use& use) const noexcept;
+    void eachShape (const Tool&, const Use& use) const noexcept;
+
+    /// The mean at a foot of what `of (curves)` gives for each set of curves. Starts from `zero`.
+    template <typename T, typename Of>
+    T meanOf (const Foot&, const Tool&, const T& zero, const Of& of) const noexcept;
 
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
     SmoothBody smooth_body;
     std::vector<Vec3> across;   // u^x by node, or by shape, then node
     std::vector<double> radii;
-    bool alike = false;   // all nodes have the same curves
+    std::vector<Laws> laws;   // by shape
+    bool alike = false;       // all nodes have the same curves
 };
 
 //==============================================================================
@@ -137,17 +152,49 @@ inline Vec3 PlacedSurface::acrossAt (int node, const Tool& tool) const noexcept
     return sum;
 }
 
-template <typename Use>
-void PlacedSurface::mixCurves (const Foot& foot, const Tool& tool, const Use& use) const noexcept
+inline int PlacedSurface::setsOf (const Tool& tool) const noexcept
 {
+    int count = 0;
     for (int i = 0; i < tool.count; ++i)
-        if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() == 1) use (surface->curves[at (shape)][0], amount);
-    if (! alike)
-        smooth_body.mix (foot, nullptr, [&] (const SmoothBody::Share& share) {
-            for (int i = 0; i < tool.count; ++i)
-                if (const auto& [shape, amount] = tool.shares[at (i)]; surface->curves[at (shape)].size() > 1)
-                    use (surface->curves[at (shape)][at (share.node)], amount * share.amount);
+        count += static_cast<int> (std::min (laws[at (tool.shares[at (i)].shape)].sets.size(), at (most_sets + 1)));
+    return count;
+}
+
+template <typename Use>
+void PlacedSurface::eachShape (const Tool& tool, const Use& use) const noexcept
+{
+    int first = 0;
+    for (int i = 0; i < tool.count; ++i)
+        if (const auto& its = laws[at (tool.shares[at (i)].shape)]; ! its.of_node.empty())
+        {
+            use (its, first, tool.shares[at (i)].amount);
+            first += static_cast<int> (its.sets.size());
+        }
+}
+
+template <typename T, typename Of>
+T PlacedSurface::meanOf (const Foot& foot, const Tool& tool, const T& zero, const Of& of) const noexcept
+{
+    T all = zero;
+    for (int i = 0; i < tool.count; ++i)
+        if (const auto& [shape, amount] = tool.shares[at (i)]; laws[at (shape)].of_node.empty()) all += amount * of (laws[at (shape)].sets[0]);
+    if (alike) return all;
+    if (const int count = setsOf (tool); count <= most_sets)
+    {
+        using Amounts = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_sets, 1>;
+        const Amounts amounts = smooth_body.mean (foot, Amounts (Amounts::Zero (count)), [&] (Amounts& sum, int node, double weight) {
+            eachShape (tool, [&] (const Laws& its, int first, double amount) { sum[first + its.of_node[at (node)]] += amount * weight; });
         });
+        eachShape (tool, [&] (const Laws& its, int first, double) {
+            for (std::size_t k = 0; k < its.sets.size(); ++k)
+                if (const double amount = amounts[first + static_cast<int> (k)]; amount > 0.0) all += amount * of (its.sets[k]);
+        });
+        return all;
+    }
+    all += smooth_body.mean (foot, zero, [&] (T& sum, int node, double weight) {
+        eachShape (tool, [&] (const Laws& its, int, double amount) { sum += weight * amount * of (its.sets[at (its.of_node[at (node)])]); });
+    });
+    return all;
 }
 
 }   // namespace tactus

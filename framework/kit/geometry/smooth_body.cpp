@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "smooth_body.hpp"
+#include "faces.hpp"
+#include "least_squares.hpp"
 #include "mesh_walk.hpp"
 #include <tactus/kit/math/math.hpp>
 
@@ -31,51 +33,6 @@ double power (double a, int n)
     return result;
 }
 
-/// Least squares with a small weight on all unknowns. Rows are added one by one, by Givens' rotations, so no row is kept.
-template <int n>
-class LeastSquares
-{
-public:
-    using Row = std::array<double, n + 1>;   ///< factors of the unknowns, and the value that they should add up to
-
-    explicit LeastSquares (double weight)
-    {
-        for (int k = 0; k < n; ++k)
-            rows[at (k)][at (k)] = weight;
-    }
-
-    void add (Row row)
-    {
-        for (int k = 0; k < n; ++k)
-        {
-            Row& own = rows[at (k)];
-            const double length = std::sqrt (own[at (k)] * own[at (k)] + row[at (k)] * row[at (k)]), c = own[at (k)] / length, s = row[at (k)] / length;
-            for (std::size_t j = at (k); j < row.size(); ++j)
-            {
-                const double before = own[j];
-                own[j] = c * before + s * row[j];
-                row[j] = c * row[j] - s * before;
-            }
-        }
-    }
-
-    std::array<double, n> solved() const
-    {
-        std::array<double, n> x {};
-        for (int k = n - 1; k >= 0; --k)
-        {
-            double rest = rows[at (k)][n];
-            for (int j = k + 1; j < n; ++j)
-                rest -= rows[at (k)][at (j)] * x[at (j)];
-            x[at (k)] = rest / rows[at (k)][at (k)];
-        }
-        return x;
-    }
-
-private:
-    std::array<Row, n> rows {};   // the upper triangle
-};
-
 using Numbers = std::vector<double>;
 
 double dot (const Numbers& a, const Numbers& b)
@@ -86,35 +43,6 @@ double dot (const Numbers& a, const Numbers& b)
     return sum;
 }
 }   // namespace
-
-std::vector<int> facesOf (const Mesh& mesh, const MeshWalk& walk, double crease)
-{
-    const double least = math::cos (crease) - 1e-9;
-    std::vector<Vec3> normals;
-    normals.reserve (mesh.triangles.size());
-    for (int t = 0; t < mesh.size(); ++t)
-        normals.push_back (direction (areaNormal (cornersOf (mesh, t))));
-    std::vector<int> face (mesh.triangles.size(), -1), todo;
-    int faces = 0;
-    for (int start = 0; start < mesh.size(); ++start)
-    {
-        if (face[at (start)] >= 0) continue;
-        face[at (start)] = faces;
-        for (todo = { start }; ! todo.empty();)
-        {
-            const int t = todo.back();
-            todo.pop_back();
-            for (int i = 0; i < 3; ++i)
-                if (const int other = walk.beside (t, i); other >= 0 && face[at (other)] < 0 && normals[at (t)].dot (normals[at (other)]) >= least)
-                {
-                    face[at (other)] = faces;
-                    todo.push_back (other);
-                }
-        }
-        ++faces;
-    }
-    return face;
-}
 
 SmoothBody::SmoothBody (const Mesh& mesh, double crease) : SmoothBody (MeshWalk (mesh), crease) {}
 

@@ -14,10 +14,6 @@ namespace tactus
 
 class MeshWalk;
 
-/// The face of each triangle, counted from 0. Triangles that meet at a larger angle than `crease` (rad) belong to two faces, unless there is a way
-/// around. [main thread]
-std::vector<int> facesOf (const Mesh&, const MeshWalk&, double crease);
-
 /// A body with a smooth surface through the nodes of a mesh. Never changes once built; all lengths in m.
 ///
 /// Each node i has a polynomial of degree 4, a height over its tangent plane, fitted to the nodes of three rings around. d_i (x) is the height of x
@@ -96,18 +92,14 @@ public:
     /// The part of each face in what is mixed at a foot: 1 on a face. Around an edge, they change over smoothly with the direction of the tool.
     static std::array<double, most> partsOf (const Foot&) noexcept;
 
-    /// A node with its share in the mix at a foot, and the gradient of the share in the position of the tool. Shares are not negative and have a
-    /// sum of 1. Several nodes may be the same point of the mesh.
-    struct Share
-    {
-        int node = 0;   ///< point of the mesh
-        double amount = 0.0;
-        Vec3 slope = Vec3::Zero();   ///< 0 if no motion is given
-    };
+    /// The mean over the points of the mesh near a foot: `add (sum, point, weight)` adds weight times what a point has to a sum that starts as
+    /// `zero`. Weights are not negative. A point may come several times. [any thread]
+    template <typename T, typename Add>
+    T mean (const Foot&, const T& zero, const Add& add) const noexcept;
 
-    /// Calls `use (share)` for each node with a share. [any thread]
-    template <typename Use>
-    void mix (const Foot&, const Motion*, const Use& use) const noexcept;
+    /// The gradient of a mean of numbers in the position of the tool. `of (point)` is the number that a point has. [any thread]
+    template <typename Of>
+    Vec3 meanSlope (const Foot&, const Motion&, const Of& of) const noexcept;
 
     int size() const noexcept { return static_cast<int> (corners.size()); }   ///< number of triangles
     bool hasCreases() const noexcept { return ! over.items.empty(); }
@@ -147,6 +139,8 @@ private:
     };
     static Weight weightOf (const Node&, double r2) noexcept;   // r2: squared distance over radius, below 1
 
+    template <typename Use>
+    void eachNear (int triangle, const Vec3& x, const Use& use) const noexcept;
     int walked (int triangle, const Vec3& x) const noexcept;
     std::array<double, 3> weightsOn (int triangle, const Vec3& x) const noexcept;
     bool solve (Foot&, const Vec3& p) const noexcept;
@@ -177,42 +171,64 @@ inline SmoothBody::Weight SmoothBody::weightOf (const Node& node, double r2) noe
     return { oo * oo * (4.0 * r + 1.0), -20.0 * oo * o * node.over, r > 1e-12 ? 60.0 * oo / r * node.over * node.over : 0.0 };
 }
 
+/// Calls `use (node, r2, d)` for each node with a weight at x, r2 as in weightOf(), d from the node to x.
 template <typename Use>
-void SmoothBody::mix (const Foot& foot, const Motion* motion, const Use& use) const noexcept
+void SmoothBody::eachNear (int triangle, const Vec3& x, const Use& use) const noexcept
+{
+    for (int k = near.first[at (triangle)]; k < near.first[at (triangle) + 1]; ++k)
+    {
+        const Node& node = nodes[at (near.items[at (k)])];
+        const Vec3 d = x - node.p;
+        if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) use (node, r2, d);
+    }
+}
+
+template <typename T, typename Add>
+T SmoothBody::mean (const Foot& foot, const T& zero, const Add& add) const noexcept
 {
     const auto parts = partsOf (foot);
+    T all = zero;
     for (int i = 0; i < foot.faces; ++i)
     {
-        const double part = parts[at (i)];
-        if (part == 0.0) continue;   // its slope is 0, too
-        const int triangle = foot.triangles[at (i)];
-        constexpr int most_kept = 64;   // those beyond are computed again
-        std::array<Weight, most_kept> kept;
-        double sum = 0.0;
-        Vec3 slope = Vec3::Zero();
-        const auto each = [&] (const auto& visit) {
-            int count = 0;
-            for (int k = near.first[at (triangle)]; k < near.first[at (triangle) + 1]; ++k)
-            {
-                const Node& node = nodes[at (near.items[at (k)])];
-                const Vec3 d = foot.point - node.p;
-                if (const double r2 = d.squaredNorm() * node.over; r2 < 1.0) visit (node, r2, d, count++);
-            }
-        };
-        each ([&] (const Node& node, double r2, const Vec3& d, int count) {
-            const Weight w = weightOf (node, r2);
-            if (count < most_kept) kept[at (count)] = w;
-            sum += w.w;
-            slope += w.first * d;
+        if (parts[at (i)] == 0.0) continue;
+        double weights = 0.0;
+        T sum = zero;
+        eachNear (foot.triangles[at (i)], foot.point, [&] (const Node& node, double r2, const Vec3&) {
+            const double w = weightOf (node, r2).w;
+            weights += w;
+            add (sum, node.point, w);
         });
-        each ([&] (const Node& node, double r2, const Vec3& d, int count) {
-            const Weight w = count < most_kept ? kept[at (count)] : weightOf (node, r2);
-            const double amount = w.w / sum;
-            Share share { node.point, part * amount };
-            if (motion) share.slope = part / sum * (motion->foot * (w.first * d - amount * slope)) + amount * motion->parts[at (i)];
-            use (share);
-        });
+        if (weights > 0.0) all += parts[at (i)] / weights * sum;
     }
+    return all;
+}
+
+template <typename Of>
+Vec3 SmoothBody::meanSlope (const Foot& foot, const Motion& motion, const Of& of) const noexcept
+{
+    const auto parts = partsOf (foot);
+    Vec3 all = Vec3::Zero();
+    for (int i = 0; i < foot.faces; ++i)
+    {
+        if (parts[at (i)] == 0.0) continue;   // its slope is 0, too
+        double weights = 0.0, sum = 0.0;
+        Vec3 slope = Vec3::Zero(), sum_slope = Vec3::Zero();
+        eachNear (foot.triangles[at (i)], foot.point, [&] (const Node& node, double r2, const Vec3& d) {
+            const Weight w = weightOf (node, r2);
+            const double number = of (node.point);
+            weights += w.w;
+            sum += w.w * number;
+            for (int k = 0; k < 3; ++k)   // Eigen's sums are not always inlined here
+            {
+                slope[k] += w.first * d[k];
+                sum_slope[k] += w.first * number * d[k];
+            }
+        });
+        if (! (weights > 0.0)) continue;
+        const double mean = sum / weights;
+        all += parts[at (i)] / weights * (motion.foot * (sum_slope - mean * slope)) + mean * motion.parts[at (i)];
+    }
+    return all;
 }
 
 }   // namespace tactus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
+#include "faces.hpp"
 #include "mesh_walk.hpp"
 #include "smooth_body.hpp"
 #include <tactus/kit/math/math.hpp>

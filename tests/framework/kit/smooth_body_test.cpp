@@ -299,17 +299,19 @@ TEST_CASE ("smooth body: the move of a foot and the mix of the nodes are derivat
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
         stiff.push_back (300.0 + 2700.0 * dice.uniform());
     const auto mixed = [&] (const Foot& foot, const SmoothBody::Motion* motion = nullptr) {
-        double k = 0.0, all = 0.0;
-        Vec3 slope = Vec3::Zero(), none = Vec3::Zero();
-        body.mix (foot, motion, [&] (const SmoothBody::Share& share) {
-            k += share.amount * stiff[static_cast<std::size_t> (share.node)];
-            slope += share.slope * stiff[static_cast<std::size_t> (share.node)];
-            all += share.amount;
-            none += share.slope;
-            CHECK (share.amount >= 0.0);
+        const auto stiffness = [&] (int node) { return stiff[static_cast<std::size_t> (node)]; };
+        const auto ones = body.mean (foot, 0.0, [] (double& sum, int, double weight) {
+            CHECK (weight >= 0.0);
+            sum += weight;
         });
-        CHECK (all == Approx (1.0));
-        CHECK (none.norm() < 1e-9);
+        CHECK (ones == Approx (1.0));
+        const auto k = body.mean (foot, 0.0, [&] (double& sum, int node, double weight) { sum += weight * stiffness (node); });
+        Vec3 slope = Vec3::Zero();
+        if (motion)
+        {
+            CHECK (body.meanSlope (foot, *motion, [] (int) { return 1.0; }).norm() < 1e-9);
+            slope = body.meanSlope (foot, *motion, stiffness);
+        }
         return std::pair { k, slope };
     };
     Foot foot = body.footOn (0, mesh.corner (0, 0));
