@@ -14,6 +14,7 @@
 #include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
+#include <tactus/run/stepper.hpp>
 #include <tactus/run/tick_clock.hpp>
 #include <tactus/text/message.hpp>
 
@@ -97,6 +98,7 @@ struct tactus_run
     tactus::capi::ProbeQueue probes;
     std::optional<tactus::AbsoluteTimer> clock;   // must outlive the run
     std::unique_ptr<tactus::Run> run;
+    std::optional<tactus::Stepper> stepper;   // once the run is open
     bool is_open = false, has_stopped = false;
     std::atomic<bool> has_started = false, has_ended = false;   // has_started: the run is live   [any thread]
 };

@@ -5,6 +5,7 @@
 
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
+#include <tactus/run/device/step_motion.hpp>
 #include <tactus/run/guard.hpp>
 
 #include <algorithm>
@@ -22,7 +23,9 @@ class PushedDevice final : public Device
 public:
     using Seconds = double (*)() noexcept;   ///< a clock: the time since an arbitrary origin, in s   [any thread]
 
-    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds) : has (std::move (parts)), now_s (clock) {}
+    static double steadySeconds() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds, StepMotion rules = {}) : has (std::move (parts)), now_s (clock), motion (rules) {}
 
     /// The age that a reading may reach before the guard brings the effort to zero, if the program does not set it. Most profiles of devices have the
     /// same value. A program that pushes at 60 Hz may be late by two readings.
@@ -63,11 +66,15 @@ public:
         r.valid = from.valid != 0;
         copy (from.axes, from.axis_count, r.axes);
         copy (from.signals, from.signal_count, r.signals);
-        return r;
+        using Velocity = StepMotion::Velocity;
+        return motion.move (r, is_new, now.has_velocity != 0 ? std::optional (Velocity { Vec3 { now.linear }, Vec3 { now.angular } }) : std::nullopt);
     }
 
-    void write (const Effort& e) noexcept override
+    void write (const Effort& of_tick) noexcept override
     {
+        motion.take (of_tick);
+        if (motion.isInStep()) return;   // the effort of a step is known after its last tick
+        const auto e = motion.effort();
         tactus_effort to {};
         to.size = sizeof to;
         std::copy_n (e.force.data(), 3, to.force);
@@ -78,10 +85,23 @@ public:
         efforts.store (to);
     }
 
+    void withhold() noexcept override { motion.withhold(); }
     DeviceLayout layout() const override { return has; }
+
+    /// How it moves in tactus_run_step_for. [tick thread]
+    StepMotion& steps() noexcept { return motion; }
 
     /// [one thread at a time]
     void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes, now_s() }); }
+
+    /// `linear` in m/s, `angular` in rad/s; three numbers each. [one thread at a time]
+    void push (const tactus_reading& r, const double* linear, const double* angular) noexcept
+    {
+        Pushed p { r, ++pushes, now_s(), 1 };
+        std::copy_n (linear, 3, p.linear);
+        std::copy_n (angular, 3, p.angular);
+        readings.store (p);
+    }
 
     /// [any thread]
     tactus_effort effort() const noexcept
@@ -99,9 +119,9 @@ private:
         tactus_reading reading {};
         std::uint64_t number = 0;   // 0: nothing has been pushed yet
         double at_s = 0.0;
+        std::uint64_t has_velocity = 0;
+        double linear[3] = {}, angular[3] = {};   // m/s, rad/s
     };
-
-    static double steadySeconds() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
     static void copy (const double* from, std::uint32_t count, Channels& to) noexcept
     {
@@ -117,6 +137,7 @@ private:
 
     DeviceLayout has;
     Seconds now_s;
+    StepMotion motion;   // [tick thread]
     Snapshot<Pushed> readings;
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]

@@ -80,6 +80,15 @@ tactus_result notOpen() noexcept { return misuse ("the run is not open: call tac
 tactus_result notPushed() noexcept { return misuse ("the role has no device of tactus_run_pushed_device, or the run is not open"); }
 tactus_result notTickedByCaller() noexcept { return misuse ("the run is NULL, not open, started or stopped, so it cannot be ticked here"); }
 
+/// What the device does between steps; empty if the caller's values are none of their types.
+std::optional<tactus::StepMotion> rulesOf (const tactus_device_options& o) noexcept
+{
+    using Motion = tactus::StepMotion;
+    const auto between = static_cast<std::uint32_t> (o.between), effort = static_cast<std::uint32_t> (o.step_effort);
+    if (between > TACTUS_BY_VELOCITY || effort > TACTUS_MEAN) return std::nullopt;
+    return Motion { static_cast<Motion::Readings> (between), static_cast<Motion::Efforts> (effort) };
+}
+
 /// A control that an edit sets stands where the edited graph puts it.
 void forgetTurns (tactus_run& r, const tactus::graph::Graph& next)
 {
@@ -179,6 +188,10 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
             return failed (messages, Message::error ("api/value", "/devices/" + text (role) + "/brake",
                                                      "the largest damping of a brake is a number of at least 0, not " + tactus::numberText (parts.brake),
                                                      "give it in N s/m, or 0 for a device without a brake"));
+        const auto rules = rulesOf (options);
+        if (! rules)
+            return failed (messages, Message::error ("api/value", "/devices/" + text (role), "`between` or `step_effort` is none of the values of its type",
+                                                     "use the names in tactus.h, such as TACTUS_LINEAR and TACTUS_MEAN"));
         Messages found;
         tactus::GuardLimits limits;
         if (options.guard != nullptr)
@@ -193,7 +206,7 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
         if (is_broken) return TACTUS_FAILED;
         r->described.erase (text (role));
         r->limits[text (role)] = PushedDevice::watched (limits);
-        r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts));
+        r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts), PushedDevice::steadySeconds, *rules);
         return TACTUS_OK;
     });
 }
@@ -215,6 +228,9 @@ tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
         r->is_open = ! is_broken;
         const auto isGone = [&] (const auto& p) { return std::ranges::count (r->run->devices(), p.first, [] (const auto& d) { return d.first; }) == 0; };
         std::erase_if (r->pushed, isGone);   // a device that was refused is freed
+        r->stepper.emplace (*r->run);
+        for (const auto& [role, device] : r->pushed)
+            r->stepper->add (device->steps());
         return is_broken ? TACTUS_FAILED : TACTUS_OK;
     });
 }
@@ -226,6 +242,17 @@ tactus_result tactus_run_push (tactus_run* r, const char* role, const tactus_rea
     const auto device = r->pushed.find (std::string_view (role));
     if (device == r->pushed.end()) return notPushed();
     device->second->push (known (reading, tactus_reading {}));
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_push_moving (tactus_run* r, const char* role, const tactus_reading* reading, const double* velocity, const double* angular_velocity)
+{
+    if (r == nullptr || role == nullptr || reading == nullptr || velocity == nullptr) return isNull();
+    if (! isSized (reading)) return TACTUS_MISUSE;
+    const auto device = r->pushed.find (std::string_view (role));
+    if (device == r->pushed.end()) return notPushed();
+    constexpr double no_turn[3] = {};
+    device->second->push (known (reading, tactus_reading {}), velocity, angular_velocity != nullptr ? angular_velocity : no_turn);
     return TACTUS_OK;
 }
 
@@ -252,6 +279,14 @@ tactus_result tactus_run_tick_after (tactus_run* r, double passed_s)
         device->passTime (passed_s);
     r->run->engine().passTime (passed_s);
     r->run->tick();
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_step_for (tactus_run* r, double dt_s)
+{
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    if (! (dt_s > 0.0 && dt_s <= tactus::Stepper::longest_s)) return misuse ("the length of a step is not more than 0 and at most 1 s");
+    r->stepper->step (dt_s);
     return TACTUS_OK;
 }
 

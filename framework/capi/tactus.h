@@ -322,6 +322,21 @@ typedef struct tactus_effort
         sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 }, 0.0, 0.0, 0 \
     }
 
+/** Where a tool is on tick i of the n ticks of a step of tactus_run_step_for. docs/steps.md has the delay of each. */
+typedef enum tactus_between
+{
+    TACTUS_HOLD = 0,       /**< at the new reading */
+    TACTUS_LINEAR = 1,     /**< i/n of the way from the last reading to the new one; buttons, pressure and signals are those of the new one */
+    TACTUS_BY_VELOCITY = 2 /**< where the new reading and its velocity lead in i - 1 periods */
+} tactus_between;
+
+/** What tactus_run_take returns after a step. */
+typedef enum tactus_step_effort
+{
+    TACTUS_LAST_TICK = 0, /**< the effort of the last tick of the step */
+    TACTUS_MEAN = 1       /**< the mean over its ticks; signals are those of the last one. What came before a stop of the guard does not count */
+} tactus_step_effort;
+
 /** What your device has, beyond a tool that moves and can be pushed. Everything may be 0 or NULL. */
 typedef struct tactus_device_options
 {
@@ -336,11 +351,15 @@ typedef struct tactus_device_options
     const char* guard; /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", …}. Its "watchdog" replaces that of 50 ms, also by a longer
                             one; the guard that a graph asks for only tightens */
     double brake;      /**< the largest damping of its brake on the tool, N s/m, which also limits tactus_effort::brake; 0: it has none */
+
+    /* What happens between the readings of tactus_run_step_for. */
+    tactus_between between;
+    tactus_step_effort step_effort;
 } tactus_device_options;
 
-#define TACTUS_DEVICE_OPTIONS                                          \
-    {                                                                  \
-        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0 \
+#define TACTUS_DEVICE_OPTIONS                                                                         \
+    {                                                                                                 \
+        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, TACTUS_HOLD, TACTUS_LAST_TICK \
     }
 
 /** Your own device: you push readings and take efforts. Until the first reading, the effort is zero. When readings stop for longer than the watchdog
@@ -354,6 +373,10 @@ TACTUS_API tactus_result tactus_run_open (tactus_run*, tactus_messages*);
 
 /** The reading that the next ticks use; the latest one wins. Waits for nothing. [pushing thread] */
 TACTUS_API tactus_result tactus_run_push (tactus_run*, const char* role, const tactus_reading*);
+
+/** The same, with the velocity of the tool for TACTUS_BY_VELOCITY: three numbers in m/s, and three in rad/s about the axes of space, or NULL if it does not
+ *  turn. Without it, the velocity is the way since the last step, divided by the length of this one. [pushing thread] */
+TACTUS_API tactus_result tactus_run_push_moving (tactus_run*, const char* role, const tactus_reading*, const double* velocity, const double* angular_velocity);
 
 /** The effort of the latest tick, however long ago that was: the watchdog counts ticks, so a device needs a watchdog of its own for a loop that
  *  hangs. Waits for nothing. [any thread] */
@@ -370,6 +393,11 @@ TACTUS_API tactus_result tactus_run_tick (tactus_run*);
 /** The same, `passed_s` after the last tick. Use it if your loop drives a motor and can be late: the guard then counts seconds, not ticks,
  *  for its slew, its watchdog and its windows. [tick thread] */
 TACTUS_API tactus_result tactus_run_tick_after (tactus_run*, double passed_s);
+
+/** Runs the ticks that are due `dt_s` after the last step, for a loop with steps longer than a tick: more than 0, at most 1 s. What remains of a period is
+ *  kept for the next step, so that steps of 1/60 s at 4 kHz have 66, 67 and 67 ticks. The readings pushed since the last step are where the devices are
+ *  now; `between` and `step_effort` of tactus_device_options say what happens in between. Push first, then step, then take. [tick thread] */
+TACTUS_API tactus_result tactus_run_step_for (tactus_run*, double dt_s);
 
 /** Sets the feeds for the next tick, one value per feed. [tick thread] */
 TACTUS_API tactus_result tactus_run_set_feeds (tactus_run*, const double* values);

@@ -145,6 +145,8 @@ void PythonRun::pushedDevice (const std::string& role, const std::string& text)
     options.signal_inputs = has.at ("signal_inputs").get<int>();
     options.signal_outputs = has.at ("signal_outputs").get<int>();
     options.brake = has.at ("brake").get<double>();
+    options.between = static_cast<tactus_between> (has.at ("between").get<int>());
+    options.step_effort = static_cast<tactus_step_effort> (has.at ("step_effort").get<int>());
     if (! has.at ("guard").is_null()) options.guard = guard.c_str();
     call ("take a device", [&] (auto* m) { return tactus_run_pushed_device (run.get(), role.c_str(), &options, m); });
 }
@@ -192,7 +194,13 @@ void PythonRun::push (const std::string& role, const py::dict& from)
     if (from.contains ("buttons")) reading.buttons = from["buttons"].cast<std::uint32_t>();
     reading.axis_count = readList (from, "axes", reading.axes);
     reading.signal_count = readList (from, "signals", reading.signals);
-    if (tactus_run_push (run.get(), role.c_str(), &reading) != TACTUS_OK) failNotPushed (role);
+    double velocity[3] = {}, angular[3] = {};
+    const bool has_velocity = from.contains ("velocity");
+    readVector (from, "velocity", velocity);
+    readVector (from, "angular_velocity", angular);
+    const auto pushed = has_velocity ? tactus_run_push_moving (run.get(), role.c_str(), &reading, velocity, angular)
+                                     : tactus_run_push (run.get(), role.c_str(), &reading);
+    if (pushed != TACTUS_OK) failNotPushed (role);
 }
 
 py::dict PythonRun::take (const std::string& role) const
@@ -246,6 +254,19 @@ std::pair<std::uint64_t, PythonRun::Rows> PythonRun::steps (std::size_t count, c
         return TACTUS_OK;
     });
     return { first, rows };
+}
+
+std::size_t PythonRun::stepFor (double dt_s)
+{
+    if (own.haveFailed()) fail (Message::error ("engine/failed", "", "a node in Python has raised an exception", "make a new engine"));
+    std::size_t ticks = 0;
+    call ("step", [&] (auto*) {
+        if (! run->is_open || run->run->isLive()) return TACTUS_MISUSE;
+        ticks = run->stepper->step (dt_s);
+        done += ticks;
+        return TACTUS_OK;
+    });
+    return ticks;
 }
 
 //==============================================================================
@@ -356,6 +377,7 @@ void bindRun (py::module_& module)
         .def ("push", &PythonRun::push)
         .def ("take", &PythonRun::take)
         .def ("steps", &PythonRun::steps)
+        .def ("step_for", &PythonRun::stepFor)
         .def ("ticks", &PythonRun::ticks)
         .def ("start", &PythonRun::start)
         .def ("stop", &PythonRun::stop)

@@ -60,7 +60,10 @@ public:
 
     /// Runs ticks. Returns the number of the first one, and the records of all of them. `feeds` has one row per tick, or one row for all.
     std::pair<std::uint64_t, Rows> steps (std::size_t count, const std::optional<Rows>& feeds);
-    std::uint64_t ticks() const noexcept { return done; }   ///< how many ticks steps() has run   [any thread]
+
+    /// Runs the ticks of a step of tactus_run_step_for, and returns how many.
+    std::size_t stepFor (double dt_s);
+    std::uint64_t ticks() const noexcept { return done; }   ///< how many ticks steps() and stepFor() have run   [any thread]
 
     void start (std::uint64_t length, int core, std::size_t buffer);
     void stop();

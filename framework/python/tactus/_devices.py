@@ -20,7 +20,12 @@ class PushedDevice(NamedTuple):
 
     axes: names of the axes whose positions it reads. efforts: names of the axes that its motors push. buttons: names of its buttons. guard:
     limits as in docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms"}. brake: the largest damping of its brake on the tool, N s/m; 0: it
-    has none."""
+    has none.
+
+    between, step_effort: for Engine.step(dt), whose steps last longer than a tick. between: where the tool is on tick i of n: "hold": at the new
+    reading; "linear": i/n of the way from the last one to the new one; "by_velocity": where the new one and its velocity lead in i - 1 periods.
+    step_effort: what `take` returns after the step: "last": the effort of the last tick; "mean": the mean over the step. docs/steps.md has the delay of
+    each."""
 
     axes: Sequence[str] = ()
     efforts: Sequence[str] = ()
@@ -29,6 +34,8 @@ class PushedDevice(NamedTuple):
     signal_outputs: int = 0
     guard: Optional[Mapping[str, Any]] = None
     brake: float = 0.0
+    between: str = "hold"
+    step_effort: str = "last"
 
 
 class Effort(NamedTuple):
@@ -52,17 +59,29 @@ def described(role: str, device: PushedDevice) -> Dict[str, Any]:
     counts = {key: _checks.whole(f"{at}.{key}", getattr(device, key), "give a number of signals, from 0", high=_CHANNELS)
               for key in ("signal_inputs", "signal_outputs")}
     brake = _checks.number(f"{at}.brake", device.brake, "give the largest damping in N s/m, or 0 for a device without a brake", low=0.0)
+    rules = {key: _choice(f"{at}.{key}", getattr(device, key), choices)
+             for key, choices in (("between", ("hold", "linear", "by_velocity")), ("step_effort", ("last", "mean")))}
     guard = device.guard if device.guard is None else _checks.mapping(f"{at}.guard", device.guard, "{'max_force': '3 N'}")
-    return {**names, **counts, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
+    return {**names, **counts, **rules, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
+
+
+def _choice(argument: str, value: Any, choices: Sequence[str]) -> int:
+    """The number of a choice, as in tactus.h."""
+    if value not in choices:
+        _checks.refuse(argument, value, "one of " + ", ".join(choices), f"write {choices[0]!r} or {choices[1]!r}")
+    return choices.index(value)
 
 
 def explain_push(role: Any, position: Any, rotation: Any, pressure: Any, buttons: Any, axes: Any, signals: Any, age: Any,
-                 why: Exception) -> NoReturn:
+                 velocity: Any, angular_velocity: Any, why: Exception) -> NoReturn:
     """Says which part of a reading cannot be used."""
     _checks.text("role", role, "give the name of a role, such as 'stylus'")
-    for name, values in (("position", position), ("rotation", rotation), ("axes", axes), ("signals", signals)):
+    vectors = {"position": position, "rotation": rotation, "velocity": velocity, "angular_velocity": angular_velocity}
+    for name, values in {**vectors, "axes": axes, "signals": signals}.items():
+        if values is None and "velocity" in name:
+            continue
         if _checks.array(name, values).ndim != 1:
-            remedy = "give x, y and z" if name in ("position", "rotation") else "give one number for each"
+            remedy = "give x, y and z" if name in vectors else "give one number for each"
             fail("device/reading", name, f"{_checks.shown(values)} is not a list of numbers", remedy)
     for name, value in (("pressure", pressure), ("age", age)):
         if _checks.array(name, value).ndim != 0:

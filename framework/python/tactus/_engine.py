@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 import json
+import numbers
 import os
 import weakref
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type, Union, overload
 
 import numpy as np
 
@@ -141,12 +142,23 @@ class Engine:
 
     # ------------------------------------------------------------------------ In your own loop
 
-    def step(self, feed: Optional[Mapping[str, Any]] = None, n: Optional[int] = None) -> Records:
+    @overload
+    def step(self, feed: Optional[Mapping[str, Any]] = None, n: Optional[int] = None) -> Records: ...
+
+    @overload
+    def step(self, feed: float) -> int: ...
+
+    def step(self, feed: Union[None, float, Mapping[str, Any]] = None, n: Optional[int] = None) -> Union[int, Records]:
         """Runs n ticks, by default 1 or as many as the arrays are long.
+
+        step(dt), with a time in s, runs the ticks that are due dt after the last such step, and returns how many: for loops with steps longer than a tick,
+        such as physics at 500 Hz. `push` the reading of a PushedDevice first, and `take` its effort afterwards. What remains of a period is kept.
 
         feed: values of fed ports: a number or (n,) for a scalar, (3,) or (n, 3) for a vector. A single
             value holds for all n ticks and stays set afterwards. Ports that are left out keep their last value.
         Returns what was recorded: "t" (n,) in s since the first tick, scalars (n,), vectors (n, 3)."""
+        if type(feed) is float or isinstance(feed, numbers.Real):
+            return self._run.step_for(feed if type(feed) is float and n is None and 0.0 < feed <= 1.0 else _step(feed, n))
         rows = self._rows(_checks.mapping("feed", feed, _FEED), None if n is None else _checked(n))
         count = _checked(n) if n is not None else 1 if rows is None else len(rows)
         first, done = self._run.steps(count, rows)
@@ -189,17 +201,23 @@ class Engine:
     # ------------------------------------------------------------------------ Devices of your own
 
     def push(self, role: str, position: Numbers = (0, 0, 0), rotation: Numbers = (0, 0, 0), pressure: float = 0.0,
-             buttons: int = 0, axes: Numbers = (), signals: Numbers = (), age: float = 0.0, valid: bool = True) -> None:
+             buttons: int = 0, axes: Numbers = (), signals: Numbers = (), age: float = 0.0, valid: bool = True,
+             velocity: Optional[Numbers] = None, angular_velocity: Optional[Numbers] = None) -> None:
         """The reading of a PushedDevice that the next ticks use.
 
         position (3,), m. rotation (3,), rotation vector, rad. pressure, N. buttons: bit i means that button i is down. axes, signals: in
         the order of the device. age: time since the device took the reading, s. valid: False if it has nothing to report; then the force
-        is zero. [one thread per role; waits for nothing]"""
+        is zero. velocity, angular_velocity: (3,), m/s and rad/s, for between="by_velocity"; without them, the way since the last step counts.
+        [one thread per role; waits for nothing]"""
+        reading = {"position": position, "rotation": rotation, "pressure": pressure, "buttons": buttons, "axes": axes, "signals": signals, "age": age,
+                   "valid": valid}
+        if velocity is not None or angular_velocity is not None:
+            reading.update(velocity=(0, 0, 0) if velocity is None else velocity,
+                           angular_velocity=(0, 0, 0) if angular_velocity is None else angular_velocity)
         try:
-            self._run.push(role, {"position": position, "rotation": rotation, "pressure": pressure, "buttons": buttons, "axes": axes,
-                                  "signals": signals, "age": age, "valid": valid})
+            self._run.push(role, reading)
         except (TypeError, ValueError, RuntimeError) as why:   # looked at only now, because this call should cost little
-            explain_push(role, position, rotation, pressure, buttons, axes, signals, age, why)
+            explain_push(role, position, rotation, pressure, buttons, axes, signals, age, velocity, angular_velocity, why)
 
     def take(self, role: str) -> Effort:
         """What a PushedDevice should apply since the latest tick, after the guard. [one thread per role; waits for nothing]"""
@@ -298,3 +316,10 @@ def _width(port: str, value: Array) -> int:
     if value.shape not in ((), (3,)):
         fail("feed/shape", f"feed[{port!r}]", f"the first value has the shape {value.shape}", "give a number for a scalar, or three for a vector")
     return 1 if value.ndim == 0 else 3
+
+
+def _step(dt: Any, n: Optional[int]) -> float:
+    """The length of a step, in s."""
+    if n is not None:
+        fail("argument/value", "n", "a step has a length in s or a number of ticks, not both", "give step(dt), or step(n=8)")
+    return _checks.number("feed", dt, "give the length of the step in s, more than 0 and at most 1; step(n=8) runs 8 ticks", above=0.0, high=1.0)

@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Steps longer than a tick: which readings the ticks get, which effort a step has, and what stiffness a simulated mass can hold with each rule, compared
+with the eigenvalues of the loop and with the verdict of `tactus check`."""
+
+import json
+import math
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import tactus
+from support import PROGRAM, TestCase, quiet
+
+RATE = 4000
+RULES = [("hold", "last"), ("hold", "mean"), ("linear", "last"), ("linear", "mean"), ("by_velocity", "last"), ("by_velocity", "mean")]
+
+
+def spring(stiffness=100.0):
+    """A spring to the origin, in all directions: force = -stiffness position."""
+    graph = tactus.Graph(name="spring", rate=RATE)
+    graph.add_node("hand", "device.position", role="tool")
+    graph.add_node("motor", "device.force", role="tool")
+    graph.connect("hand.position", "motor.force", gain=f"{-stiffness} N/m")
+    return graph
+
+
+def engine(graph, between="hold", step_effort="last", **options):
+    device = tactus.PushedDevice(between=between, step_effort=step_effort, **options)
+    return tactus.Engine(graph, record=["hand.position", "hand.rotation"], devices={"tool": device})
+
+
+def step(run, ticks, *args, **kwargs):
+    """Pushes, runs a step, and returns the effort of the step."""
+    run.push("tool", *args, **kwargs)
+    assert run.step(ticks / RATE) == ticks
+    return run.take("tool")
+
+
+class Steps(TestCase):
+    def test_a_step_has_the_bits_of_its_ticks(self):
+        path = np.cumsum(np.random.default_rng(1).normal(0, 1e-4, (50, 3)), axis=0)
+        stepped, ticked = (quiet(tactus.Engine, tactus.Graph("dry_wood"), devices={"stylus": tactus.PushedDevice()}) for _ in range(2))
+        for at in path:
+            for run in (stepped, ticked):
+                run.push("stylus", at)
+            self.assertEqual(stepped.step(0.002), 8)
+            ticked.step(n=8)
+            self.same_bits(stepped.take("stylus").force, ticked.take("stylus").force)
+        self.assertEqual(stepped.ticks, 400)
+
+    def test_linear_and_by_velocity_have_the_bits_of_readings_that_are_pushed_tick_by_tick(self):
+        start, then, n = np.array([1e-3, -2e-3, 5e-4]), np.array([3e-3, 1e-3, -5e-4]), 8
+        speed = (then - start) / (n * (1 / RATE))
+        for between, at in (("linear", lambda i: start + (i + 1) / n * (then - start) if i + 1 < n else then),
+                            ("by_velocity", lambda i: then + i * (1 / RATE) * speed if i > 0 else then)):
+            for effort in ("last", "mean"):
+                with self.subTest(between=between, effort=effort):
+                    stepped, ticked = (quiet(tactus.Engine, tactus.Graph("dry_wood"), devices={"stylus": device}) for device in (
+                        tactus.PushedDevice(between=between, step_effort=effort), tactus.PushedDevice()))
+                    for run in (stepped, ticked):
+                        run.push("stylus", start)
+                        run.step(n=1)
+                    stepped.push("stylus", then)
+                    stepped.step(n / RATE)
+                    forces = []
+                    for i in range(n):
+                        ticked.push("stylus", at(i))
+                        ticked.step(n=1)
+                        forces.append(ticked.take("stylus").force)
+                    expected = forces[-1] if effort == "last" else sum(forces[1:], forces[0]) / n
+                    self.same_bits(stepped.take("stylus").force, expected)
+
+    def test_a_velocity_that_is_given_counts(self):
+        run = engine(spring(1.0), "by_velocity")
+        force = step(run, 8, (1e-3, 0, 0), velocity=(0.5, 0, 0)).force
+        self.assertAlmostEqual(force[0], -(1e-3 + 7 / RATE * 0.5), places=15)
+        force = step(run, 8, (2e-3, 0, 0)).force   # not pushed with one: the way since the last step
+        self.assertAlmostEqual(force[0], -(2e-3 + 7 * 1e-3 / 8), places=15)
+        run.step(8 / RATE)                         # no reading came: the tool is held
+        self.assertAlmostEqual(run.take("tool").force[0], -2e-3, places=15)
+
+    def test_rotations_turn_the_shortest_way(self):
+        graph = tactus.Graph(name="turn", rate=RATE)
+        graph.add_node("hand", "device.position", role="tool")
+        graph.add_node("motor", "device.force", role="tool")
+        graph.connect("hand.rotation", "motor.torque", gain="1 N*m/rad")
+        for between, steps, expected in (("linear", [(0, 0, 3.0), (0, 0, -3.0)], None), ("by_velocity", [(0, 0, 0.1), (0, 0, 0.2)], 0.2 + 0.1 * 7 / 8)):
+            run = engine(graph, between)
+            for rotation in steps:
+                torque = step(run, 8, rotation=rotation).torque
+            if expected is None:   # 3 and -3 rad are 0.28 rad apart, across half a turn; the last tick has the new reading
+                self.same_bits(torque, (0, 0, -3.0))
+                means = engine(graph, between, "mean")
+                for rotation in steps:
+                    torque = step(means, 2, rotation=rotation).torque   # the mean of half of the way, which is half a turn, and of -3 rad
+                self.assertAlmostEqual(abs(torque[2] * 2 + 3.0), math.pi, places=12)
+            else:
+                self.assertAlmostEqual(torque[2], expected, places=12)
+
+    def test_what_remains_of_a_period_is_kept(self):
+        run = engine(spring())
+        run.push("tool", (0, 0, 0))
+        self.assertEqual([run.step(1 / 60) for _ in range(6)], [66, 67, 67, 66, 67, 67])
+        self.assertEqual([run.step(0.0001) for _ in range(5)], [0, 0, 1, 0, 1])
+        self.assertEqual(sum(run.step(0.001) for _ in range(1000)), 4000)
+
+    def test_a_stop_is_not_late_in_a_mean(self):
+        run = engine(spring(), "hold", "mean")
+        self.assertAlmostEqual(step(run, 80, (1e-2, 0, 0)).force[0], -1.0, places=12)
+        run.emergency_stop()
+        self.assertEqual(step(run, 80, (1e-2, 0, 0)).force[0], 0.0)   # 20 ms, longer than the fade
+        stale = engine(spring(), "by_velocity", "mean")
+        step(stale, 8, (1e-2, 0, 0), velocity=(1, 0, 0))
+        for _ in range(10):   # nothing is pushed for 200 ms
+            stale.step(0.02)
+        self.assertEqual(stale.take("tool").force[0], 0.0)
+
+    def test_wrong_steps_are_refused(self):
+        run = engine(spring())
+        for wrong in (0.0, -1e-3, math.nan, 1.1, math.inf, 0, 2):
+            self.fails("argument/value", run.step, wrong)
+        self.fails("argument/type", run.step, True)
+        self.fails("argument/value", run.step, 0.002, 8)
+        self.fails("argument/type", engine, spring(), "spline")
+        self.fails("argument/type", engine, spring(), "hold", "first")
+        self.fails("device/reading", run.push, "tool", velocity=3.0)
+        self.assertEqual(run.ticks, 0)
+
+
+class MassOnASpring:
+    """A mass with damping in a simulator with steps of n ticks, which holds the effort from step to step and moves exactly."""
+    MASS, DAMPING = 0.5, 10.0
+
+    def __init__(self, n):
+        self.n, self.dt = n, n / RATE
+        a = math.exp(-self.DAMPING * self.dt / self.MASS)
+        g = (1 - a) / self.DAMPING
+        self.move = np.array([[1.0, g * self.MASS], [0.0, a]])
+        self.push = np.array([(self.dt - g * self.MASS) / self.DAMPING, g])
+
+    def growth(self, stiffness, between, effort):
+        """By how much the loop grows in each step: the largest eigenvalue. The state is x, v, and x of the step before."""
+        ticks = np.arange(1, self.n + 1) if effort == "mean" else np.array([self.n])
+        new = {"hold": ticks * 0 + 1.0, "linear": ticks / self.n, "by_velocity": ticks * 0 + 1.0}[between].mean()
+        speed = ((ticks - 1) / RATE).mean() if between == "by_velocity" else 0.0
+        loop = np.zeros((3, 3))
+        loop[:2, :2] = self.move
+        loop[:2] -= np.outer(self.push, stiffness * np.array([new, speed, 1 - new]))
+        loop[2, 0] = 1.0
+        return max(abs(np.linalg.eigvals(loop)))
+
+    def limit(self, between, effort):
+        """The stiffness up to which the loop comes to rest."""
+        low, high = 1.0, 1e7
+        while high / low > 1 + 1e-9:
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if self.growth(middle, between, effort) < 1 else (low, middle)
+        return low
+
+    def grows(self, stiffness, between, effort):
+        """True if the tool swings ever more, in a run."""
+        run = engine(spring(stiffness), between, effort)
+        state = np.array([1e-3, 0.0])
+        size = []
+        for k in range(1500):
+            run.push("tool", (state[0], 0, 0), velocity=(state[1], 0, 0))
+            run.step(self.dt)
+            state = self.move @ state + self.push * run.take("tool").force[0]
+            size.append(abs(state[0]) + abs(state[1]) * self.dt)
+            if size[-1] > 1e3 or size[-1] < 1e-12:
+                break
+        half = len(size) // 2
+        return max(size[half:]) > max(size[:half])
+
+
+class Stiffness(TestCase):
+    def test_the_loop_is_stable_up_to_the_stiffness_that_the_delay_allows(self):
+        for n in (4, 8, 20, 80):   # 1, 2, 5 and 20 ms
+            mass = MassOnASpring(n)
+            for rule in RULES:
+                if rule == ("by_velocity", "last"):
+                    continue
+                with self.subTest(ticks=n, rule=rule):
+                    most = mass.limit(*rule)
+                    self.assertFalse(mass.grows(0.98 * most, *rule))
+                    self.assertTrue(mass.grows(1.02 * most, *rule))
+
+    def test_the_delays_of_the_page(self):
+        """For a slow motion, the effort of a step acts as if the spring were late by the delay in docs/steps.md, in ticks of half a hold and more."""
+        for n in (4, 8, 20, 80):
+            delays = {("hold", "last"): n / 2, ("hold", "mean"): n / 2, ("linear", "last"): n / 2, ("linear", "mean"): n - 1 / 2,
+                      ("by_velocity", "mean"): 1 / 2}
+            for rule, ticks in delays.items():
+                with self.subTest(ticks=n, rule=rule):
+                    run = engine(spring(1.0), *rule)
+                    speed = 1e-3
+                    for k in range(3):   # a steady motion
+                        x = speed * k * n / RATE
+                        force = step(run, n, (x, 0, 0), velocity=(speed, 0, 0)).force[0]
+                    middle = x + speed * n / 2 / RATE   # the effort acts on the tool during the step that begins here
+                    self.assertAlmostEqual((middle + force) / speed * RATE, ticks, places=9)
+
+    @unittest.skipUnless(PROGRAM, "there is no program")
+    def test_check_judges_such_a_loop_at_the_rate_of_the_page(self):
+        for n, rule in ((4, ("linear", "last")), (20, ("hold", "mean")), (8, ("linear", "mean")), (80, ("linear", "mean"))):
+            delay_s = (n / 2 if rule != ("linear", "mean") else n - 1 / 2) / RATE
+            most = MassOnASpring.DAMPING / delay_s   # the largest stiffness that is passive
+            for stiffness, is_passive in ((0.98 * most, True), (1.02 * most, False)):
+                with self.subTest(ticks=n, rule=rule, stiffness=stiffness), tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+                    graph = tactus.Graph(name="wall", rate=RATE)
+                    graph.add_node("hand", "device.position", role="tool")
+                    graph.add_node("wall", "deform.plane", {"stiffness": stiffness})
+                    graph.add_node("motor", "device.force", role="tool")
+                    graph.connect("hand.position", "wall.position")
+                    graph.connect("wall.force", "motor.force")
+                    graph.set_device("tool", {"driver": "sim", "mass": MassOnASpring.MASS, "damping": MassOnASpring.DAMPING})
+                    file.write(graph.text)
+                    file.flush()
+                    done = subprocess.run([PROGRAM, "check", file.name, "--json", "--rate", repr(1 / (2 * delay_s))], capture_output=True, text=True)
+                    condition = next(c for c in json.loads(done.stdout)["conditions"] if c["id"] == "stiffness")
+                    self.assertEqual(condition["verdict"] in ("passive", "passive_here"), is_passive, condition)
+                if is_passive:
+                    self.assertFalse(MassOnASpring(n).grows(stiffness, *rule))
+
+
+if __name__ == "__main__":
+    unittest.main()
