@@ -39,11 +39,15 @@ if (TARGET tactus_shared)
 endif ()
 
 configure_package_config_file (framework/TactusConfig.cmake.in ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake INSTALL_DESTINATION ${package})
-configure_file (framework/TactusBuildTree.cmake.in ${PROJECT_BINARY_DIR}/TactusConfig.cmake @ONLY)
-write_basic_package_version_file (${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+
+# What plugins find in a build tree is in a folder of its own: find_package also looks next to the folders of PATH, so a program that needs an installed
+# Tactus would find it there (tests/install/build_tree.sh).
+file (REMOVE ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake)
+configure_file (framework/TactusBuildTree.cmake.in ${PROJECT_BINARY_DIR}/plugin_kit/TactusConfig.cmake @ONLY)
+write_basic_package_version_file (${PROJECT_BINARY_DIR}/plugin_kit/TactusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that an installed tree can be moved
 configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
-install (FILES ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
+install (FILES ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake ${PROJECT_BINARY_DIR}/plugin_kit/TactusConfigVersion.cmake framework/node/catalogue.cmake
     framework/own_functions.cmake framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 if (TARGET tactus_live_shared)

@@ -44,7 +44,7 @@ SECTIONS = {
                  ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
                   ["nodes/index", "graph_file", "commands", "osc", "profiles", "wires", "cpp_api", "c_api", "python_api",
-                   "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
+                   "preset_table", "bench", "instructions", "promises", "changelog", "contributing", "security"]),
     "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
 

@@ -21,6 +21,20 @@ namespace
 const Message& firstError (const Messages& messages) { return *std::ranges::find (messages, Message::Severity::error, &Message::severity); }
 }   // namespace
 
+namespace
+{
+/// True if the runs of both programs have the same bits: they are the same, or of one version, whose programs and libraries have the same code.
+bool isSameBuild (std::string_view one, std::string_view other)
+{
+    const auto versionOf = [] (std::string_view program) -> std::string_view {
+        for (const std::string_view name : { "tactus ", "libtactus ", "libtactus_live " })
+            if (program.starts_with (name)) return program.substr (name.size());
+        return {};
+    };
+    return one == other || (! versionOf (one).empty() && versionOf (one) == versionOf (other));
+}
+}   // namespace
+
 Result<std::unique_ptr<Replay>> Replay::open (const std::string& path, Options options)
 {
     auto log = RunLogReader::open (path);
@@ -40,7 +54,7 @@ Replay::Replay (RunLogReader reader, Options o) : log (std::move (reader)), opti
 Result<> Replay::begin()
 {
     const auto& head = log.head();
-    if (head.program != options.program)
+    if (! isSameBuild (head.program, options.program))
         warnings.push_back (Message::warning ("log/other_program", log.name(),
                                               "the run was recorded by " + quote (head.program) + ", but this is " + options.program
                                                   + "; only the same program is certain to reproduce the run bit for bit"));

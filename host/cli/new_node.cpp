@@ -199,7 +199,8 @@ std::string prefixes()
     const char* told = std::getenv ("CMAKE_PREFIX_PATH");
     std::string all = told != nullptr ? told : "";
     std::ranges::replace (all, ':', ';');
-    return all + (all.empty() ? "" : ";") + (programFolder() / "..").lexically_normal().string();
+    const auto own = (programFolder() / "..").lexically_normal();
+    return all + (all.empty() ? "" : ";") + own.string() + ";" + (own / "plugin_kit").string();
 }
 
 void build (const fs::path& folder)

@@ -121,7 +121,7 @@ class Page:
         (folder / "home").mkdir()
         self.environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "HOME": str(folder / "home"),
                             "XDG_CONFIG_HOME": str(folder / "home/.config"), "BACKGROUND": "", "PYTHONPATH": str(build / "python"), "MPLBACKEND": "Agg",
-                            "CMAKE_PREFIX_PATH": str(build)}
+                            "CMAKE_PREFIX_PATH": str(build / "plugin_kit")}
         for name in ("TACTUS_HOME", "TACTUS_PLUGINS", "TACTUS_PROFILES"):
             self.environment.pop(name, None)
 

@@ -34,7 +34,13 @@ CMAKE
 echo 'int main() {}' >"$work/plain.cpp"
 cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-Werror >/dev/null
 echo "add_subdirectory: nothing of the parent is changed"
+cmake -S docs/examples/fetch -B "$work/fetch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTACTUS_SOURCE="$source" >/dev/null
+grep -q "^build embed: " "$work/fetch/build.ninja"
+echo "FetchContent: docs/examples/fetch is configured"
 if [ "${1:-}" = --build ]; then
     cmake --build "$work/build"
     echo "add_subdirectory: built"
+    cmake --build "$work/fetch" --target embed
+    "$work/fetch/embed" graphs/dry_wood.json >"$work/fetch.txt"
+    echo "FetchContent: docs/examples/fetch is built, and prints $(wc -l <"$work/fetch.txt") lines"
 fi

@@ -132,4 +132,5 @@ eval "c++ -std=c++20 \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_con
 LD_LIBRARY_PATH=$libs "$work/by_pkg_config" graphs/dry_wood.json | cmp - "$work/embed.txt"
 echo "pkg-config: C99 and C++ built, same output"
 
+tests/install/build_tree.sh "$build"
 tests/install/parent.sh

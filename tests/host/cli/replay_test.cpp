@@ -205,6 +205,13 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     CHECK (broken.err.find ("[log/broken]") != std::string::npos);
     CHECK (rows (broken) == 700);
 
+    for (const char* library : { "libtactus 0", "libtactus_live 0" })   // of the same version: the same code
+    {
+        auto by_library = log;
+        by_library.replace (by_library.find ("tactus 0"), 8, library);
+        CHECK (replay (by_library).err.empty());
+    }
+
     auto other_program = log;
     other_program.replace (other_program.find ("tactus 0"), 8, "tactus 9");
     CHECK (replay (other_program).err.find ("[log/other_program]") != std::string::npos);
