@@ -64,6 +64,10 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     REQUIRE (exported.status == 0);
     REQUIRE (runProgram ("make", { "-s", "-C", folder, "wasm", "WASM_CXXFLAGS=-O1" }).status == 0);
 
+    const auto package = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/code/generate/wasm/package_in_node.mjs", folder });
+    INFO (package.err);
+    CHECK (package.out == "ok\n");
+
     const auto here =
         runTactus ({ "render", "canvas_weave", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "weave=0.8", "--out", out });
     INFO (here.err);

@@ -4,9 +4,14 @@
 /** Why a guard withholds the effort of a device, in the order of tactus::Guard::Stop. */
 const stops = ['none', 'not_finite', 'stale', 'starved', 'released', 'halted', 'speed', 'impulse', 'energy', 'emergency'];
 
-/** Compiles the module at this address. */
+/** Compiles the module at this address. In Node.js, it may be that of a file. */
 export async function compile (address)
 {
+    if (String (address).startsWith ('file:') && typeof process === 'object')   // which fetch cannot load there
+    {
+        const { readFile } = await import (/* @vite-ignore */ 'node:fs/promises');
+        return WebAssembly.compile (await readFile (new URL (address)));
+    }
     const answer = await fetch (address);
     if (! answer.ok) throw new Error (`${address} cannot be loaded: ${answer.status} ${answer.statusText}`);
     return WebAssembly.compile (await answer.arrayBuffer());

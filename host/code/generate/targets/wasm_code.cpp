@@ -272,6 +272,68 @@ export class @C@ extends Graph<Inputs, Outputs, Param, Control, Hit, Role>
                      { "@C@", e.class_name } });
 }
 
+/// What npm, bundlers and Node.js read of the folder.
+std::string package (const Exported& e)
+{
+    const std::string stem = "./" + e.stem;
+    return Json::object ({ { "name", e.stem },
+                           { "version", "1.0.0" },
+                           { "description", e.graph.about.empty() ? e.graph.name : e.graph.about },
+                           { "license", "MIT" },
+                           { "type", "module" },
+                           { "engines", Json::object ({ { "node", ">=18" } }) },
+                           { "types", stem + ".d.ts" },
+                           { "exports", Json::object ({ { ".", Json::object ({ { "types", stem + ".d.ts" }, { "default", stem + ".js" } }) },
+                                                        { "./tactus_graph.js",
+                                                          Json::object ({ { "types", "./tactus_graph.d.ts" }, { "default", "./tactus_graph.js" } }) },
+                                                        { "./worklet", stem + "_worklet.js" },
+                                                        { stem + ".wasm", stem + ".wasm" } }) },
+                           { "files", Json::array ({ e.stem + ".js", e.stem + ".d.ts", e.stem + ".wasm", e.stem + "_worklet.js", "tactus_graph.js",
+                                                     "tactus_graph.d.ts", "tactus_worklet.js" }) } })
+               .dump (2)
+           + "\n";
+}
+
+std::string worklet (const Exported& e)
+{
+    return filled (R"(// SPDX-License-Identifier: MIT
+// The processor '@S@' for an AudioWorkletNode: see tactus_worklet.js.
+import { @C@ } from './@S@.js';
+import { register } from './tactus_worklet.js';
+
+register ('@S@', @C@);
+)",
+                   { { "@C@", e.class_name }, { "@S@", e.stem } });
+}
+
+/// From the pointer to the position of the tool, and from its force to sound, and to the rumble of a gamepad.
+std::string page (const Exported& e)
+{
+    return filled (R"(<!doctype html>
+<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>@S@</title>
+<body style="margin: 0; height: 100vh; touch-action: none">Press, and drag.</body>
+<script type="module">
+import { compile } from './tactus_graph.js';
+
+const module = await compile (new URL ('@S@.wasm', import.meta.url));
+let node;
+addEventListener ('pointerdown', async () => {   // browsers start sound only after a gesture
+    if (node !== undefined) return;
+    node = null;
+    const sound = new AudioContext();
+    await sound.audioWorklet.addModule ('@S@_worklet.js');
+    node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module, gain: 0.3 } });
+    node.connect (sound.destination);
+    node.port.onmessage = ({ data: { level } }) =>
+        navigator.getGamepads?.().find (pad => pad?.vibrationActuator)?.vibrationActuator.playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, level) });
+});
+addEventListener ('pointermove', at =>   // 0.1 mm for each pixel; a pressed pointer is 0.2 mm below z = 0
+    node?.port.postMessage ({ position: [1e-4 * at.clientX, -1e-4 * at.clientY, at.buttons ? -2e-4 : 2e-4] }));
+</script>
+)",
+                   { { "@S@", e.stem } });
+}
+
 std::string shared (const std::string& name) { return std::string (findSource ("host/code/generate/targets/" + name)->text); }
 }   // namespace
 
@@ -280,7 +342,11 @@ std::vector<std::pair<std::string, std::string>> wasmFiles (const Exported& e)
     return { { e.stem + "_wasm.cpp", wasmSource (e) },
              { e.stem + ".js", script (e) },
              { e.stem + ".d.ts", types (e) },
+             { e.stem + "_worklet.js", worklet (e) },
+             { "package.json", package (e) },
+             { "index.html", page (e) },
              { "tactus_graph.js", shared ("tactus_graph.js") },
+             { "tactus_worklet.js", shared ("tactus_worklet.js") },
              { "tactus_graph.d.ts", shared ("tactus_graph.d.ts") } };
 }
 
