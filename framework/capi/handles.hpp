@@ -150,6 +150,9 @@ R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
     return on_failure;
 }
 
+inline bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->has_ended && ! r->run->isLive(); }
+inline tactus_result notTickedByCaller() noexcept { return misuse ("the run is NULL, not open, started or stopped, so it cannot be ticked here"); }
+
 /// Compiles a graph. The catalogue must outlive the run. Null, with the reasons in `messages`, if the graph does not compile.
 tactus_run* makeRun (graph::Graph, CompileOptions, AssetReader, const Catalogue&, tactus_messages*);
 

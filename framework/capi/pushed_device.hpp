@@ -3,6 +3,7 @@
 
 #include "tactus.h"
 
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/run/device/step_motion.hpp>
@@ -25,7 +26,10 @@ public:
 
     static double steadySeconds() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds, StepMotion rules = {}) : has (std::move (parts)), now_s (clock), motion (rules) {}
+    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds, StepMotion rules = {}, bool simulated = false)
+        : has (std::move (parts)), now_s (clock), motion (rules), is_simulated (simulated)
+    {
+    }
 
     /// The age that a reading may reach before the guard brings the effort to zero, if the program does not set it. Most profiles of devices have the
     /// same value. A program that pushes at 60 Hz may be late by two readings.
@@ -73,16 +77,23 @@ public:
     void write (const Effort& of_tick) noexcept override
     {
         motion.take (of_tick);
-        if (motion.isInStep()) return;   // the effort of a step is known after its last tick
-        const auto e = motion.effort();
-        tactus_effort to {};
-        to.size = sizeof to;
-        std::copy_n (e.force.data(), 3, to.force);
-        std::copy_n (e.torque.data(), 3, to.torque);
-        to.axis_count = copy (e.axes, to.axes);
-        to.signal_count = copy (e.signals, to.signals);
-        to.brake = e.brake;
-        efforts.store (to);
+        if (! motion.isInStep()) publish (motion.effort());   // the effort of a step is known after its last tick
+    }
+
+    bool serialize (StateArchive& archive) override
+    {
+        if (! is_simulated) return false;
+        auto now = readings.load();
+        bool is_new = now.number != last, has_reading = now.number != 0;
+        auto& r = now.reading;
+        archive (is_new, has_reading, r.valid, r.position, r.rotation, r.pressure, r.age_s, r.buttons, r.axis_count, r.signal_count, r.axes, r.signals,
+                 now.has_velocity, now.linear, now.angular, silent, motion);
+        if (! archive.restores()) return true;
+        now.number = has_reading ? ++pushes : 0;
+        last = is_new && has_reading ? 0 : now.number;
+        readings.store (now);
+        publish (motion.effort());
+        return true;
     }
 
     void withhold() noexcept override { motion.withhold(); }
@@ -123,6 +134,18 @@ private:
         double linear[3] = {}, angular[3] = {};   // m/s, rad/s
     };
 
+    void publish (const Effort& e) noexcept
+    {
+        tactus_effort to {};
+        to.size = sizeof to;
+        std::copy_n (e.force.data(), 3, to.force);
+        std::copy_n (e.torque.data(), 3, to.torque);
+        to.axis_count = copy (e.axes, to.axes);
+        to.signal_count = copy (e.signals, to.signals);
+        to.brake = e.brake;
+        efforts.store (to);
+    }
+
     static void copy (const double* from, std::uint32_t count, Channels& to) noexcept
     {
         for (int i = static_cast<int> (std::min<std::uint32_t> (count, Channels::most)) - 1; i >= 0; --i)
@@ -137,7 +160,8 @@ private:
 
     DeviceLayout has;
     Seconds now_s;
-    StepMotion motion;   // [tick thread]
+    StepMotion motion;           // [tick thread]
+    bool is_simulated = false;   // by the program: nobody holds it
     Snapshot<Pushed> readings;
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]

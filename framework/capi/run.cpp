@@ -73,12 +73,9 @@ bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages
     return false;
 }
 
-bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->has_ended && ! r->run->isLive(); }
-
 tactus_result isNull() noexcept { return misuse ("a handle or pointer is NULL"); }
 tactus_result notOpen() noexcept { return misuse ("the run is not open: call tactus_run_open first"); }
 tactus_result notPushed() noexcept { return misuse ("the role has no device of tactus_run_pushed_device, or the run is not open"); }
-tactus_result notTickedByCaller() noexcept { return misuse ("the run is NULL, not open, started or stopped, so it cannot be ticked here"); }
 
 /// What the device does between steps; empty if the caller's values are none of their types.
 std::optional<tactus::StepMotion> rulesOf (const tactus_device_options& o) noexcept
@@ -206,7 +203,7 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
         if (is_broken) return TACTUS_FAILED;
         r->described.erase (text (role));
         r->limits[text (role)] = PushedDevice::watched (limits);
-        r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts), PushedDevice::steadySeconds, *rules);
+        r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts), PushedDevice::steadySeconds, *rules, options.simulated != 0);
         return TACTUS_OK;
     });
 }

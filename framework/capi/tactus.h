@@ -355,11 +355,14 @@ typedef struct tactus_device_options
     /* What happens between the readings of tactus_run_step_for. */
     tactus_between between;
     tactus_step_effort step_effort;
+
+    int simulated; /**< 1: your program simulates the device, and nobody holds it. Only then can the run be saved and restored, because a state may step
+                        the effort */
 } tactus_device_options;
 
-#define TACTUS_DEVICE_OPTIONS                                                                         \
-    {                                                                                                 \
-        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, TACTUS_HOLD, TACTUS_LAST_TICK \
+#define TACTUS_DEVICE_OPTIONS                                                                            \
+    {                                                                                                    \
+        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, TACTUS_HOLD, TACTUS_LAST_TICK, 0 \
     }
 
 /** Your own device: you push readings and take efforts. Until the first reading, the effort is zero. When readings stop for longer than the watchdog
@@ -398,6 +401,17 @@ TACTUS_API tactus_result tactus_run_tick_after (tactus_run*, double passed_s);
  *  kept for the next step, so that steps of 1/60 s at 4 kHz have 66, 67 and 67 ticks. The readings pushed since the last step are where the devices are
  *  now; `between` and `step_effort` of tactus_device_options say what happens in between. Push first, then step, then take. [tick thread] */
 TACTUS_API tactus_result tactus_run_step_for (tactus_run*, double dt_s);
+
+/** Writes the state of the run between two ticks: nodes, parameters, delays, guards, controls, simulated devices, and what remains of a step. `size` gets
+ *  its length in bytes; call it with room 0 to learn that. Writes nothing if there is too little room. A node or a device whose state cannot be
+ *  saved is refused by name (state/refused). Only for a run that you tick yourself. [tick thread] */
+TACTUS_API tactus_result tactus_run_save (tactus_run*, void* bytes, size_t room, size_t* size, tactus_messages*);
+
+/** Goes back, or on, to a state of this run or of another one of the same graph, with the same options and devices and the same version of Tactus, in
+ *  any process: the next ticks have the same bits. A state of another graph, a damaged one and the like are refused, and then nothing changes. The state
+ *  does not undo what keeps people safe: limits, a halt, an emergency stop. Restore only what you have saved: the checksum finds damage, not malice.
+ *  Ids: state/… [tick thread] */
+TACTUS_API tactus_result tactus_run_restore (tactus_run*, const void* bytes, size_t size, tactus_messages*);
 
 /** Sets the feeds for the next tick, one value per feed. [tick thread] */
 TACTUS_API tactus_result tactus_run_set_feeds (tactus_run*, const double* values);

@@ -61,6 +61,9 @@ struct Bristle
     /// has changed.
     bool letGo (Vec3& d) const noexcept;
 
+    /// Without `own`, which its owner sets before each use.
+    void serialize (auto& archive) { archive (adhesion, integrator, d_max, d_stick, d_ba); }
+
 private:
     static constexpr double eps_slip = margin (1e-9);   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 

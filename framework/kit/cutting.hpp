@@ -64,6 +64,8 @@ public:
     /// The problem of a sample and its laws, as a sentence; empty if there is none. [main thread]
     static std::string problem (double width, double toughness, double rupture_force, const Law& law, const Law& cracked);
 
+    void serialize (auto& archive) { archive (cost, end, e_cut, d_rupture, first, loss); }
+
 private:
     static constexpr double eps_cut = margin (1e-9);   // relative; a cut ends exactly at e_c, and rounding there must not continue it
     static constexpr double inf = std::numeric_limits<double>::infinity();

@@ -39,6 +39,8 @@ public:
         return radius * math::cos (2.0 * std::numbers::pi * uniform());
     }
 
+    void serialize (auto& archive) { archive (state); }
+
 private:
     std::uint64_t state;
 };

@@ -5,6 +5,7 @@
 
 #include "node.hpp"
 #include "setting.hpp"
+#include <tactus/kit/state_archive.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -62,6 +63,7 @@ struct NodeType
     std::function<void (void* node, const Setup&)> prepare;
     void (*update) (void* node) noexcept;
     void (*adopt) (void* node, const void* old) noexcept;
+    void (*serialize) (void* node, StateArchive&) = nullptr;   ///< null: its state cannot be saved   [tick thread]
     std::function<Claims (const void* node)> claims;
     std::function<void (void* node, const DeviceState&)> announce {};   ///< copies what `bind` needs of a layout; may allocate  [main thread]
     std::function<void (void* node, const DeviceState&)> bind;          ///< allocates nothing  [main or tick thread]
@@ -388,6 +390,10 @@ NodeType describe()
     if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s) { static_cast<N*> (n)->prepare (s); };
     if constexpr (Updatable<N>) t.update = [] (void* n) noexcept { static_cast<N*> (n)->update(); };
     if constexpr (Adoptable<N>) t.adopt = [] (void* n, const void* o) noexcept { static_cast<N*> (n)->adopt (*static_cast<const N*> (o)); };
+    if constexpr (Savable<N>)
+        t.serialize = [] (void* n, StateArchive& a) { static_cast<N*> (n)->serialize (a); };
+    else if constexpr (Unchanging<N>)
+        t.serialize = [] (void*, StateArchive&) {};
     if constexpr (Claiming<N>) t.claims = [] (const void* n) { return static_cast<const N*> (n)->claims(); };
     if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s) { static_cast<N*> (n)->bind (s); };
     if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l) { return static_cast<const N*> (n)->missing (l); };

@@ -15,6 +15,8 @@
 namespace tactus
 {
 
+class StateArchive;
+
 /// The values of a device's axes or signal channels, stored in place. Constructing and copying costs only what is in use, not
 /// the whole capacity.
 class Channels
@@ -53,6 +55,13 @@ public:
     }
 
     void clear() noexcept { count = 0; }
+
+    void serialize (auto& archive)
+    {
+        archive.index (count, static_cast<std::size_t> (most) + 1);
+        for (int i = 0; i < count; ++i)
+            archive (values[i]);
+    }
 
     /// The address of the number of values in use. Plugins read it, and the values from begin(), in place.
     const int* used() const noexcept { return &count; }
@@ -181,6 +190,10 @@ public:
     /// The guard withholds efforts on this tick: called before write. A driver that sends what it derives from earlier efforts, such as
     /// the amplitude of a vibration, must forget them, so that the stop takes no longer than the guard's. [tick thread]
     virtual void withhold() noexcept {}
+
+    /// Saves or restores its state, if it is a simulated one: what a reading or an effort of its own may depend on. False: it has no state that could
+    /// be saved, as no real device has. [tick thread]
+    virtual bool serialize (StateArchive&) { return false; }
 };
 
 }   // namespace tactus

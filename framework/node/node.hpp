@@ -33,6 +33,9 @@
 ///   tick (in, stored)         called instead of tick (in) where wires or feeds drive params: `stored` holds the Params as set by
 ///                             file and knobs, without wires and feeds. Such Params must be plain numbers and choices [tick thread]
 ///   adopt (old)               takes over the state of the instance this one replaces                    [tick thread]
+///   serialize (archive)       lists the members that are its state, so that a run can be saved and restored
+///                             (framework/kit/state_archive.hpp): those that a tick changes, and nothing that follows from params,
+///                             settings, prepare and update. A node without it cannot be saved, unless its tick is const [tick thread]
 ///   claims() -> Claims        what tests and the validator can hold the node to
 ///   bind (state)              gives a device node the DeviceState of its role: before prepare, with the settings in place,
 ///                             and again when the role gets its device, then without allocating          [main or tick thread]
@@ -69,6 +72,7 @@ namespace tactus
 class NearestTriangle;
 class PreparedData;
 class QueryService;
+class StateArchive;
 
 /// The services that a host lends to the nodes of a graph. Each may be missing; nodes work without it.
 struct Services
@@ -156,6 +160,9 @@ template <typename N>
 concept Adoptable = requires (N node, const N old) { { node.adopt (old) } noexcept; };
 
 template <typename N>
+concept Savable = requires (N node, StateArchive& archive) { node.serialize (archive); };
+
+template <typename N>
 concept Claiming = requires (const N node) { { node.claims() } -> std::same_as<Claims>; };
 
 template <typename N>
@@ -171,8 +178,10 @@ template <typename N>
 concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };
 
 template <typename N>
-concept Stateless = requires (const N node, const typename N::Inputs in) { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; }
-    && ! DeviceBound<N> && ! LearnsOfDevice<N>;
+concept Unchanging = requires (const N node, const typename N::Inputs in) { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; };
+
+template <typename N>
+concept Stateless = Unchanging<N> && ! DeviceBound<N> && ! LearnsOfDevice<N>;
 // clang-format on
 
 }   // namespace tactus

@@ -229,6 +229,10 @@ public:
         return role == parts.roles.end() ? nullptr : &*role;
     }
 
+    /// Saves or restores what the next ticks depend on: the state of its nodes, their parameters with their ramps, what is under way on wires, and all
+    /// values. All targets must have been applied (applyTurns). [tick thread]
+    void serialize (StateArchive&);
+
     /// Frees everything that only edits need. The plan still ticks, but no other plan can follow it, and its knobs can no
     /// longer be turned.
     void forgetGraph();

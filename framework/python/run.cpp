@@ -147,6 +147,7 @@ void PythonRun::pushedDevice (const std::string& role, const std::string& text)
     options.brake = has.at ("brake").get<double>();
     options.between = static_cast<tactus_between> (has.at ("between").get<int>());
     options.step_effort = static_cast<tactus_step_effort> (has.at ("step_effort").get<int>());
+    options.simulated = has.at ("simulated").get<bool>() ? 1 : 0;
     if (! has.at ("guard").is_null()) options.guard = guard.c_str();
     call ("take a device", [&] (auto* m) { return tactus_run_pushed_device (run.get(), role.c_str(), &options, m); });
 }
@@ -254,6 +255,23 @@ std::pair<std::uint64_t, PythonRun::Rows> PythonRun::steps (std::size_t count, c
         return TACTUS_OK;
     });
     return { first, rows };
+}
+
+py::bytes PythonRun::save()
+{
+    std::string bytes (state_size, '\0');
+    const auto write = [&] { call ("save its state", [&] (auto* m) { return tactus_run_save (run.get(), bytes.data(), bytes.size(), &state_size, m); }); };
+    write();
+    const bool has_fitted = state_size <= bytes.size();
+    bytes.resize (state_size);
+    if (! has_fitted) write();
+    return bytes;
+}
+
+void PythonRun::restore (const py::bytes& state)
+{
+    const std::string_view bytes = state;
+    call ("restore a state", [&] (auto* m) { return tactus_run_restore (run.get(), bytes.data(), bytes.size(), m); });
 }
 
 std::size_t PythonRun::stepFor (double dt_s)
@@ -378,6 +396,8 @@ void bindRun (py::module_& module)
         .def ("take", &PythonRun::take)
         .def ("steps", &PythonRun::steps)
         .def ("step_for", &PythonRun::stepFor)
+        .def ("save", &PythonRun::save)
+        .def ("restore", &PythonRun::restore)
         .def ("ticks", &PythonRun::ticks)
         .def ("start", &PythonRun::start)
         .def ("stop", &PythonRun::stop)

@@ -63,6 +63,10 @@ public:
 
     /// Runs the ticks of a step of tactus_run_step_for, and returns how many.
     std::size_t stepFor (double dt_s);
+
+    py::bytes save();
+    void restore (const py::bytes&);
+
     std::uint64_t ticks() const noexcept { return done; }   ///< how many ticks steps() and stepFor() have run   [any thread]
 
     void start (std::uint64_t length, int core, std::size_t buffer);
@@ -92,6 +96,7 @@ private:
     std::mutex turns;
     std::atomic<std::thread::id> owner {};
     std::atomic<std::uint64_t> done = 0;
+    std::size_t state_size = 4096;   // of the last state, in bytes
 };
 
 void bindRun (py::module_&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/run/guard/effort_sum.hpp>
 
 #include <tactus/plan/find_hit.hpp>
@@ -350,6 +351,34 @@ void Engine::resume() noexcept
     if (journal) journal->resumed();
     for (auto* channel : running->channels)
         channel->guard.resume();
+}
+
+void Engine::serialize (StateArchive& archive)
+{
+    // What was set since the last tick is part of the state. If nothing has ticked yet, what is set later still applies at once.
+    touched.exchange (false, std::memory_order_acquire);
+    applyStops();
+    running->plan->applyTurns (journal);
+
+    running->plan->serialize (archive);
+    archive.enter ("run", {});
+    archive (ticks, settled_at, passed_s, fresh);
+    for (std::size_t i = 0; i < running->channels.size(); ++i)
+    {
+        auto& channel = *running->channels[i];
+        auto& [reading, applied, layout] = *running->plan->roles()[i].state;
+        archive.enter ("role", channel.role);
+        archive (channel.bumpless, channel.touched_at, reading, applied);
+        channel.guard.serialize (archive);
+        archive.expect (channel.device != nullptr ? 1 : 0);
+        if (channel.device && ! channel.device->serialize (archive))
+            archive.refuse ("has a device whose state cannot be saved, because it is not simulated; a device of a program says so in its options");
+    }
+
+    archive (is_stopped);
+    if (! archive.restores()) return;
+    if (is_stopped && ! archive.isRefused()) emergency.store (true, std::memory_order_relaxed);
+    touched.store (true, std::memory_order_release);   // a stop that comes meanwhile is not lost
 }
 
 bool Engine::isAtRest() const noexcept

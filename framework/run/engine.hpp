@@ -141,6 +141,10 @@ public:
     /// True once no device has an effort on it, so that all devices can be released without a jump. [tick thread]
     bool isAtRest() const noexcept;
 
+    /// Saves or restores what the next ticks depend on: the plan, the guards and the simulated devices. Refuses a device that is not simulated. What a
+    /// guard is asked to hold back stays, and so does the log of the guards. See Run::save. [tick thread]
+    void serialize (StateArchive&);
+
     Plan& plan() noexcept { return *running->plan; }   ///< the running plan   [tick thread]
 
     /// A role of the running plan. References in it stay valid as long as the engine lives, and the name never

@@ -217,6 +217,10 @@ public:
     /// True while no effort is on the device, and its brake is as during a stop, so that it can be released without a step.
     bool isAtRest() const noexcept;
 
+    /// Saves or restores what it has counted and let through, not its limits and not a halt: what holds an effort back now is not undone by a state
+    /// of the past. [tick thread]
+    void serialize (StateArchive&);
+
 private:
     void forget() noexcept;
     void chooseWatches() noexcept;

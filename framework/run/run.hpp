@@ -11,6 +11,7 @@
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/result.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -207,6 +208,24 @@ public:
     Compiled check (const graph::Graph& g) { return compile (g, nullptr, nullptr, {}); }
 
     //==========================================================================
+    // States. Not while a clock ticks the run.
+
+    /// The part of a state that the loop around the run adds, for both directions, such as a Stepper.
+    using MoreState = std::function<void (StateArchive&)>;
+
+    /// The state of the run between two ticks: nodes, parameters and their ramps, wires under way, guards and simulated devices, as bytes. Another
+    /// run of the same graph, with the same options and devices, can go on from there, in any process with the same version of Tactus: its next ticks
+    /// have the same bits. `graph` is the one that the run plays. Ids: state/live, state/edit, state/refused (a node or a device whose state cannot
+    /// be saved, by name). [tick thread]
+    Result<std::vector<std::byte>> save (const graph::Graph&, const MoreState& = {});
+
+    /// Goes back, or on, to a state. If it does not fit, nothing changes. Nothing that keeps people safe is undone: limits stay, a halt stays, and after
+    /// an emergency stop a state is refused until rearm(). It is not for devices that somebody holds, because the effort may step: only simulated
+    /// ones have a state. Restore only what you have saved: the checksum finds damage, not malice. Ids: those of save(), state/format (no state, or
+    /// one of another version), state/damaged, state/graph (of another graph), state/stopped, state/log (a log could not replay it). [tick thread]
+    Result<> restore (std::span<const std::byte>, const graph::Graph&, const MoreState& = {});
+
+    //==========================================================================
     // Observing.
 
     /// Captures a port around the first edge of another port, replacing any earlier capture. Returns the names of the
@@ -247,6 +266,9 @@ private:
                         Messages&);
     GuardLimits asksFor (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const RoleDevice&, Messages&) const;
     const RoleDevice* deviceOf (const std::string& role) const;
+    std::optional<Message> cannotSave() const;
+    void serialize (StateArchive&, const MoreState&);
+    const std::string& hashOf (const graph::Graph&);
     void logNext (const std::shared_ptr<Plan>&, const graph::Graph&, const std::vector<std::pair<std::string, RoleDevice>>& joining);
 
     const Catalogue& catalogue;
@@ -265,6 +287,8 @@ private:
     std::vector<std::string> captured_ports;
     std::vector<std::size_t> captured_taps;
     std::optional<Message> log_failure;
+    std::string graph_hash;   // of the graph of the plan with this serial, once a state was saved
+    std::uint64_t hashed_serial = 0;
     bool log_broke = false, log_ended = false;
     double graph_rate_hz = 0.0;       // the rate in the first graph; 0 if the options set the rate
     std::uint64_t now = 0;            // tick number, offline only

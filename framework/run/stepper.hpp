@@ -45,6 +45,9 @@ public:
         return ticks;
     }
 
+    /// What remains of a period belongs to the state of the loop, beside that of the run. [tick thread]
+    void serialize (auto& archive) { archive (remainder); }
+
 private:
     static constexpr double rounding = 1e-6;   // of a period: 0.002 s at 4 kHz are 8 ticks, whatever the last bits are
 

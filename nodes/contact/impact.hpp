@@ -129,6 +129,13 @@ struct Impact
         return { .hit = v, .contact = 1.0 };
     }
 
+    void serialize (auto& archive)
+    {
+        archive (depths, touching, common, is_exact, since_hit);
+        archive.index (newest, depths.size());
+        archive.index (known, depths.size() + 1);
+    }
+
 private:
     static constexpr double rounding = 1e-10;                 // m; smaller differences are rounding
     static constexpr double finest = 1e-8, coarsest = 1e-4;   // m; limits for the quantum of an encoder

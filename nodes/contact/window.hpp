@@ -56,6 +56,8 @@ struct ContactWindow
     {
         return { .gain = isFinite (in.depth) ? std::clamp (in.depth / params.window, 0.0, 1.0) : 0.0 };
     }
+
+    void serialize (auto&) {}
 };
 
 }   // namespace tactus::nodes

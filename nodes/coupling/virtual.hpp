@@ -129,6 +129,8 @@ struct VirtualCoupling
         return out;
     }
 
+    void serialize (auto& archive) { archive (last); }
+
 private:
     struct Stretch
     {

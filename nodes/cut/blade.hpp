@@ -130,6 +130,8 @@ struct Blade
 
     Outputs tick (const Inputs&) noexcept;
 
+    void serialize (auto& archive) { archive (sample); }
+
 private:
     struct Sample
     {

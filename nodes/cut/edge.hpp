@@ -173,6 +173,12 @@ struct Edge
 
     Outputs tick (const Inputs&) noexcept;
 
+    void serialize (auto& archive)
+    {
+        archive (places, contact, memory);
+        if (contact.cut >= CutPlaces::cuts) archive.refuse ("has a cut that does not exist");
+    }
+
 private:
     using Line = LineOverColumns;
     using Part = LineOverColumns::Part;

@@ -103,6 +103,8 @@ struct Scissors
 
     Outputs tick (const Inputs&) noexcept;
 
+    void serialize (auto& archive) { archive (plate); }
+
 private:
     static constexpr double eps_cut = margin (1e-9);   // relative margin: a front exactly at the criterion must not grow by rounding errors
 

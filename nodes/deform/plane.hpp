@@ -170,6 +170,8 @@ struct Plane
         return out;
     }
 
+    void serialize (auto& archive) { archive (past, stored_before, dissipated); }
+
 private:
     double law (double depth) const noexcept { return settings.law ? settings.law (depth) : params.stiffness * depth; }
     double energy (double depth) const noexcept { return settings.law ? settings.law.energy (depth) : 0.5 * params.stiffness * depth * depth; }

@@ -365,6 +365,17 @@ struct ElasticSurface
     /// Where the last contact began. A test computes the hand's work of that step from there.
     const SurfaceEntry& begunAt() const noexcept { return entry; }
 
+    void serialize (auto& archive)
+    {
+        archive (search, touch, tool, blend, began, adhesion, contact, slips, resumes, moved_at, near, apart, clear, entry, last, dissipated);
+        const auto isOnBody = [this] (int triangle) { return triangle >= -1 && triangle < (body ? body->smooth().size() : 0); };
+        for (const int triangle : { began.triangle, contact.triangle, near.triangle })
+            if (! isOnBody (triangle)) archive.refuse ("touches a triangle that does not exist");
+        for (const auto* foot : { &touch.foot, &apart, &entry.touch.foot })
+            if (foot->faces < 0 || foot->faces > SmoothBody::most || ! std::ranges::all_of (foot->triangles, isOnBody) || ! isOnBody (foot->beyond))
+                archive.refuse ("touches a face that does not exist");
+    }
+
 private:
     struct Sample
     {

@@ -110,6 +110,8 @@ struct DeformTool
         return { .tool = tilt.tool, .turn = tilt.turn };
     }
 
+    void serialize (auto&) {}
+
 private:
     static constexpr double smallest_angle = 1e-3;   // between two faces, in rad
 

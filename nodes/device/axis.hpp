@@ -62,6 +62,8 @@ struct DeviceAxis
         return { .axis = value };
     }
 
+    void serialize (auto& archive) { archive (value); }
+
 private:
     const DeviceState* device = &no_device;
     int index = -1;

@@ -79,6 +79,8 @@ struct DeviceBrake
         return all;
     }
 
+    void serialize (auto& archive) { archive (wanted); }
+
 private:
     static double notNegative (double v) noexcept { return v < 0.0 ? 0.0 : v; }   // what is not a number goes to the guard
 

@@ -69,6 +69,8 @@ struct DeviceButton
         return { .pressed = is_held ? 1.0 : 0.0 };
     }
 
+    void serialize (auto& archive) { archive (is_held); }
+
 private:
     /// Bit of the button, or -1 if the device does not have it. A button whose name looks like a number is found by name.
     int find (const DeviceLayout& device_has) const noexcept

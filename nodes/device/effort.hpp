@@ -66,6 +66,8 @@ struct DeviceEffort
         return all;
     }
 
+    void serialize (auto& archive) { archive (wanted); }
+
 private:
     int index = -1;
     double wanted = 0.0;   // N or N m

@@ -46,6 +46,8 @@ struct DeviceForce
     void tick (const Inputs& in) noexcept { wanted = in; }
     Effort effort() const noexcept { return { wanted.force, wanted.torque }; }
 
+    void serialize (auto& archive) { archive (wanted); }
+
 private:
     const DeviceState* device = &no_device;
     Inputs wanted;

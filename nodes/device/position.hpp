@@ -54,6 +54,8 @@ struct DevicePosition
         return { .position = now.position, .rotation = now.rotation, .valid = 1.0, .age = now.age };
     }
 
+    void serialize (auto& archive) { archive (position, rotation); }
+
 private:
     const DeviceState* device = &no_device;
     // The last valid values.

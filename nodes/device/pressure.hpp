@@ -44,6 +44,8 @@ struct DevicePressure
         return { .force = force };
     }
 
+    void serialize (auto& archive) { archive (force); }
+
 private:
     const DeviceState* device = &no_device;
     double force = 0.0;   // the last valid value, in N

@@ -62,6 +62,8 @@ struct DeviceSignalOut
         return all;
     }
 
+    void serialize (auto& archive) { archive (wanted); }
+
 private:
     bool is_there = false;
     double wanted = 0.0;

@@ -40,7 +40,7 @@ struct DeviceTruth
 
     void bind (const DeviceState& state) noexcept { device = &state; }
 
-    Outputs tick (const Inputs&) noexcept
+    Outputs tick (const Inputs&) const noexcept
     {
         const Reading& now = device->reading;
         if (! now.valid || ! isFinite (now.true_position, now.true_velocity)) return {};

@@ -125,6 +125,8 @@ struct Viscous
         return { .force = force, .velocity = w, .dissipated_energy = total, .state = amount > 0.0 ? 1.0 : 0.0 };
     }
 
+    void serialize (auto& archive) { archive (past, dissipated); }
+
 private:
     /// D, in N, at a speed in m/s.
     double drag (double speed) const noexcept

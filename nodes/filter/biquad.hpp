@@ -100,6 +100,8 @@ struct BiquadFilter
 
     Outputs tick (const Inputs& in) noexcept { return { .out = state (filter, in.in) }; }
 
+    void serialize (auto& archive) { archive (state); }
+
 private:
     void set (double g, double k, double direct, double band, double low) noexcept { filter = stateVariable (g, k, direct, band, low); }
 

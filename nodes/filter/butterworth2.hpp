@@ -46,6 +46,8 @@ struct Butterworth2
 
     Outputs tick (const Inputs& in) noexcept { return { .out = state (filter, in.in) }; }
 
+    void serialize (auto& archive) { archive (state); }
+
 private:
     double rate = 4000.0;   // Hz
     StateVariable filter;

@@ -65,6 +65,8 @@ struct OnePole
         return { .out = out };
     }
 
+    void serialize (auto& archive) { archive (s); }
+
 private:
     double rate = 4000.0;   // Hz
     double b = 1.0, a = 0.0, s = 0.0;

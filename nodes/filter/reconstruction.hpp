@@ -58,6 +58,8 @@ struct Reconstruction
         return {};
     }
 
+    void serialize (auto& archive) { archive (x, y, z); }
+
 private:
     double rate = 4000.0;   // Hz
     StateVariable filter;

@@ -215,6 +215,8 @@ struct ElastoPlastic
     Outputs tick (const Inputs& in) noexcept { return tick (in, params); }
     Outputs tick (const Inputs&, const Params& stored) noexcept;
 
+    void serialize (auto& archive) { archive (contact, dissipated); }
+
 private:
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 

@@ -161,6 +161,8 @@ struct PartialSlip
         return { .dissipated_energy = dissipated, .state = opens ? 0.0 : -1.0 };
     }
 
+    void serialize (auto& archive) { archive (contact, dissipated); }
+
 private:
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 

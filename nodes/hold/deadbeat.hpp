@@ -164,6 +164,8 @@ struct DeadbeatHold
         return out;
     }
 
+    void serialize (auto& archive) { archive (past.e, past.sent, past.next, past.push, past.known, past.planned); }
+
 private:
     static constexpr double smoothing = 0.01;   // s
 

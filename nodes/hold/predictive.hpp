@@ -88,6 +88,8 @@ struct PredictiveHold
         return { .out = finiteOrZero (4.0 * quarter) };
     }
 
+    void serialize (auto& archive) { archive (last); }
+
 private:
     struct Sample
     {

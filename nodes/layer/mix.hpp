@@ -61,6 +61,8 @@ struct LayerMix
     void adopt (const LayerMix& old) noexcept { desk.adopt (old.desk); }
     Outputs tick (const Inputs& in) noexcept { return desk.mix<Outputs> (in.in, params); }
 
+    void serialize (auto& archive) { archive (desk); }
+
 private:
     MixingDesk<double> desk;
 };

@@ -62,6 +62,8 @@ struct LayerMixVectors
     void adopt (const LayerMixVectors& old) noexcept { desk.adopt (old.desk); }
     Outputs tick (const Inputs& in) noexcept { return desk.mix<Outputs> (in.in, params); }
 
+    void serialize (auto& archive) { archive (desk); }
+
 private:
     MixingDesk<Vec3> desk;
 };

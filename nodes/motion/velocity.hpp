@@ -135,6 +135,13 @@ struct Velocity
         return out;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (axes);
+        archive.index (newest, capacity);
+        archive.index (known, capacity + 1);
+    }
+
 private:
     static constexpr int capacity = longest_window + 1;
     static constexpr double rounding = 1e-10;   // m; no encoder is finer

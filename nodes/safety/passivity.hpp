@@ -132,6 +132,8 @@ struct PassivityObserver
         return { .force = now.force, .energy = now.energy, .alpha = alpha };
     }
 
+    void serialize (auto& archive) { archive (account); }
+
 private:
     static constexpr double eps = 1e-9;   // m; a shorter step carries no information
 

@@ -116,6 +116,8 @@ struct Handover
         return { .resistance = last, .state = now == Source::shock ? 2.0 : (is_open ? 0.0 : 1.0) };
     }
 
+    void serialize (auto& archive) { archive (source, last, difference, faded); }
+
 private:
     enum class Source
     {

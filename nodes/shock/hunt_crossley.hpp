@@ -156,6 +156,14 @@ struct HuntCrossley
         return { .resistance = finiteOrZero (params.gain * sum), .dissipated_energy = dissipated };
     }
 
+    void serialize (auto& archive)
+    {
+        archive (voices, dissipated);
+        for (const Voice& v : voices)
+            if (v.score.length < 0 || v.score.length > few + 1 || v.score.played < 0 || v.score.played > v.score.length)
+                archive.refuse ("has a contact that is too long");
+    }
+
 private:
     static constexpr int few = 4;                   // a contact of fewer samples is played as mean forces
     static constexpr double faded = 1e-9;           // in N and m/s; a voice stops below both, because a mass stopped by damping never leaves the object

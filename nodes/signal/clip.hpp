@@ -193,6 +193,8 @@ struct SignalClip
         return play (in.hit, in.gate, in.time, in.position);
     }
 
+    void serialize (auto& archive) { archive (busy, wanted_drive, state); }
+
 private:
     static constexpr double fade_s = 2e-3, calm_s = 20e-3;
 

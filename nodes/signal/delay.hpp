@@ -70,6 +70,12 @@ struct Delay
         if (++now == line.size()) now = 0;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (line);
+        archive.index (now, line.size());
+    }
+
 private:
     std::vector<double> line { 0.0 };
     std::size_t now = 0;   // index of the oldest sample, which the next tick overwrites

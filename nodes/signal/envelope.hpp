@@ -107,6 +107,8 @@ struct SignalEnvelope
 
     Claims claims() const { return { .amplitude = 1.0 }; }
 
+    void serialize (auto& archive) { archive (level, released_at, stage); }
+
 private:
     enum class Stage
     {

@@ -86,6 +86,8 @@ struct SignalLfo
 
     Claims claims() const { return { .amplitude = std::abs (params.offset) + std::abs (params.amplitude) }; }
 
+    void serialize (auto& archive) { archive (frequency, start, ticks); }
+
 private:
     static double fraction (double cycles) noexcept { return cycles - std::floor (cycles); }
 

@@ -96,6 +96,8 @@ struct SignalNoise
         return { .amplitude = largest * Random::largest_normal * std::abs (params.amplitude) };
     }
 
+    void serialize (auto& archive) { archive (white, band); }
+
 private:
     Random white;
     BandNoise band;

@@ -44,6 +44,8 @@ struct SignalSampleHold
         return { .out = held };
     }
 
+    void serialize (auto& archive) { archive (held); }
+
 private:
     double held = 0.0;
 };

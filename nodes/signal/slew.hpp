@@ -59,6 +59,8 @@ struct SignalSlew
         return { .out = last };
     }
 
+    void serialize (auto& archive) { archive (last, started); }
+
 private:
     double dt = 0.0;   // s
     double last = 0.0;

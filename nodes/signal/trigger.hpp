@@ -88,6 +88,8 @@ struct SignalTrigger
 
     Claims claims() const { return { .amplitude = std::max (1.0, std::abs (params.speed)) }; }
 
+    void serialize (auto& archive) { archive (seen, low_ticks); }
+
 private:
     enum class Seen
     {

@@ -99,6 +99,8 @@ struct AntiAlias
         return { .gain = fade (params.spatial_frequency * std::abs (speed)), .speed = speed };
     }
 
+    void serialize (auto& archive) { archive (past); }
+
 private:
     double fade (double f) const noexcept
     {

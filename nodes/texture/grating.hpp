@@ -92,6 +92,8 @@ struct Grating
         return { .force = value * along, .value = value };
     }
 
+    void serialize (auto&) {}
+
 private:
     Vec3 along = Vec3::UnitX();
 };

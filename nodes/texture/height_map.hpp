@@ -178,6 +178,8 @@ struct HeightMap
         return { .force = finiteOrZero (force), .value = finiteOrZero (relief.height) };
     }
 
+    void serialize (auto& archive) { archive (last); }
+
 private:
     static constexpr double alpha = 4.0;
     static constexpr double hold_s = 0.02, release_s = 0.05;

@@ -134,6 +134,8 @@ struct TextureNoise
         return { .value = finiteOrZero (value) };
     }
 
+    void serialize (auto& archive) { archive (random, lattice, resampler, now); }
+
 private:
     static constexpr std::size_t most_models = 1024, highest_order = 256;
 

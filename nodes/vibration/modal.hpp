@@ -127,6 +127,8 @@ struct Modal
         return {};
     }
 
+    void serialize (auto& archive) { archive (real, imaginary); }
+
 private:
     using Phasor = std::complex<double>;
 

@@ -148,6 +148,20 @@ struct Wavetable
         return { .value = finiteOrZero (params.gain * sum) };
     }
 
+    /// A sound that an edit has replaced cannot be saved while it fades out: another run does not have it.
+    void serialize (auto& archive)
+    {
+        archive.expect (voices.size());
+        for (Voice& voice : voices)
+        {
+            if (voice.sounds && voice.table != table.get()) archive.refuse ("still plays a sound that an edit replaced; wait until it has ended");
+            archive (voice.at, voice.v, voice.sounds);
+            archive.index (voice.octave, octaves);
+            if (! (voice.at >= 0.0)) archive.refuse ("plays a sound from before its beginning");
+            if (archive.restores()) voice.table = table.get();
+        }
+    }
+
 private:
     using Samples = std::vector<double>;
 

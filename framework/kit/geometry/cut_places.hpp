@@ -56,6 +56,13 @@ public:
             return c.index == index ? c.crack : Cutting::Crack {};
         }
 
+        /// The columns of a cut that does not exist are not looked at.
+        void serialize (auto& archive)
+        {
+            archive (origin, direction, aside, width, used);
+            if (width > 0.0) archive (all);
+        }
+
     private:
         friend class CutPlaces;
 
@@ -119,6 +126,8 @@ public:
 
     std::size_t indexOf (const Cut& cut) const noexcept { return static_cast<std::size_t> (&cut - all.data()); }
     Cut& operator[] (std::size_t index) noexcept { return all[index]; }
+
+    void serialize (auto& archive) { archive (all, time); }
 
 private:
     std::vector<Cut> all = std::vector<Cut> (cuts);

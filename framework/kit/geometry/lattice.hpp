@@ -80,6 +80,8 @@ public:
     /// Copies the signals of the stages that both lattices have. [tick thread]
     void adopt (const Lattice& old) noexcept { std::copy_n (old.backward.begin(), std::min (order(), old.order()), backward.begin()); }
 
+    void serialize (auto& archive) { archive (reflections, rests, cosines, backward); }
+
 private:
     // By stage.
     std::vector<double> reflections, rests, cosines;   // k, 1 - k^2, c

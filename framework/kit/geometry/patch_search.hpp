@@ -57,6 +57,12 @@ public:
         return walked.triangle < 0 || (there.on.point - p).squaredNorm() < (walked.on.point - p).squaredNorm() ? there : walked;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (until_asked);
+        if (search) archive (*search);
+    }
+
 private:
     using Search = AsyncQuery<Vec3, int>;
 

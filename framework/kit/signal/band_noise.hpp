@@ -51,6 +51,12 @@ public:
         return sum;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (random, recent, phase);
+        archive.index (oldest, recent.size());
+    }
+
 private:
     static constexpr int taps = 2 * reach, steps = 64;   // `steps` entries of h per random number; h is linear in between
 

@@ -94,6 +94,8 @@ public:
         return y;
     }
 
+    void serialize (auto& archive) { archive (b, l, x, g, k); }
+
 private:
     double b = 0.0, l = 0.0, x = 0.0;   // x: the last input
     double g = 0.0, k = 0.0;            // of the last sample; 0: there was none

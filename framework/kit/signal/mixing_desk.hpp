@@ -72,6 +72,8 @@ public:
     /// The factor on a layer in the last mix, before the ceiling: gain, mute, solo and ducking.
     double factor (int i, const DeskParams& params) const noexcept { return channels[at (i)].duck * channels[at (i)].open * params.gain[i]; }
 
+    void serialize (auto& archive) { archive (channels, loudest, started); }
+
 private:
     struct Channel
     {

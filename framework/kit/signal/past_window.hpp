@@ -74,6 +74,15 @@ public:
             remember (old.ago (i));
     }
 
+    void serialize (auto& archive)
+    {
+        archive.expect (samples.size());
+        archive.index (newest, samples.size());
+        archive.index (known, samples.size() + 1);
+        for (int i = 0; i < known; ++i)   // nothing has been stored in the others
+            archive (samples[at (newest - i >= 0 ? newest - i : newest - i + capacity())]);
+    }
+
 private:
     int capacity() const noexcept { return static_cast<int> (samples.size()); }
 

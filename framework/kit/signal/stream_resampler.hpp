@@ -85,6 +85,12 @@ public:
         phase = old.phase;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (recent, phase);
+        archive.index (newest, std::max (recent.size(), std::size_t { 1 }));
+    }
+
 private:
     double ratio = 1.0;           // old samples per new one
     double reach = 0.0;           // half the width of the kernel, in old samples

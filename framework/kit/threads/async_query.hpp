@@ -109,6 +109,20 @@ public:
         return any;
     }
 
+    /// The open questions: an answer follows from its question. While another thread answers them, there is no moment at which nothing is under way.
+    void serialize (auto& archive)
+    {
+        if (answers) return archive.refuse ("is searched on another thread, which cannot be saved; set its search_ticks to 0");
+        archive.expect (slots.size());
+        archive.index (now, slots.size());
+        for (auto& slot : slots)
+        {
+            bool is_asked = slot.state.load (std::memory_order_relaxed) != State::empty;
+            archive (is_asked, slot.question, slot.dropped);
+            slot.state.store (is_asked ? State::asked : State::empty, std::memory_order_relaxed);
+        }
+    }
+
 private:
     enum class State
     {

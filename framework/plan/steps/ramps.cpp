@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ramps.hpp"
 
+#include <tactus/kit/state_archive.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -143,6 +145,26 @@ void Ramps::move() noexcept
             moving.pop_back();
         }
     }
+}
+
+void Ramps::serialize (StateArchive& archive)
+{
+    if (index == nullptr) return;
+    bool started = std::ranges::all_of (index->boards(), [] (const auto& entry) { return entry.board->started; });
+    archive (started);
+    if (! archive.restores()) return;
+    for (const auto& entry : index->boards())
+        entry.board->started = started;
+    moving.clear();
+    for (std::uint32_t i = 0; i < instances->size(); ++i)
+        if (auto* knobs = (*instances)[i].knobs.get())
+        {
+            knobs->ramping = false;
+            for (std::size_t k = 0; k < knobs->all.size(); ++k)
+                knobs->ramping = knobs->ramping || knobs->all[k].left > 0;
+            if (knobs->ramping) moving.push_back (i);
+        }
+    has_written = true;
 }
 
 void Ramps::startAll() noexcept

@@ -48,6 +48,7 @@ public:
 
     void poll (Journal* = nullptr) noexcept;    ///< starts ramps to all targets set since the last call, and passes hits on   [tick thread]
     void goOn (const Ramps& before) noexcept;   ///< continues the ramps of the previous plan                                     [tick thread]
+    void serialize (StateArchive&);             ///< what the knobs do not say; those must have been restored                    [tick thread]
     void startAll() noexcept;                   ///< from now on, new targets of all nodes start ramps                          [tick thread]
 
     /// Advances all ramps by one tick. [tick thread]

@@ -25,7 +25,10 @@ class PushedDevice(NamedTuple):
     between, step_effort: for Engine.step(dt), whose steps last longer than a tick. between: where the tool is on tick i of n: "hold": at the new
     reading; "linear": i/n of the way from the last one to the new one; "by_velocity": where the new one and its velocity lead in i - 1 periods.
     step_effort: what `take` returns after the step: "last": the effort of the last tick; "mean": the mean over the step. docs/steps.md has the delay of
-    each."""
+    each.
+
+    simulated: True if your program simulates the device, and nobody holds it. Only then can Engine.save and Engine.restore be used, because a state may
+    step the effort."""
 
     axes: Sequence[str] = ()
     efforts: Sequence[str] = ()
@@ -36,6 +39,7 @@ class PushedDevice(NamedTuple):
     brake: float = 0.0
     between: str = "hold"
     step_effort: str = "last"
+    simulated: bool = False
 
 
 class Effort(NamedTuple):
@@ -62,7 +66,9 @@ def described(role: str, device: PushedDevice) -> Dict[str, Any]:
     rules = {key: _choice(f"{at}.{key}", getattr(device, key), choices)
              for key, choices in (("between", ("hold", "linear", "by_velocity")), ("step_effort", ("last", "mean")))}
     guard = device.guard if device.guard is None else _checks.mapping(f"{at}.guard", device.guard, "{'max_force': '3 N'}")
-    return {**names, **counts, **rules, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
+    if not isinstance(device.simulated, bool):
+        _checks.refuse(f"{at}.simulated", device.simulated, "True or False", "give True only if nobody holds the device")
+    return {**names, **counts, **rules, "simulated": device.simulated, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
 
 
 def _choice(argument: str, value: Any, choices: Sequence[str]) -> int:

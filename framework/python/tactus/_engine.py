@@ -164,6 +164,19 @@ class Engine:
         first, done = self._run.steps(count, rows)
         return self._layout.records(done, first)
 
+    def save(self) -> bytes:
+        """The state of the run: nodes, parameters, delays, guards, controls and simulated devices. For rollouts, for undo, and for a reset that takes
+        microseconds. A device or a node whose state cannot be saved is refused by name."""
+        return self._run.save()
+
+    def restore(self, state: bytes) -> None:
+        """Goes back, or on, to a state of this engine or of another one with the same graph and devices, in any process with the same version of Tactus:
+        the next ticks have the same bits. What does not fit is refused, and changes nothing. Limits, a halt and an emergency stop stay. `ticks` and the
+        times of records go on. Restore only what you have saved."""
+        if not isinstance(state, bytes):
+            _checks.refuse("state", state, "the state of a run, as bytes", "give what save() returned")
+        self._run.restore(state)
+
     def step_rows(self, rows: Optional[Array] = None, n: int = 1) -> Array:
         """The same for arrays, at a lower cost: rows has shape (n, fed components), or (1, fed components) for all ticks; the result has
         shape (n, recorded components), in the order of `columns`."""

@@ -62,6 +62,8 @@ public:
     double stiffness() const noexcept { return k; }                ///< k, in N/m
     int mostPhases() const noexcept { return most_phases_seen; }   ///< the largest number of phases that an axis has had in one tick since the start
 
+    void serialize (auto& archive) { archive (axes); }
+
 private:
     struct AppliedForces
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gesture_device.hpp"
 
+#include <tactus/kit/state_archive.hpp>
+
 #include <algorithm>
 
 namespace tactus
@@ -30,5 +32,12 @@ Reading GestureDevice::read() noexcept
 }
 
 void GestureDevice::write (const Effort&) noexcept { ++tick; }
+
+bool GestureDevice::serialize (StateArchive& archive)
+{
+    archive (tick);
+    if (tick < 0) archive.refuse ("has a device that has not begun");
+    return true;
+}
 
 }   // namespace tactus

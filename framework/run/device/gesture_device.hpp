@@ -23,6 +23,7 @@ public:
     void prepare (double dt_s) override;
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
+    bool serialize (StateArchive&) override;
     double duration() const noexcept override { return path.duration(); }
 
 private:

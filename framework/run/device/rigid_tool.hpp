@@ -34,6 +34,8 @@ public:
     const Vec3& position() const noexcept { return x; }
     const Vec3& velocity() const noexcept { return v; }
 
+    void serialize (auto& archive) { archive (x, v); }
+
 private:
     void slide (double& position, double& velocity, double force, double damping, const HeldStep& whole_tick) const noexcept;
 

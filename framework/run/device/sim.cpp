@@ -2,6 +2,7 @@
 #include "sim.hpp"
 
 #include <tactus/kit/math/math.hpp>
+#include <tactus/kit/state_archive.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,17 @@ Vec3 SimulatedDevice::handForce() const noexcept
 
     const auto [position, velocity] = what.hand.path->at (static_cast<double> (tick) * dt);
     return what.hand_force + what.hand.stiffness * (position - end()) + what.hand.damping * (velocity - endVelocity());
+}
+
+bool SimulatedDevice::serialize (StateArchive& archive)
+{
+    archive (rigid, flexible, braking, on_the_way, tick);
+    archive.index (oldest, std::max (on_the_way.size(), std::size_t { 1 }));
+    archive.expect (axes.size());
+    for (auto& axis : axes)
+        archive (axis.x, axis.v);
+    if (tick < 0) archive.refuse ("has a device that has not begun");
+    return true;
 }
 
 }   // namespace tactus

@@ -96,6 +96,8 @@ public:
     DeviceLayout layout() const override;
     double duration() const noexcept override { return what.hand.path ? what.hand.path->duration() : 0.0; }
 
+    bool serialize (StateArchive&) override;
+
     const Simulation& simulation() const noexcept { return what; }
 
 private:

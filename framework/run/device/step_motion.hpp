@@ -67,6 +67,8 @@ public:
     /// The effort of the step so far. [tick thread]
     Effort effort() const noexcept;
 
+    void serialize (auto& archive) { archive (ticks, at, period, before, has_before, age, moves, velocity, taken, last, sum); }
+
 private:
     void blend (Reading&) const noexcept;
     void lead (Reading&) const noexcept;

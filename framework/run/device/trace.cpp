@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "trace.hpp"
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>
 
@@ -240,6 +241,14 @@ void TraceDevice::write (const Effort&) noexcept { ++tick; }
 DeviceLayout TraceDevice::layout() const
 {
     return { .axes = trace->axes, .buttons = std::vector<std::string> (static_cast<std::size_t> (trace->buttons)), .signal_inputs = trace->signals };
+}
+
+bool TraceDevice::serialize (StateArchive& archive)
+{
+    archive (tick);
+    archive.index (row, trace->rows.size());
+    if (tick < 0) archive.refuse ("has a device that has not begun");
+    return true;
 }
 
 }   // namespace tactus

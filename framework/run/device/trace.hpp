@@ -69,6 +69,7 @@ public:
     void prepare (double dt_s) override;
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
+    bool serialize (StateArchive&) override;
     DeviceLayout layout() const override;
     double duration() const noexcept override { return lasts; }
 

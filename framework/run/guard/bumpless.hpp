@@ -37,6 +37,12 @@ public:
         last = applied;
     }
 
+    void serialize (auto& archive)
+    {
+        archive (difference, last);
+        archive.index (now, static_cast<std::size_t> (length) + 1);
+    }
+
 private:
     static constexpr double pi = 3.14159265358979323846;
 

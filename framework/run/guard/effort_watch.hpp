@@ -55,6 +55,8 @@ public:
     /// Forgets the last reading, so that the distance to the next one does not count as motion.
     void forget() noexcept { known = false; }
 
+    void serialize (auto& archive) { archive (position, rotation, measured, axes, before_at, known, was_known); }
+
 private:
     [[gnu::noinline]] Vec3 turnedTo (const Reading& reading) noexcept
     {
@@ -99,6 +101,8 @@ public:
     Vec3 torque() const noexcept { return torques / count; }
     double axis (std::size_t i) const noexcept { return axes[i] / count; }
 
+    void serialize (auto& archive) { archive (forces, torques, axes, count); }
+
 private:
     Vec3 forces = Vec3::Zero(), torques = Vec3::Zero();   // sums over ticks
     std::array<double, Channels::most> axes {};
@@ -131,6 +135,8 @@ public:
         const double v = velocity.norm();
         return v == v ? v : std::numeric_limits<double>::infinity();
     }
+
+    void serialize (auto& archive) { archive (velocity); }
 
 private:
     Vec3 velocity = Vec3::Zero();
@@ -173,6 +179,8 @@ public:
         int at = 0;
         return still.maxCoeff (&at) > whole ? at : -1;
     }
+
+    void serialize (auto& archive) { archive (before, still, whole, has_changed, known); }
 
 private:
     Position before = Position::Zero();
@@ -217,6 +225,12 @@ public:
         now_s += passed_s;
         now += newton_seconds;
         return in_full + now;
+    }
+
+    void serialize (auto& archive)
+    {
+        archive (now_s, full, now, in_full);
+        archive.index (oldest, parts);
     }
 
 private:
@@ -264,6 +278,8 @@ public:
         if (sum != sum) return std::numeric_limits<double>::infinity();
         return delivered = std::max (0.0, sum);
     }
+
+    void serialize (auto& archive) { archive (delivered); }
 
 private:
     double delivered = 0.0, power = 0.0;   // in J and W

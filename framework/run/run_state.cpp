@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "run.hpp"
+
+#include "log/content_hash.hpp"
+#include "log/graph_snapshot.hpp"
+
+#include <tactus/kit/math/math.hpp>
+#include <tactus/kit/state_archive.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <cstring>
+
+namespace tactus
+{
+
+namespace
+{
+constexpr std::string_view magic = "tactus state\n", version = TACTUS_LIBRARY_VERSION;
+constexpr std::uint32_t state_format = 1;   // of what this file writes
+
+std::string_view textOf (std::span<const std::byte> bytes) noexcept { return { reinterpret_cast<const char*> (bytes.data()), bytes.size() }; }
+
+void append (std::vector<std::byte>& to, std::string_view text)
+{
+    const auto* bytes = reinterpret_cast<const std::byte*> (text.data());
+    to.insert (to.end(), bytes, bytes + text.size());
+}
+
+/// The first line of a state: everything that must be the same where it is restored.
+std::string headOf (std::string_view graph_hash, double rate_hz)
+{
+    return std::string (magic) + std::to_string (state_format) + " " + std::string (version) + " " + std::to_string (math::revision) + " "
+           + std::string (graph_hash) + " " + std::to_string (rate_hz) + "\n";
+}
+
+constexpr std::size_t hash_size = 16;
+
+Message refused (std::string id, std::string why, std::string remedy) { return Message::error (std::move (id), "", std::move (why), std::move (remedy)); }
+
+/// Why a state with another head does not fit.
+Message otherHead (std::string_view state, std::string_view expected)
+{
+    if (! state.starts_with (magic)) return refused ("state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged");
+    const auto wordOf = [] (std::string_view head, int n) {
+        head.remove_prefix (magic.size());
+        for (; n > 0 && head.find (' ') != std::string_view::npos; --n)
+            head.remove_prefix (head.find (' ') + 1);
+        return head.substr (0, head.find_first_of (" \n"));
+    };
+    for (int n = 0; n < 3; ++n)
+        if (wordOf (state, n) != wordOf (expected, n))
+            return refused ("state/format", "the state was saved by another version of Tactus, " + quote (wordOf (state, 1).substr (0, 20)) + "; this is " + quote (version),
+                            "save it again with this version: a state is not a file format that outlives a version");
+    return refused ("state/graph", "the state is that of another graph, or of this one at another rate", "restore it into a run of the graph that it was saved from");
+}
+}   // namespace
+
+std::optional<Message> Run::cannotSave() const
+{
+    if (runner) return refused ("state/live", "a clock ticks the run, so it has no state at rest", "save and restore in a loop of your own, which ticks the run");
+    if (running == nullptr) return refused ("state/live", "nothing has been loaded", "load a graph first");
+    if (&running->newest() != &running->plan())
+        return refused ("state/edit", "an edit waits for the next tick, which will begin with its plan", "run a tick, then save or restore");
+    return {};
+}
+
+const std::string& Run::hashOf (const graph::Graph& graph)
+{
+    if (const auto serial = running->plan().serial(); serial != hashed_serial)
+    {
+        std::string text = snapshotHash (snapshotOf (graph, {}, graph.folder));
+        for (const auto& path : assets.paths)
+            text += fileHash (path).value_or ("");
+        graph_hash = contentHash (text);
+        hashed_serial = serial;
+    }
+    return graph_hash;
+}
+
+void Run::serialize (StateArchive& archive, const MoreState& more)
+{
+    archive (now);
+    running->serialize (archive);
+    archive.enter ("loop", {});
+    if (more) more (archive);
+}
+
+Result<std::vector<std::byte>> Run::save (const graph::Graph& graph, const MoreState& more)
+{
+    if (auto why = cannotSave()) return std::move (*why);
+    const auto head = headOf (hashOf (graph), rate());
+    std::vector<std::byte> bytes, state;
+    state.reserve (4096);
+    StateArchive archive { state };
+    serialize (archive, more);
+    if (archive.isRefused())
+        return refused ("state/refused", archive.refusal(), "leave it out of runs that are saved");
+    bytes.reserve (head.size() + hash_size + state.size());
+    append (bytes, head);
+    append (bytes, contentHash (textOf (state)));
+    bytes.insert (bytes.end(), state.begin(), state.end());
+    return bytes;
+}
+
+Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& graph, const MoreState& more)
+{
+    if (auto why = cannotSave()) return std::move (*why);
+    if (log && ! log_ended)
+        return refused ("state/log", "the run is logged, and a replay of its log could not follow", "end the log first, or restore in a run without a log");
+    if (running->isEmergency())
+        return refused ("state/stopped", "the emergency stop is pressed, which a state does not undo", "rearm the run first, once it is safe");
+    const auto head = headOf (hashOf (graph), rate());
+    if (! textOf (bytes).starts_with (head)) return otherHead (textOf (bytes), head);
+    const auto rest = bytes.subspan (head.size());
+    if (rest.size() < hash_size || textOf (rest.first (hash_size)) != contentHash (textOf (rest.subspan (hash_size))))
+        return refused ("state/damaged", "the state is cut off or has been changed", "give the bytes that save() returned, unchanged");
+
+    std::vector<std::byte> kept;
+    StateArchive keep { kept };
+    serialize (keep, more);
+    if (keep.isRefused()) return refused ("state/refused", keep.refusal(), "leave it out of runs that are saved");
+    const auto readFrom = [&] (std::span<const std::byte> from) {
+        StateArchive archive { from };
+        serialize (archive, more);
+        if (! archive.isAtEnd()) archive.refuse ("has bytes that nothing reads");
+        return archive.refusal();
+    };
+    const auto why = readFrom (rest.subspan (hash_size));
+    if (why.empty()) return {};
+    (void)readFrom (kept);
+    return refused ("state/graph", "the state does not fit this run: " + why, "restore it into a run with the same graph, options and devices");
+}
+
+}   // namespace tactus

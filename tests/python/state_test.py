@@ -1,0 +1,282 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The state of a run: saved at any tick and restored in the same run or in another one, it goes on with the same bits. Two runs are compared by the bytes of
+their states, which contain every output, every value under way, and what the guards have counted."""
+
+import json
+import unittest
+
+import numpy as np
+import tactus
+from support import GRAPHS, TestCase, drag, quiet
+
+PRESETS = sorted(GRAPHS.glob("*.json"))
+SAVES = 1000   # over all presets
+
+
+def picture(kind, path):
+    """In place of the pictures of presets, which Python does not read."""
+    return np.random.default_rng(1).random((40, 60)) if kind == "image" else None
+
+
+def engine(graph, **options):
+    return quiet(tactus.Engine, tactus.Graph(str(graph)) if not isinstance(graph, tactus.Graph) else graph, assets=picture, **options)
+
+
+def fnv1a(data):
+    """contentHash, written apart from it."""
+    value = 0xcbf29ce484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001b3 % 2**64
+    return b"%016x" % value
+
+
+def parts(state):
+    """The lines with the head, and the bytes behind the checksum."""
+    head = state.index(b"\n", state.index(b"\n") + 1) + 1
+    return state[:head], state[head + 16:]
+
+
+def with_checksum(head, payload):
+    return head + fnv1a(payload) + payload
+
+
+class EveryPreset(TestCase):
+    def test_random_saves_and_restores_have_the_bits_of_a_run_that_goes_on(self):
+        each = -(-SAVES // len(PRESETS))
+        total = 0
+        for number, preset in enumerate(PRESETS):
+            with self.subTest(preset=preset.name):
+                random = np.random.default_rng(number)
+                controls = list(json.loads(preset.read_text(encoding="utf-8")).get("controls", {}))
+                run, other = engine(preset), engine(preset)
+                start = run.save()
+                other.step(n=int(random.integers(1, 300)))   # another past
+                for _ in range(each):
+                    run.step(n=int(random.integers(1, 120)))
+                    if controls and random.random() < 0.3:
+                        run.control(str(random.choice(controls)), float(random.random()))
+                    state, n = run.save(), int(random.integers(1, 60))
+                    self.assertEqual(run.save(), state)   # saving changes nothing
+                    run.step(n=n)
+                    after = run.save()
+                    again = run if random.random() < 0.5 else other
+                    again.restore(state)
+                    self.assertEqual(again.save(), state)
+                    again.step(n=n)
+                    self.assertEqual(again.save(), after)
+                    total += 1
+                run.restore(start)   # a reset
+                fresh = engine(preset)
+                self.assertEqual(run.save(), fresh.save())
+                for one in (run, fresh):
+                    one.step(n=100)
+                self.assertEqual(run.save(), fresh.save())
+        self.assertGreaterEqual(total, SAVES)
+
+
+class EveryNode(TestCase):
+    """Each type alone, with random inputs. A part that a node leaves out of its state shows when a run with another past restores it."""
+    SIZES = {"m": 2e-3, "rad": 0.5, "N": 2.0, "m/s": 0.5}
+
+    @staticmethod
+    def inputs_of(sheet):
+        """By name, the width and the row of each input; two entries of each list."""
+        for row in sheet["inputs"]:
+            for name in [f"n.{row['id']}[0]", f"n.{row['id']}[1]"] if row.get("array") else ["n." + row["id"]]:
+                yield name, len(row.get("components", "x")), row
+
+    def rows(self, sheet, random, n):
+        walk = {}
+        for name, width, row in self.inputs_of(sheet):
+            values = np.cumsum(self.SIZES.get(row["unit"], 1.0) / 10 * random.normal(size=(n, width)), axis=0)
+            if row.get("quantity") == "hit":
+                values = np.abs(values) * (random.random((n, 1)) < 0.1)
+            walk[name] = values[:, 0] if width == 1 else values
+        return walk or None
+
+    def make(self, kind, sheet):
+        graph = tactus.Graph(name="one", rate=2000)
+        if kind.startswith("device."):
+            graph.add_node("n", kind, role="tool")
+            graph.set_device("tool", {"driver": "sim", "hand": {"stiffness": 300.0, "damping": 2.0, "path": "circle"}})
+        else:
+            graph.add_node("n", kind)
+        return engine(graph, feed={name: np.zeros(3) if width == 3 else 0.0 for name, width, _ in self.inputs_of(sheet)})
+
+    def test_each_type_goes_on_where_it_was_saved(self):
+        left_out = {}
+        for kind, sheet in tactus.nodes().items():
+            with self.subTest(type=kind):
+                random = np.random.default_rng(5)
+                try:
+                    run, other = self.make(kind, sheet), self.make(kind, sheet)
+                except tactus.Error as why:   # it needs settings, which presets have
+                    left_out[kind] = str(why)
+                    continue
+                for one, n in ((run, 150), (other, 90)):
+                    one.step(self.rows(sheet, random, n), n=n)
+                state = run.save()
+                other.restore(state)
+                self.assertEqual(other.save(), state)
+                for _ in range(3):
+                    rows = self.rows(sheet, random, 100)
+                    for one in (run, other):
+                        one.step(rows, n=100)
+                    self.assertEqual(run.save(), other.save())
+        self.assertLess(len(left_out), 4, left_out)
+
+
+class Count(tactus.Node):
+    """Has a state that Tactus does not know."""
+    id = "own.count"
+    outputs = {"out": tactus.scalar("1")}
+
+    def prepare(self, rate_hz):
+        self.n = 0
+
+    def tick(self, inputs, params):
+        self.n += 1
+        return {"out": self.n}
+
+
+class Refusals(TestCase):
+    def test_states_that_do_not_fit_change_nothing(self):
+        run = engine(GRAPHS / "dry_wood.json")
+        run.step(n=100)
+        state = run.save()
+        head, payload = parts(state)
+        self.assertEqual(with_checksum(head, payload), state)
+        other = engine(GRAPHS / "denim.json").save()
+        faster = engine(GRAPHS / "dry_wood.json", rate=8000).save()
+        edited = tactus.Graph(str(GRAPHS / "dry_wood.json"))
+        edited.set_param("drag", "mu", 0.9)
+        for id, wrong in (("state/format", b""), ("state/format", b"hello"), ("state/graph", other), ("state/graph", faster),
+                          ("state/graph", engine(edited).save()), ("state/damaged", state[:-1]),
+                          ("state/damaged", state + b"\0"), ("state/damaged", state[:-1] + bytes([state[-1] ^ 1])), ("state/damaged", head),
+                          ("state/format", state.replace(b" 0.", b" 9.", 1)), ("state/graph", with_checksum(head, payload + b"\0")),
+                          ("state/graph", with_checksum(head, payload[:-1]))):
+            self.fails(id, run.restore, wrong)
+            self.assertEqual(run.save(), state)
+        self.fails("argument/type", run.restore, "text")
+
+    def test_forged_states_are_refused_or_run(self):
+        """Whatever the bytes are, nothing crashes (this test runs with the address sanitizer, too)."""
+        random = np.random.default_rng(3)
+        for preset in PRESETS:
+            run = engine(preset)
+            run.step(n=200)
+            head, payload = parts(run.save())
+            for _ in range(20):
+                forged = bytearray(payload)
+                for at in random.integers(0, len(forged), int(random.integers(1, 6))):
+                    forged[at] = int(random.choice([0, 1, 127, 128, 255, int(random.integers(256))]))
+                before = run.save()
+                try:
+                    run.restore(with_checksum(head, bytes(forged)))
+                except tactus.Error as why:
+                    self.assertEqual(why.id, "state/graph")
+                    self.assertEqual(run.save(), before)
+                run.step(n=20)
+
+    def test_what_cannot_be_saved_is_named(self):
+        held = engine(GRAPHS / "dry_wood.json", devices={"stylus": tactus.PushedDevice()})
+        self.assertIn("'stylus'", str(self.fails("state/refused", held.save)))
+
+        graph = tactus.Graph(name="count", rate=1000)
+        graph.add_node("here", Count.id)
+        self.assertIn("'here'", str(self.fails("state/refused", engine(graph, nodes=[Count]).save)))
+        live = engine(GRAPHS / "dry_wood.json")
+        live.start(duration=0.01)
+        self.fails("engine/not_now", live.save)
+        live.stop()
+
+
+class Uses(TestCase):
+    def pushed(self, **rules):
+        return engine(GRAPHS / "dry_wood.json", devices={"stylus": tactus.PushedDevice(simulated=True, **rules)})
+
+    def test_a_loop_of_steps_with_a_pushed_device(self):
+        for rules in ({}, {"between": "linear", "step_effort": "mean"}, {"between": "by_velocity", "step_effort": "mean"}):
+            with self.subTest(rules=rules):
+                path = np.cumsum(np.random.default_rng(1).normal(0, 2e-4, (60, 3)), axis=0)
+
+                def play(run, rows):
+                    forces = []
+                    for at in rows:
+                        run.push("stylus", at)
+                        run.step(1 / 60)   # a remainder is kept
+                        forces.append(run.take("stylus").force)
+                    return np.array(forces)
+                run, clone = self.pushed(**rules), self.pushed(**rules)
+                play(run, path[:30])
+                state = run.save()
+                last = run.take("stylus").force
+                expected = play(run, path[30:])
+                clone.restore(state)
+                self.same_bits(clone.take("stylus").force, last)
+                self.same_bits(play(clone, path[30:]), expected)
+                run.restore(state)
+                self.same_bits(play(run, path[30:]), expected)
+
+    def test_what_was_set_before_the_state_is_in_it(self):
+        run, other = engine(drag(), feed={"drag.position": np.zeros(3)}), engine(drag(), feed={"drag.position": np.zeros(3)})
+        run.set("drag.mu", 0.7)       # before the first tick: at once
+        state = run.save()
+        other.restore(state)
+        self.assertEqual(other.save(), state)
+        run.step(n=10)
+        run.set("drag.mu", 0.2)       # a ramp, which has not begun
+        state = run.save()
+        run.step(n=500)
+        after = run.save()
+        other.restore(state)
+        other.step(n=500)
+        self.assertEqual(other.save(), after)
+        fresh = engine(drag(), feed={"drag.position": np.zeros(3)})
+        start = fresh.save()
+        fresh.step(n=5)
+        fresh.restore(start)
+        fresh.set("drag.mu", 0.9)     # before the first tick again: at once
+        again = engine(drag(), feed={"drag.position": np.zeros(3)})
+        again.set("drag.mu", 0.9)
+        for one in (fresh, again):
+            one.step(n=1)
+        self.assertEqual(fresh.save(), again.save())
+
+    def test_a_stop_is_not_undone(self):
+        run = engine(GRAPHS / "dry_wood.json")
+        run.step(n=400)
+        before = run.save()
+        run.emergency_stop()
+        self.fails("state/stopped", run.restore, before)
+        run.step(n=400)
+        stopped = run.save()
+        self.fails("state/stopped", run.restore, before)
+        run.rearm()
+        run.restore(stopped)          # a state of a stop is one
+        self.assertTrue(run.status().is_emergency)
+        run.step(n=100)
+        run.rearm()
+        run.restore(before)
+        run.step(n=1)
+        self.assertFalse(run.status().is_emergency)
+
+    def test_an_edited_graph_is_another_one(self):
+        graph = tactus.Graph(str(GRAPHS / "dry_wood.json"))
+        run = engine(graph)
+        run.step(n=10)
+        state = run.save()
+        graph.add_node("more", "signal.constant")
+        run.edit(graph)
+        self.fails("state/edit", run.save)
+        run.step(n=1)
+        self.fails("state/graph", run.restore, state)
+        edited = run.save()
+        run.step(n=10)
+        run.restore(edited)
+        self.assertEqual(run.save(), edited)
+
+
+if __name__ == "__main__":
+    unittest.main()
