@@ -8,6 +8,7 @@
 #include <host/cli/progress.hpp>
 #include <host/cli/report.hpp>
 #include <tactus/plan/flat/flatten.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -38,7 +39,14 @@ void say (const fs::path& folder, const WrittenStems& written)
     };
     std::cout << quotePath (folder.string()) << ": " << written.files.size() << " files of " << written.frames << " samples at "
               << roundedText (written.rate_hz, 9) << " Hz" << counted ("mix", "mix", "mixes") << counted ("axis", "axis", "axes")
-              << counted ("layer", "layer", "layers") << counted ("not_mixed", "signal that is not mixed", "signals that are not mixed") << "\n";
+              << counted ("layer", "layer", "layers") << counted ("not_mixed", "signal that is not mixed", "signals that are not mixed")
+              << counted ("clip", "clip", "clips") << "\n";
+    for (const auto& f : written.files)
+        if (! f.not_applied.empty() && f.kind == "not_mixed")
+            std::cout << "    " << printableName (f.file) << " is the signal of " << printableName (f.from) << ", without "
+                      << printableName (listText (f.not_applied)) << ", through which it reaches the motor\n";
+    for (const auto& m : written.losses)
+        std::cout << "    clips as " << m.where << ": " << m.text << "\n";
     for (const auto& s : written.sums)
         std::cout << "    the layers of " << printableName (s.mixer) << " add up to its mix within " << amountText (s.difference, s.unit) << ", at a peak of "
                   << amountText (s.peak, s.unit) << "\n";
@@ -92,6 +100,10 @@ void StemCommand::addTo (const Command& command)
                            command.addFlag ("--stem-mono", is_mono, "Vectors become their component in the direction in which the mix moves most"),
                            command.addOption ("--stem-loop", loop,
                                               "Blend the end into the start over this time, as in \"20 ms\", so that the files can be repeated"),
+                           command.addOption ("--stem-clips", clips,
+                                              "Write each layer and each unmixed signal as a clip, too: haptic, ahap, hjif, or several of them")
+                               .separatedBy (',')
+                               .oneValueEach(),
                            command.addFlag ("--no-dither", has_no_dither, "Round to integers without noise") };
     for (const auto& option : needing)
         option.needs (stems);
@@ -102,6 +114,11 @@ void StemCommand::addTo (const Command& command)
 StemOptions StemCommand::options() const
 {
     StemOptions to { .rate_hz = rate_hz, .is_mono = is_mono, .has_dither = ! has_no_dither };
+    for (const auto& c : clips)
+    {
+        if (std::ranges::count (stemClipFormats(), c) == 0) throw UsageError ("--stem-clips", "a clip is one of " + listText (stemClipFormats()));
+        if (std::ranges::count (to.clips, c) == 0) to.clips.push_back (c);
+    }
     if (! format.empty()) to.format = format == "pcm16" ? SampleFormat::pcm16 : format == "pcm24" ? SampleFormat::pcm24
                                                                                                   : SampleFormat::float32;
     if (! loop.empty()) to.loop_s = readAmount ("--stem-loop", loop, "s", "20 ms");

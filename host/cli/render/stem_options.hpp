@@ -5,6 +5,7 @@
 #include <host/tools/stems/stems.hpp>
 
 #include <string>
+#include <vector>
 
 namespace tactus::host
 {
@@ -14,6 +15,7 @@ struct StemCommand
 {
     std::string folder;   ///< "": no stems
     std::string format, scale, loop;
+    std::vector<std::string> clips;
     double rate_hz = 0.0;
     bool is_mono = false, has_no_dither = false;
 

@@ -24,13 +24,12 @@ Id typeOf (const plan::FlatNode& n) { return n.type == nullptr ? Id {} : n.type-
 class Walk
 {
 public:
-    explicit Walk (const plan::Flat& flat) : f (flat), into (f.nodes.size()), carries (f.nodes.size())
+    explicit Walk (const plan::Flat& flat) : f (flat), into (f.nodes.size()), leads_to (f.nodes.size()), carries (f.nodes.size())
     {
         for (std::size_t w = 0; w < f.wires.size(); ++w)
             into[at (f.wires[w].to.node)].push_back (w);
-        std::vector<std::vector<int>> leads (f.nodes.size());
         for (const auto& w : f.wires)
-            if (w.from && w.to.role == Role::input) leads[at (w.from->node)].push_back (w.to.node);
+            if (w.from && w.to.role == Role::input) leads_to[at (w.from->node)].push_back (w.to.node);
         std::vector<int> next;
         for (int n = 0; n < f.nodeCount(); ++n)
             if (isMix (n)) next.push_back (n);
@@ -38,7 +37,7 @@ public:
         {
             const int n = next.back();
             next.pop_back();
-            for (const int to : leads[at (n)])
+            for (const int to : leads_to[at (n)])
                 if (! f.node (to).muted && ! carries[at (to)])
                 {
                     carries[at (to)] = true;
@@ -58,6 +57,8 @@ public:
             found.is_direct = found.is_direct || (wire.from && isMix (wire.from->node));
             follow (w, found);
         }
+        for (auto& u : found.unmixed)
+            u.through = between (f.wires[u.wire].to.node, input);
         std::ranges::sort (found.mixers);
         std::ranges::sort (found.unmixed, {}, &UnmixedWire::wire);
         return found;
@@ -71,6 +72,7 @@ public:
 private:
     const plan::Flat& f;
     std::vector<std::vector<std::size_t>> into;   // by node: its wires
+    std::vector<std::vector<int>> leads_to;       // by node: the nodes that its outputs are inputs of
     std::vector<bool> carries;                    // by node: a mix goes into it
     std::set<int> seen;
 
@@ -78,6 +80,39 @@ private:
     static bool isInto (const plan::FlatWire& w, const plan::PortRef& input)
     {
         return w.to.role == input.role && w.to.port == input.port && w.to.index == input.index;
+    }
+
+    /// The nodes on all ways from one node, with it, to an input of another node.
+    std::vector<int> between (int first, const plan::PortRef& input) const
+    {
+        std::vector<bool> leads (f.nodes.size()), comes (f.nodes.size());
+        std::vector<int> next;
+        const auto visit = [&] (std::vector<bool>& seen_there, int n) {
+            if (n == input.node || f.node (n).muted || seen_there[at (n)]) return;
+            seen_there[at (n)] = true;
+            next.push_back (n);
+        };
+        for (const auto w : into[at (input.node)])
+            if (f.wires[w].from && isInto (f.wires[w], input)) visit (leads, f.wires[w].from->node);
+        while (! next.empty())
+        {
+            const int n = next.back();
+            next.pop_back();
+            for (const auto w : into[at (n)])
+                if (f.wires[w].from && f.wires[w].to.role == Role::input) visit (leads, f.wires[w].from->node);
+        }
+        visit (comes, first);
+        while (! next.empty())
+        {
+            const int n = next.back();
+            next.pop_back();
+            for (const int to : leads_to[at (n)])
+                visit (comes, to);
+        }
+        std::vector<int> all;
+        for (int n = 0; n < f.nodeCount(); ++n)
+            if (leads[at (n)] && comes[at (n)]) all.push_back (n);
+        return all;
     }
 
     bool isMix (int node) const { return isLayerMixer (f.node (node)) && f.node (node).runs(); }

@@ -19,6 +19,8 @@ struct UnmixedWire
 {
     std::size_t wire = 0;   ///< number in Flat::wires
     std::string from;       ///< "wall.force"; "" for the output of a placeholder
+
+    std::vector<int> through {};   ///< the nodes between this wire and the motor, numbers in Flat::nodes
 };
 
 /// An input of a node that drives a device, with a wire into it.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stems.hpp"
+#include "stem_clips.hpp"
 
 #include <host/base/platform/atomic_folder.hpp>
 #include <host/devices/audio/listening.hpp>
@@ -84,6 +85,25 @@ struct Stem
     std::vector<std::vector<float>> channels {};
     std::string role {};   ///< of the motor; "" if it is not known
 };
+
+/// What stems.json says about a file.
+Json describe (const WrittenStem& s)
+{
+    const auto listOf = [] (const std::vector<std::string>& texts) {
+        auto list = Json::array();
+        for (const auto& t : texts)
+            list.push_back (t);
+        return list;
+    };
+    Json file { { "file", s.file }, { "kind", s.kind }, { "label", s.label }, { "from", s.from } };
+    file["channels"] = listOf (s.channels);
+    if (! s.not_applied.empty()) file["not_applied"] = listOf (s.not_applied);
+    file["unit"] = s.unit;
+    file["full_scale"] = s.full_scale;
+    file["peak"] = s.peak;
+    file["clipped"] = s.clipped;
+    return file;
+}
 
 /// The taps of a port.
 std::vector<std::size_t> tapsOf (const Plan& plan, const std::string& port)
@@ -362,6 +382,8 @@ struct Stems::Impl
                 const auto stem = add ("not_mixed", "not_mixed_" + asName (u.from), roleOf (m));
                 stems[stem].to.from = u.from;
                 stems[stem].to.label = plan.flat().nameOf (plan.flat().wires[u.wire].to);
+                for (const int n : u.through)
+                    stems[stem].to.not_applied.push_back (plan.flat().node (n).path);
                 for (const auto p : parts)
                     addChannel (stem, plan.taps()[p].name, { { &plan.taps()[p], plan.flat().wires[u.wire].gain } });
             }
@@ -483,6 +505,40 @@ struct Stems::Impl
         }
     }
 
+    /// The clips of the layers and of what is not mixed, with their texts.
+    Result<std::vector<std::pair<WrittenStem, std::string>>> clips (Messages& losses) const
+    {
+        std::vector<std::pair<const Stem*, OneSignal>> parts;
+        double most = 0.0;
+        for (const auto& s : stems)
+            if (! options.clips.empty() && (s.to.kind == "layer" || s.to.kind == "not_mixed"))
+                most = std::max (most, parts.emplace_back (&s, oneSignalOf (s.channels, s.to.channels)).second.peak);
+        std::vector<std::pair<WrittenStem, std::string>> made;
+        for (const auto& [s, signal] : parts)
+            for (const auto& format : options.clips)
+            {
+                WrittenStem to { .file = fs::path (s->to.file).replace_extension (format).string(), .kind = "clip", .label = s->to.label, .from = s->to.from };
+                to.channels = { signal.channel };
+                to.not_applied = s->to.not_applied;
+                to.unit = s->to.unit;
+                const double peak = options.scale == StemOptions::Scale::each ? signal.peak : most;
+                to.full_scale = peak > 0.0 ? peak : 1.0;
+                to.peak = signal.peak;
+                Messages lost;
+                const auto label = s->to.label.empty() ? s->to.from : s->to.label;
+                auto text = clipTextOf (signal, ownRate(), to.full_scale, label, format, lost);
+                if (! text) return std::move (text).error();
+                for (auto& m : lost)
+                {
+                    m.where = '.' + format;
+                    const auto isSame = [&] (const Message& known) { return known.where == m.where && known.text == m.text; };
+                    if (std::ranges::none_of (losses, isSame)) losses.push_back (std::move (m));
+                }
+                made.emplace_back (std::move (to), std::move (*text));
+            }
+        return made;
+    }
+
     std::string bytesOf (Stem& s, double rate_hz) const
     {
         const auto format = options.format;
@@ -559,29 +615,32 @@ Result<WrittenStems> Stems::write (const fs::path& folder, const std::string& na
     if (s.options.is_mono) s.fold();
     if (s.options.loop_s > 0.0)
         if (auto looped = s.loop (rate_hz); ! looped) return looped.error();
+    Messages losses;
+    const auto clips = s.clips (losses);
+    if (! clips) return clips.error();
     s.resample (rate_hz);
     s.findScale();
 
     auto made = AtomicFolder::create (folder, list_of_files);
     if (! made) return std::move (made).error();
     WrittenStems written { .rate_hz = rate_hz, .frames = s.frames };
+    written.losses = std::move (losses);
     std::string list;
     auto files = Json::array(), sums = Json::array();
+    const auto note = [&] (const WrittenStem& to) {
+        list += to.file + '\n';
+        files.push_back (describe (to));
+        written.files.push_back (to);
+    };
     for (auto& stem : s.stems)
     {
         if (auto done = made->write (stem.to.file, s.bytesOf (stem, rate_hz)); ! done) return done.error();
-        list += stem.to.file + '\n';
-        auto named = Json::array();
-        for (const auto& c : stem.to.channels)
-            named.push_back (c);
-        Json file { { "file", stem.to.file }, { "kind", stem.to.kind }, { "label", stem.to.label }, { "from", stem.to.from } };
-        file["channels"] = named;
-        file["unit"] = stem.to.unit;
-        file["full_scale"] = stem.to.full_scale;
-        file["peak"] = stem.to.peak;
-        file["clipped"] = stem.to.clipped;
-        files.push_back (std::move (file));
-        written.files.push_back (stem.to);
+        note (stem.to);
+    }
+    for (const auto& [to, text] : *clips)
+    {
+        if (auto done = made->write (to.file, text); ! done) return done.error();
+        note (to);
     }
     for (const auto& m : s.mixers)
     {

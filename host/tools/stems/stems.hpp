@@ -18,6 +18,9 @@
 namespace tactus::host
 {
 
+/// The endings of the clip files that stems can be written as: haptic, ahap, hjif.
+const std::vector<std::string>& stemClipFormats();
+
 struct StemOptions
 {
     SampleFormat format = SampleFormat::float32;
@@ -34,13 +37,18 @@ struct StemOptions
     };
     Scale scale = Scale::physical;
     double full_scale = 1.0;
+
+    /// Formats of stemClipFormats() in which each layer and each signal that is not mixed is also written as a clip of one signal. Amplitude 1 is the
+    /// loudest sample of all clips, so that they keep their proportions; with Scale::each, that of the clip.
+    std::vector<std::string> clips {};
 };
 
 /// A file that was written.
 struct WrittenStem
 {
-    std::string file {}, kind {}, label {}, from {};   ///< kind: "mix", "axis", "layer" or "not_mixed"; from: the port
+    std::string file {}, kind {}, label {}, from {};   ///< kind: "mix", "axis", "layer", "not_mixed" or "clip"; from: the port
     std::vector<std::string> channels {};              ///< "motor.force.x"
+    std::vector<std::string> not_applied {};           ///< the nodes that this signal, which is not mixed, passes on its way to the motor
     std::string unit {};                               ///< SI symbol, "" if unknown
     double full_scale = 1.0;                           ///< the value of a sample of 1, in this unit
     double peak = 0.0;                                 ///< in the unit
@@ -60,6 +68,7 @@ struct WrittenStems
         double difference = 0.0, peak = 0.0;   ///< the largest values, in the unit
     };
     std::vector<Sum> sums {};
+    Messages losses {};   ///< what clips cannot hold, each kind once
 };
 
 /// Records the parts of a run: the signals of all actuators of each role, each of these signals, each layer of the mixers before them, and the

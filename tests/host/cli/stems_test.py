@@ -125,6 +125,53 @@ class Stems(unittest.TestCase):
             self.assertLess(max(abs(a - b) for a, b in zip(mix[0], parts["not_mixed_side_out.wav"][0])), 4 * step + 1e-6)
             self.assertAlmostEqual(amplitude(parts["not_mixed_side_out.wav"][0], 20, 44100), 0.5, delta=2e-3)
 
+    def test_clips_have_the_envelopes_of_the_layers(self):
+        formats = ("haptic", "ahap", "hjif")
+        said = self.render("--stem-clips", ",".join(formats))
+        clips = [f for f in said["files"] if f["kind"] == "clip"]
+        parts = [f for f in said["files"] if f["kind"] in ("layer", "not_mixed")]
+        self.assertEqual([f["file"] for f in clips], [p["file"][:-3] + name for p in parts for name in formats])
+        loudest = max(p["peak"] for p in parts)
+        self.assertEqual({f["full_scale"] for f in clips}, {loudest})
+        self.assertIn("the wave becomes its envelope, in steps of 10 ms", self.done.stdout)
+        for part in parts:
+            samples = floats(self.out / part["file"])[0][0]
+            name = part["file"][:-4]
+            said_points = json.loads((self.out / (name + ".haptic")).read_text())["signals"]["continuous"]["envelopes"]["amplitude"]
+            for p in said_points[1:-1]:   # in the middle of each 10 ms
+                first, end = round((p["time"] - 0.005) * 4000), round((p["time"] + 0.005) * 4000)   # a sample at an edge may be in either window
+                least, most = (max(map(abs, samples[max(first + by, 0):end - by])) for by in (1, -1))
+                self.assertGreaterEqual(p["amplitude"] * loudest, least - 1e-5 * loudest)
+                self.assertLessEqual(p["amplitude"] * loudest, most + 1e-5 * loudest)
+            self.assertGreater(len(said_points), 90 if part["peak"] > 0 else 0)
+            curves = json.loads((self.out / (name + ".hjif")).read_text())["perceptions"][0]["channels"][0]["bands"][0]
+            frames = curves["effects"][0]["keyframes"]
+            self.assertLess(max(abs(k["amplitude_modulation"] * loudest - v) for k, v in zip(frames, samples)), 1e-6)
+            events = [e["Event"] for e in json.loads((self.out / (name + ".ahap")).read_text())["Pattern"] if "Event" in e]
+            self.assertTrue(all(e["EventType"] == "HapticContinuous" for e in events), events[:2])
+        for f in clips:   # other commands read them
+            run("convert", self.out / f["file"], self.folder / "back.json")
+
+        vectors = self.render("--stem-clips", "haptic", "--stem-scale", "each", graph=GRAPHS / "bronze_bell.json")
+        wall = next(f for f in vectors["files"] if f["file"] == "not_mixed_wall_force.haptic")
+        self.assertEqual((wall["channels"], wall["full_scale"]), (["along 0 0 1"], wall["peak"]))
+        self.assertEqual(sorted(f["file"] for f in vectors["files"] if f["kind"] == "clip"), sorted(p.name for p in self.out.glob("*.haptic")))
+        self.assertIn("one of haptic, ahap, hjif", run("render", self.graph, "--stems", self.out, "--stem-clips", "wav", status=2).stderr)
+
+    def test_nodes_between_what_is_not_mixed_and_the_motor_are_named(self):
+        graph = json.loads(json.dumps(MIXED))
+        graph["nodes"]["soft"] = {"type": "signal.gain", "params": {"gain": 0.5}}
+        graph["wires"][3:] = ["desk.out -> soft.in", "side.out -> soft.in", "soft.out -> motor.force.z"]
+        self.graph.write_text(json.dumps(graph))
+        said = self.render()
+        self.assertEqual([f.get("not_applied") for f in said["files"] if f["kind"] == "not_mixed"], [["soft"]])
+        self.assertIn("not_mixed_side_out.wav is the signal of side.out, without soft, through which it reaches the motor", self.done.stdout)
+        self.assertAlmostEqual(max(floats(self.out / "not_mixed_side_out.wav")[0][0]), 0.5, delta=1e-3)
+        graph["wires"][-2:] = ["desk.out -> motor.force.z", "side.out -> motor.force.z"]
+        self.graph.write_text(json.dumps(graph))
+        self.assertNotIn("not_applied", json.dumps(self.render()))
+        self.assertNotIn("through which", self.done.stdout)
+
     def test_dither_is_noise_of_one_step_and_spares_silence(self):
         said = self.render("--stem-format", "pcm16", "--stem-scale", "1000 N")
         quiet = integers(self.out / "not_mixed_side_out.wav")[0][0]

@@ -21,6 +21,21 @@ namespace
 {
 plan::Flat flatOf (const graph::Graph& g) { return plan::flatten (g, catalogue(), {}, nullptr).flat; }
 
+/// By signal that is not mixed: the nodes between it and the motor.
+std::vector<std::string> throughOf (const graph::Graph& g)
+{
+    std::vector<std::string> found;
+    const auto flat = flatOf (g);
+    for (const auto& m : sinkMixes (flat))
+        for (const auto& u : m.unmixed)
+        {
+            found.push_back (u.from + ":");
+            for (const int n : u.through)
+                found.back() += " " + flat.node (n).path;
+        }
+    return found;
+}
+
 /// Two sources, 2 N and 3 N, a mixer `desk` with one layer, and a motor.
 Sketch sources()
 {
@@ -111,12 +126,17 @@ TEST_CASE ("a second wire into the motor, or into an input on the way to it, is 
         auto s = sources();
         s.wire ("desk.out -> motor.force.z").wire ("b.out -> motor.force.x");
         check (s.graph, { "b.out -> motor.force.x" });
+        CHECK (throughOf (s.graph) == std::vector<std::string> { "b.out:" });
     }
     SECTION ("into the input of a filter")
     {
         auto s = sources();
         s.node ("soft", "signal.gain").wire ("desk.out -> soft.in").wire ("b.out -> soft.in").wire ("soft.out -> motor.force.z");
         check (s.graph, { "b.out -> soft.in" });
+        CHECK (throughOf (s.graph) == std::vector<std::string> { "b.out: soft" });
+        s.node ("half", "signal.gain").node ("other", "signal.gain").wire ("soft.out -> half.in").wire ("half.out -> motor.force.x");
+        s.wire ("half.out -> other.in");   // which leads to no motor
+        CHECK (throughOf (s.graph) == std::vector<std::string> { "b.out: soft half" });
     }
     SECTION ("into a node that adds")
     {
