@@ -3,7 +3,7 @@
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
-#include <host/app/palette/node_list.hpp>
+#include <host/app/palette/search.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
@@ -83,12 +83,12 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
 
 bool Canvas::isInterestedInDragSource (const SourceDetails& dragged)
 {
-    return ! NodeList::typeOf (dragged.description).empty() || ! fileOfDragged (dragged.description.toString().toStdString()).empty();
+    return ! typeOfDragged (dragged.description.toString().toStdString()).empty() || ! fileOfDragged (dragged.description.toString().toStdString()).empty();
 }
 
 void Canvas::itemDragMove (const SourceDetails& dragged)
 {
-    if (NodeList::typeOf (dragged.description).empty()) return hint (TRANS ("Drop it to add it to this graph, as a node and a layer."));
+    if (typeOfDragged (dragged.description.toString().toStdString()).empty()) return hint (TRANS ("Drop it to add it to this graph, as a node and a layer."));
     const auto* wire = shown->wireAt (window.toCanvas (dragged.localPosition.toFloat()), wire_reach / window.zoom);
     highlights.hovered = wire != nullptr ? wire->id : 0;
     hint (wire != nullptr ? filled (TRANS ("Drop it to insert it into %1"), wire->text) : TRANS ("Drop it to add it here"));
@@ -112,7 +112,7 @@ void Canvas::itemDropped (const SourceDetails& dragged)
         return;
     }
     const auto* wire = shown->nodeAt (at) == nullptr ? shown->wireAt (at, wire_reach / window.zoom) : nullptr;
-    if (onTypeDropped) onTypeDropped (NodeList::typeOf (dragged.description), { at, {}, wire != nullptr ? wire->id : 0 });
+    if (onTypeDropped) onTypeDropped (typeOfDragged (dragged.description.toString().toStdString()), { at, {}, wire != nullptr ? wire->id : 0 });
 }
 
 void Canvas::paintFileOver (juce::Graphics& g) const

@@ -147,6 +147,12 @@ std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>& entries, co
     return found;
 }
 
+static constexpr std::string_view dragged_node = "node ";   // before its type
+
+std::string asDragged (const PaletteEntry& e) { return std::string (dragged_node) + e.type; }
+
+std::string typeOfDragged (const std::string& dragged) { return dragged.starts_with (dragged_node) ? dragged.substr (dragged_node.size()) : std::string(); }
+
 PaletteSearch searchIn (std::vector<PaletteEntry> entries)
 {
     return [all = std::move (entries)] (const std::string& query) { return matching (all, query); };

@@ -30,6 +30,10 @@ struct PaletteType
     bool fits (const WireEnd&) const;   ///< whether it has a port for this end of a wire
 };
 
+/// The description of a node that is dragged from a list, and the type of a dragged node; empty if something else is dragged.
+std::string asDragged (const PaletteEntry&);
+std::string typeOfDragged (const std::string&);
+
 /// The types of the catalogue and the subgraphs of a graph, without the subgraphs that are or contain `patch`, where a node will be.
 std::vector<PaletteType> paletteTypes (const graph::Graph&, const Catalogue&, const std::string& patch = {});
 

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_ports.hpp"
-
-#include <tactus/graph/inside.hpp>
-#include <tactus/graph/instances.hpp>
-
 #include <algorithm>
 
 namespace tactus::host
@@ -11,37 +7,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr int most_nodes = 20000;              // twice as many as a processor core computes in a tick
-constexpr std::size_t most_in_one_scope = 4;   // instances of a port
-
-struct PortCollector
-{
-    const Catalogue& catalogue;
-    std::vector<ScopePort> all;
-    std::vector<const graph::Patch*> open {};   // those that contain the patch; a broken graph may contain itself
-    int nodes = 0;
-
-    /// `prefix` begins the names of the ports, and `first` their names in the first instances.
-    void patch (const graph::Graph& g, const graph::Patch& p, const std::string& prefix, const std::string& first, std::size_t instances)
-    {
-        if (open.size() > deepest_subgraph || std::ranges::count (open, &p) > 0) return;
-        open.push_back (&p);
-        for (const auto& node : p.nodes)
-        {
-            if (++nodes > most_nodes) break;
-            const auto count = static_cast<std::size_t> (std::max (1, graph::countOf (node).value_or (1)));
-            const auto path = prefix + node.name, in_first = first + node.name + (count > 1 ? "[0]" : "");
-            const auto face = faceOf (g, p, node, catalogue);
-            for (const auto* ports : { &face.outputs, &face.inputs, &face.params })
-                for (const auto& port : *ports)
-                    if (! port.isChoice())
-                        all.push_back ({ path + "." + port.id, path, node.id, node.type, port, in_first + "." + port.id, instances * count });
-            if (const auto inside = graph::insideOf (g, node)) patch (*inside.owner, *inside.patch, path + "/", in_first + "/", instances * count);
-        }
-        open.pop_back();
-    }
-};
-
 bool isOutput (const ScopePort& p, std::string_view id) { return p.port.role == Role::output && p.port.id == id; }
 
 bool reportsEnergy (const ScopePort& p)
@@ -73,13 +38,6 @@ bool isWired (const graph::Patch& patch, const std::string& node, const std::str
     return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node && w.to.port == port; });
 }
 }   // namespace
-
-std::vector<ScopePort> scopePorts (const graph::Graph& g, const Catalogue& c)
-{
-    PortCollector walk { c, {} };
-    walk.patch (g, g.root, {}, {}, 1);
-    return std::move (walk.all);
-}
 
 std::vector<std::string> energyPorts (const std::vector<ScopePort>& ports)
 {
@@ -119,7 +77,6 @@ bool PortNames::has (const std::string& port) const
 ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue& c)
 {
     const auto ports = scopePorts (g, c);
-    const auto* motor = find (ports, "device.force", Role::input, "force");
     ScopeSpec s;
     s.kind = kind;
     switch (kind)
@@ -128,14 +85,14 @@ ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue
     case ScopeKind::spectrum:
     case ScopeKind::spectrogram:
         if (kind == ScopeKind::spectrogram) s.seconds = 5.0;
-        if (motor != nullptr) s.ports.push_back (motor->instances > most_in_one_scope ? motor->first : motor->name);
+        if (const auto motor = motorPort (ports); ! motor.empty()) s.ports.push_back (motor);
         break;
     case ScopeKind::over:
         s.seconds = 2.0;
         s.x = firstOf (ports, "device.position", Role::output, "position");
         for (const char* family : { "friction.", "cut.", "deform." })
             if (s.y.empty()) s.y = firstOf (ports, family, Role::output, "force");
-        if (s.y.empty() && motor != nullptr) s.y = motor->first;
+        if (s.y.empty()) s.y = firstOf (ports, "device.force", Role::input, "force");
         s.state = stateFor (s.y, ports);
         break;
     case ScopeKind::energy:

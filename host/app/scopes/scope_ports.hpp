@@ -3,26 +3,11 @@
 
 #include "scope_model.hpp"
 
-#include <host/app/model/face.hpp>
+#include <host/app/location/scope_port.hpp>
 #include <tactus/run/probe_ring.hpp>
 
 namespace tactus::host
 {
-
-/// A port that can be probed.
-struct ScopePort
-{
-    std::string name;   ///< "drag.force", "grain/wave.value"
-    std::string path;   ///< "grain/wave"
-    graph::Id node = 0;
-    std::string type;   ///< the node's type in the catalogue
-    FacePort port;
-    std::string first;           ///< its name in the first instances: "finger[0]/drag.force"; the same as the name if there is only one
-    std::size_t instances = 1;   ///< how many ports have this name
-};
-
-/// All ports of a graph and its subgraphs that can be probed, node by node in the order of the file, outputs first.
-std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 
 /// The scopes for a newly opened graph: motor force over time, force against displacement, and energy. Leaves out
 /// scopes for which the graph has no ports, and the one for energy if more than most_energies ports report one, or if there are several

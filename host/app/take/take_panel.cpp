@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "take_panel.hpp"
 
+#include <host/app/location/scope_port.hpp>
 #include <host/app/model/message_text.hpp>
-#include <host/app/scopes/scope_ports.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/stretch_files.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
@@ -97,13 +97,13 @@ void TakePanel::listPorts (const graph::Graph& graph)
 {
     is_stale = false;
     names.clear();
-    for (const auto& p : scopePorts (graph, catalogue))
+    const auto all_ports = scopePorts (graph, catalogue);
+    for (const auto& p : all_ports)
         names.push_back (p.name);
     if (std::ranges::count (names, shown_port) == 0)
     {
-        const auto suggested = suggestedScope (ScopeKind::time, graph, catalogue).ports;
-        const auto first = names.empty() ? std::string() : names.front();
-        shown_port = suggested.empty() ? first : suggested.front();
+        shown_port = motorPort (all_ports);
+        if (shown_port.empty() && ! names.empty()) shown_port = names.front();
     }
     fillPorts();
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "question.hpp"
-
+#include <host/app/dialogs/question.hpp>
 #include <host/app/model/document.hpp>
 #include <host/app/storage/autosaver.hpp>
 #include <host/app/storage/recovery.hpp>

@@ -3,23 +3,23 @@
 
 #include "files.hpp"
 #include "node_palette.hpp"
-#include "question.hpp"
-#include "shade.hpp"
 #include "splitter.hpp"
 #include "status_line.hpp"
-#include "stem_export.hpp"
 #include "tabs.hpp"
 #include "top_bar.hpp"
 
+#include <host/app/browser/browser.hpp>
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/devices_panel/reach.hpp>
+#include <host/app/dialogs/question.hpp>
+#include <host/app/dialogs/shade.hpp>
 #include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
-#include <host/app/palette/node_list.hpp>
-#include <host/app/presets/browser.hpp>
+#include <host/app/node_list/node_list.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/problems/unfelt.hpp>
 #include <host/app/run/asset_load.hpp>
@@ -31,6 +31,7 @@
 #include <host/app/run/views/live_feed.hpp>
 #include <host/app/run/views/safety_strip.hpp>
 #include <host/app/scopes/scope_panel.hpp>
+#include <host/app/stems/stem_export.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/template_row.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which part of the window has the keyboard.
-#include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
+#include <host/app/dialogs/file_dialog_parts.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 

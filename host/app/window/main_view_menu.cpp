@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The menu of the window, and the dialogs for files.
 #include "appearance.hpp"
-#include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
+#include <host/app/dialogs/file_dialog_parts.hpp>
 #include <host/app/inspector/settings/file_text.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>

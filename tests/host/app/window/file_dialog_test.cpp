@@ -9,7 +9,7 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <host/app/window/file_dialog_parts.hpp>
+#include <host/app/dialogs/file_dialog_parts.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "question.hpp"
+#include "stem_job.hpp"
 
-#include <host/app/stems/stem_job.hpp>
+#include <host/app/dialogs/question.hpp>
 
 #include <functional>
 

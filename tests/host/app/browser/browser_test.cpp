@@ -3,7 +3,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
-#include <host/app/presets/browser.hpp>
+#include <host/app/browser/browser.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <chrono>

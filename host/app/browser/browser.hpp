@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "picture_store.hpp"
-#include "preset_list.hpp"
 #include "tag_chips.hpp"
 
+#include <host/app/presets/picture_store.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/settings.hpp>
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "search.hpp"
+#include <host/app/palette/search.hpp>
 
 #include <functional>
 
@@ -23,9 +23,6 @@ public:
     void refresh();   ///< call when there may be other entries; searches again, at once or when the list is shown
 
     const std::vector<PaletteEntry>& entries() const noexcept { return found; }
-
-    /// The type of a node that is dragged from the list; empty if something else is dragged.
-    static std::string typeOf (const juce::var& dragged);
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -11,7 +11,6 @@ namespace tactus::host
 namespace
 {
 constexpr int node_row_height = 26;
-constexpr auto dragged_node = "node ";   // before its type
 }   // namespace
 
 NodeList::NodeList()
@@ -72,12 +71,6 @@ void NodeList::add (int row)
     if (const auto* entry = entryAt (row); entry != nullptr && onAdd) onAdd (std::string (entry->type));   // a copy: adding searches again
 }
 
-std::string NodeList::typeOf (const juce::var& dragged)
-{
-    const auto text = dragged.toString();
-    return text.startsWith (dragged_node) ? text.substring (juce::String (dragged_node).length()).toStdString() : std::string();
-}
-
 /// The list of JUCE would drag the row in a window of its own, which needs a compositor.
 void NodeList::mouseDrag (const juce::MouseEvent& e)
 {
@@ -90,7 +83,7 @@ void NodeList::mouseDrag (const juce::MouseEvent& e)
     int x = 0, y = 0;
     juce::SparseSet<int> rows;
     rows.addRange ({ row, row + 1 });
-    container->startDragging (dragged_node + juce::String (entry->type), &list, list.createSnapshotOfRows (rows, x, y), false);
+    container->startDragging (juce::String (asDragged (*entry)), &list, list.createSnapshotOfRows (rows, x, y), false);
 }
 
 juce::String NodeList::getNameForRow (int row)
