@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_ports.hpp"
+
 #include <algorithm>
 
 namespace tactus::host

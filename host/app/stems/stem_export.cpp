@@ -12,15 +12,16 @@
 namespace tactus::host
 {
 
-void StemExport::ask (const graph::Graph& g)
+void StemExport::ask()
 {
+    const auto& g = desk.document.graph();
     const auto graph = std::make_shared<const graph::Graph> (g);
     const auto name = g.name.empty() ? TRANS ("graph") : fromUtf8 (g.name);
     const auto choice = [&] (const juce::String& label, const StemOptions& options) {
         return Question::Choice { label, [this, graph, name, options] {
                                      // A point would begin the ending of another kind of file.
                                      const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();
-                                     window.chooseFolder (legal + " stems", [this, graph, options] (const auto& into) { render (*graph, options, into); });
+                                     desk.chooseOwnFile (legal + " stems", [this, graph, options] (const auto& into) { render (*graph, options, into); });
                                  } };
     };
     constexpr double rate_hz = 48000.0;
@@ -35,26 +36,26 @@ void StemExport::ask (const graph::Graph& g)
     choices.push_back (choice (TRANS ("24 bit loop"), looped));
     choices.push_back (choice (TRANS ("Float"), {}));
     choices.push_back ({ TRANS ("Cancel"), {} });
-    window.question.ask (filled (TRANS ("Export the stems of %1"), name), about, std::move (choices));
+    desk.question.ask (filled (TRANS ("Export the stems of %1"), name), about, std::move (choices));
 }
 
 void StemExport::render (const graph::Graph& g, const StemOptions& options, const std::filesystem::path& into)
 {
     folder = into;
-    job.start (g, catalogue, into, options);
+    job.start (g, desk.types, into, options);
     title = filled (TRANS ("Rendering stems into %1"), fromUtf8 (into.filename().string()));
-    window.question.ask (title, {}, { { TRANS ("Cancel"), [this] { job.cancel(); } } });
+    desk.question.ask (title, {}, { { TRANS ("Cancel"), [this] { job.cancel(); } } });
 }
 
 void StemExport::attend()
 {
     if (! job.isRunning()) return;
-    if (! window.question.isOpen() || window.question.title() != title) return;   // another question comes first
+    if (! desk.question.isOpen() || desk.question.title() != title) return;   // another question comes first
     const auto result = job.take();
-    if (! result) return window.question.say (filled (TRANS ("%1 %"), juce::roundToInt (100.0 * job.share())));
-    window.question.cancel();
-    window.notify (*result ? filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()))
-                           : fromUtf8 (messageText (result->error())));
+    if (! result) return desk.question.say (filled (TRANS ("%1 %"), juce::roundToInt (100.0 * job.share())));
+    desk.question.cancel();
+    desk.notify (*result ? filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()))
+                         : fromUtf8 (messageText (result->error())));
 }
 
 }   // namespace tactus::host

@@ -3,9 +3,7 @@
 
 #include "stem_job.hpp"
 
-#include <host/app/dialogs/question.hpp>
-
-#include <functional>
+#include <host/app/desk/desk.hpp>
 
 namespace tactus::host
 {
@@ -14,24 +12,16 @@ namespace tactus::host
 class StemExport
 {
 public:
-    struct Window
-    {
-        Question& question;
-        std::function<void (const juce::String&)> notify;
-        std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> chooseFolder;
-    };
+    explicit StemExport (const Desk& d) : desk (d) {}
 
-    StemExport (const Catalogue& c, Window w) : catalogue (c), window (std::move (w)) {}
-
-    void ask (const graph::Graph&);
+    void ask();
     void attend();   ///< shows the progress; call it many times a second
     bool isRunning() const noexcept { return job.isRunning(); }
 
 private:
     void render (const graph::Graph&, const StemOptions&, const std::filesystem::path&);
 
-    const Catalogue& catalogue;
-    Window window;
+    const Desk& desk;
     StemJob job;
     std::filesystem::path folder;
     juce::String title;   // of the question that offers to cancel

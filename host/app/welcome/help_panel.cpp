@@ -151,8 +151,6 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("Shift+Esc"), NEEDS_TRANS ("emergency stop: no forces until REARM or START, while the graph keeps running") },
     Keys { NEEDS_TRANS ("F5"), NEEDS_TRANS ("starts the graph") },
     Keys { NEEDS_TRANS ("F6, Shift+F6"), NEEDS_TRANS ("goes to the next or the previous panel") },
-    Keys { NEEDS_TRANS ("Ctrl+F"), NEEDS_TRANS ("searches the presets") },
-    Keys { NEEDS_TRANS ("Ctrl+Return"), NEEDS_TRANS ("in the presets, adds the selected one to the graph, as a node and a layer") },
     Keys { NEEDS_TRANS ("Ctrl+K, F3"),
            NEEDS_TRANS ("finds a node of the graph and shows it, or a command, a button or a panel and does what a click on it does") },
     Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },
@@ -163,7 +161,6 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("S, held"),
            NEEDS_TRANS ("moves the workspace of the device with the hand, as one lifts a mouse, while the canvas or the scene has the keyboard. The force "
                         "fades, and comes back after the release") },
-    Keys { NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes") },
     Keys { NEEDS_TRANS ("C"), NEEDS_TRANS ("shows the CPU cost of each node") },
     Keys { NEEDS_TRANS ("Shift+F1"), NEEDS_TRANS ("guided tour of the window") },
     Keys { NEEDS_TRANS ("F1 or ?"), NEEDS_TRANS ("help on the selected node, or this list") },
@@ -269,8 +266,14 @@ void HelpPanel::showKeys()
     const auto add = [&] (const juce::String& key, const char* does) {
         made->add (std::make_unique<PortLine> (names, key, juce::String(), juce::translate (does)));
     };
-    for (const auto& [key, does] : key_list)
-        add (juce::translate (key), does);
+    const auto first_own = std::begin (key_list) + 4;   // after those that every part of the window obeys
+    for (auto k = std::begin (key_list); k != std::end (key_list); ++k)
+    {
+        if (k == first_own)
+            for (const auto& [key, does] : panel_keys)
+                add (juce::translate (key), does);
+        add (juce::translate (k->first), k->second);
+    }
     made->add (TRANS ("On the canvas"), TextBlock::Kind::heading);
     for (const auto& c : canvasCommands())
     {

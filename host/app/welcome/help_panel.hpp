@@ -19,6 +19,9 @@ public:
 
     explicit HelpPanel (const Catalogue&);
 
+    /// A key of a panel, and what it does, for the list of shortcuts; both in English.
+    void addKey (const char* key, const char* does) { panel_keys.emplace_back (key, does); }
+
     void showNode (const std::string& type);
     void showKeys();
     void close();
@@ -40,6 +43,7 @@ private:
     const Catalogue& catalogue;
     juce::Rectangle<int> area;
     std::string shown_type;
+    std::vector<std::pair<const char*, const char*>> panel_keys;
     std::unique_ptr<Column> column;
     juce::Viewport scroll;
     PlainButton example { TRANS ("Open example") }, keys { TRANS ("Keyboard shortcuts") }, done { TRANS ("Close") };

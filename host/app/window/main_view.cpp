@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "main_view.hpp"
 #include "appearance.hpp"
+#include "panels.hpp"
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
@@ -8,11 +9,8 @@
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/juce/native_window.hpp>
-#include <tactus/plan/rules/unheard.hpp>
-#include <tactus/text/quote.hpp>
 
 #include <algorithm>
-#include <iterator>
 
 namespace tactus::host
 {
@@ -29,23 +27,16 @@ MainView::MainView (const Catalogue& c)
       playback (edited, c, sound, device_setup, [this] { files.beforeRun(); }),
       limits (edited, device_setup, playback.run(), c),
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
-      presets (left.add<PresetBrowser> (TRANS ("Presets"), c, settings, pictures)),
-      nodes (left.add<NodeList> (TRANS ("Nodes"))),
-      scopes (bottom.add<ScopePanel> (TRANS ("Scopes"), edited, playback.run().traces(), c)),
-      takes (bottom.add<TakePanel> (TRANS ("Take"), edited, playback, c)),
-      layers (bottom.add<LayersPanel> (TRANS ("Layers"), edited, playback.run().traces(), c)),
-      devices (bottom.add<DevicesPanel> (TRANS ("Devices"), edited, playback.run(), device_setup)),
-      problems (bottom.add<ProblemList> (TRANS ("Problems"), edited)),
       help (c)
 {
     setOpaque (true);
-    left.add<HistoryPanel> (TRANS ("History"), edited);
     setTitle ("Tactus");
     setWantsKeyboardFocus (true);
     chooseFile = [this] (bool saves, const std::filesystem::path& begin,
-                         std::function<void (const std::filesystem::path&)> chosen) { askForFile (saves, begin, std::move (chosen)); };
-    connect();
+                         std::function<void (const std::filesystem::path&)> chosen) { dialogs.choose (saves, begin, std::move (chosen)); };
+    setDesk();
     addPanels();
+    connect();
     edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
     juce::Desktop::getInstance().addFocusChangeListener (this);
@@ -64,13 +55,28 @@ MainView::~MainView()
 
 void MainView::addPanels()
 {
+    const auto attach = [this] (Tabs* tabs, Panel panel) {
+        auto& component = *panel.component;
+        if (tabs != nullptr) tabs->add (panel.name, std::move (panel.component));
+        for (const auto& key : panel.keys)
+            help.addKey (key.shown, key.help);
+        panels.push_back ({ std::move (panel), component, tabs });
+    };
+    [[maybe_unused]] Tabs *const left = &this->left, *const bottom = &this->bottom, *const over = nullptr;
+#define TACTUS_ATTACH(place, make) attach (place, make (desk));
+    TACTUS_PANELS (TACTUS_ATTACH)
+#undef TACTUS_ATTACH
     addPages();
-    for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, &left, &bottom, &top, &patching, &inspector, &status })
+    for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, left, bottom, &top, &patching, &inspector, &status })
         addAndMakeVisible (c);
     for (const auto& [name, edge] : edges())
         addAndMakeVisible (*edge);
-    for (auto* over : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour, &fitting, &question, &shade })
-        addChildComponent (over);
+    for (auto* page : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour })
+        addChildComponent (page);
+    for (const auto& p : panels)
+        if (p.tabs == nullptr) addChildComponent (p.component);
+    for (auto* above : std::initializer_list<juce::Component*> { &question, &shade })
+        addChildComponent (above);
     addAndMakeVisible (menus);
     resized();
 }
@@ -78,26 +84,27 @@ void MainView::addPanels()
 void MainView::begin (const StartOptions& how)
 {
     home = how.home;
-    takes.take().program = how.program;
+    desk.program = how.program;
     auto read = loadSettings (home);
     settings = std::move (read.settings);
     light = how.light || settings.light;
     applySettings();
-    presets.reload();
     templates.show (templatesIn (presetFolder(), catalogue));
     files.setSafe (how.safe);
     if (how.stops_directly) direct_stop.emplace (playback.stopSwitch());
     if (how.osc) openOscPort (*how.osc);
     if (! how.live.empty()) live_nodes.emplace (how.live);
     files.beginSession (home);
-    takes.take().home = files.sessionFolder();
+    desk.session = files.sessionFolder();
+    for (const auto& p : panels)
+        if (p.panel.reload) p.panel.reload();
     for (const auto& file : how.files)
         open (file);
     const bool is_asked = files.recover();
     if (is_asked) playback.current().letGo();   // no forces while a question is open
     if (how.files.empty())
     {
-        welcome.show (presets.shipped(), ! settings.toured);
+        welcome.show (desk.presets(), ! settings.toured);
         welcome.setVisible (true);
         if (how.safe && ! is_asked) status.notify (TRANS ("Safe mode: nothing runs until you press START."));
     }
@@ -257,18 +264,20 @@ void MainView::timerCallback()
     inspector.refreshLive();
     limits.poll();
     attendLiveNodes();
-    showProblems();
+    strip.limitLight().show (limits.list());
+    inspector.showLimits (limits.list().contacts);
     files.poll();
-    presets.refresh();
     if (welcome.isVisible()) welcome.refresh (std::ranges::any_of (device_setup.session().session.roles(), [this] (const auto& r) { return bindsTool (r); }));
-    fitting.poll();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
         if (const auto saved = saveSettings (settings, home); ! saved)
             status.notify (filled (TRANS ("Could not save the settings: %1"), fromUtf8 (saved.error().text)));
-    if (scopes.isVisible()) scopes.refresh();
-    takes.refresh();
-    layers.refresh();
-    devices.refresh();
+    for (const auto& [panel, component, tabs] : panels)
+    {
+        if (panel.refresh) panel.refresh();
+        if (! panel.title || tabs == nullptr) continue;
+        const auto title = panel.title();
+        tabs->rename (component, title.text, title.alarms);
+    }
     if (onRefresh) onRefresh();
 }
 
@@ -282,64 +291,30 @@ void MainView::attendLiveNodes()
     status.notify (juce::String (live_nodes->latest()));
 }
 
-void MainView::showProblems()
-{
-    auto all = run().messages();
-    if (live_nodes) all.insert (all.begin(), live_nodes->messages().begin(), live_nodes->messages().end());
-    std::ranges::copy (missing, std::back_inserter (all));
-    const bool is_error = hasErrors (all);
-    std::ranges::copy (limits.messages(), std::back_inserter (all));
-    const auto count = all.size();
-    problems.show (all);
-    bottom.rename (problems, count == 0 ? TRANS ("Problems") : filled (TRANS ("Problems %1"), count), is_error);
-    strip.limitLight().show (limits.list());
-    inspector.showLimits (limits.list().contacts);
-}
-
-void MainView::findMissing()
-{
-    std::vector<std::string> probed;
-    for (const auto& scope : scopes.scopes().scopes)
-        std::ranges::copy (scope->ports, std::back_inserter (probed));
-    const std::pair now (edited.version(), probed);
-    if (missing_of == now) return;
-    missing_of = now;
-    missing = unfelt (edited.graph(), catalogue);
-    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
-    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
-}
-
 void MainView::documentChanged()
 {
     wake();
     status.clearNotice();
-    findMissing();
     const bool is_other = edited.identity() != shown_identity;
     if (is_other)
     {
         shown_identity = edited.identity();
-        compared = {};
         if (loaded_for != shown_identity) loaded_assets.reset();
         hand.view().letGo();                               // it held the tool of the graph before
         if (! run().isRunning()) run().traces().clear();   // they are of the graph before
         patching.leaveTo (0);
         patching.select ({});
         patching.frameStart();
-        scopes.showOwn();
-        presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
+        for (const auto& p : panels)
+            if (p.panel.restore) p.panel.restore();
     }
-    nodes.refresh();
     const bool is_begun = edited.identity() != first_identity || edited.isChanged();
     if (welcome.isVisible() && is_begun) welcome.setVisible (false);
     showBeginnings();
     if (is_other && left.isParentOf (getCurrentlyFocusedComponent())) takeFocus (patching);   // what is typed next is for this graph, not for a search
-    std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
+    top.show();
     const auto saved = top.savedText();
-    if (onTitle) onTitle (trail.front() + (saved.isEmpty() ? saved : " (" + saved + ")"));
-    for (const auto& [node, subgraph] : patching.breadcrumbs())
-        trail.emplace_back (printableName (node));
-    const auto instance = patching.instance();
-    top.show (std::move (trail), instance ? std::optional (TopBar::Instance { instance->number, instance->count }) : std::nullopt);
+    if (onTitle) onTitle (top.graphName() + (saved.isEmpty() ? saved : " (" + saved + ")"));
 }
 
 void MainView::documentRefused (const Message& m) { report (m); }

@@ -1,45 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "files.hpp"
-#include "node_palette.hpp"
-#include "splitter.hpp"
 #include "status_line.hpp"
 #include "tabs.hpp"
-#include "top_bar.hpp"
 
-#include <host/app/browser/browser.hpp>
-#include <host/app/compose/add_preset.hpp>
-#include <host/app/devices_panel/devices_panel.hpp>
-#include <host/app/devices_panel/reach.hpp>
-#include <host/app/dialogs/question.hpp>
+#include <host/app/adding/add_graph.hpp>
+#include <host/app/adding/node_palette.hpp>
+#include <host/app/desk/panel.hpp>
+#include <host/app/dialogs/file_dialogs.hpp>
 #include <host/app/dialogs/shade.hpp>
-#include <host/app/fit_panel/fit_panel.hpp>
-#include <host/app/history/history_panel.hpp>
+#include <host/app/files/files.hpp>
 #include <host/app/inspector/inspector.hpp>
-#include <host/app/layers/layers_panel.hpp>
-#include <host/app/node_list/node_list.hpp>
-#include <host/app/presets/preset_list.hpp>
-#include <host/app/problems/problem_list.hpp>
-#include <host/app/problems/unfelt.hpp>
+#include <host/app/look/splitter.hpp>
 #include <host/app/run/asset_load.hpp>
-#include <host/app/run/limit_watch.hpp>
 #include <host/app/run/live_nodes.hpp>
 #include <host/app/run/osc_server.hpp>
 #include <host/app/run/views/direct_stop.hpp>
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/app/run/views/live_feed.hpp>
 #include <host/app/run/views/safety_strip.hpp>
-#include <host/app/scopes/scope_panel.hpp>
 #include <host/app/stems/stem_export.hpp>
-#include <host/app/take/take_panel.hpp>
+#include <host/app/top_bar/top_bar.hpp>
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/template_row.hpp>
 #include <host/app/welcome/tour.hpp>
 #include <host/app/welcome/welcome_page.hpp>
-#include <tactus/file/clips/clip_file.hpp>
 
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 namespace tactus::host
@@ -78,7 +66,7 @@ public:
     void open (const std::filesystem::path&);
 
     /// Opens the panel that fits a model to a recording. [main thread]
-    void fitRecordingIn (const std::filesystem::path&);
+    void fitRecordingIn (const std::filesystem::path& file) { desk.fitRecording (file); }
 
     /// Calls `close` once unsaved changes, a take and a film are saved or discarded.
     void closeWhenSaved (std::function<void()> close);
@@ -94,18 +82,22 @@ public:
     LiveRun& run() noexcept { return playback.run(); }
     Question& asked() noexcept { return question; }
     HelpPanel& helpPanel() noexcept { return help; }
-    FitPanel& fitPanel() noexcept { return fitting; }
     WelcomePage& welcomePage() noexcept { return welcome; }
-    PresetBrowser& browser() noexcept { return presets; }
-    const ProblemList& problemList() const noexcept { return problems; }
-    TakePanel& takePanel() noexcept { return takes; }
     HandPanel& handPanel() noexcept { return hand; }
-    NodeList& nodeList() noexcept { return nodes; }
     TemplateRow& templateRow() noexcept { return templates; }
     Tour& guidedTour() noexcept { return tour; }
     void beginTour();   ///< if nothing is open, with a preset to feel
     Inspector& inspected() noexcept { return inspector; }
-    DevicesPanel& devicesPanel() noexcept { return devices; }
+
+    /// The component of a panel.
+    template <typename Component>
+    Component& panel()
+    {
+        for (const auto& p : panels)
+            if (auto* found = dynamic_cast<Component*> (&p.component)) return *found;
+        throw std::logic_error ("the window has no such panel");
+    }
+
     juce::String statusText() const { return status.text(); }
     bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while: it polls and paints less often
     void report (const Message&);                               ///< an error that belongs to no part of the window, in the status line
@@ -127,8 +119,15 @@ public:
     void filesDropped (const juce::StringArray&, int x, int y) override;
 
 private:
+    /// A panel, and where it is.
+    struct Attached
+    {
+        Panel panel;
+        juce::Component& component;
+        Tabs* tabs;   // null: it covers the window while it is visible
+    };
+
     void documentChanged() override;
-    void findMissing();
     void documentRefused (const Message&) override;
     void timerCallback() override;
     void wake();   ///< polls and paints often again
@@ -158,12 +157,7 @@ private:
     void addPanels();
 
     void startOpened (bool by_pointer);   ///< runs the graph that has just been opened
-    void openPreset (const Preset&, bool is_own);
-    void openPresetMenu (const Preset&, bool is_own);
-    /// Adds a graph to the open one as a node and a layer, and asks for its roles if there are several ways. If nothing is open, opens it.
-    void addToGraph (const std::filesystem::path&, const compose::Parts& = {}, std::optional<juce::Point<float>> at = {});
-    void addLoaded (const graph::Graph&, compose::AddOptions, std::optional<juce::Point<float>> at);
-    void askForAdded();
+    void setDesk();
     void chooseNode (const NodeRequest&);
     void addNode (const std::string& type, const NodeRequest&);
     void noteType (const std::string&);
@@ -171,11 +165,7 @@ private:
     void savePictureAs();
     void share();
     void choose (const juce::String& purpose, PaletteSearch, std::function<void (const std::string&)> chosen);
-    void probe (const std::vector<std::string>& ports);
-    void showAdded (const std::string& patch, graph::Id node);
     void feel (const std::filesystem::path& preset, bool by_pointer);
-    void openFitted (const FittedGraph&);
-    void insertFitted (const FittedGraph&);
     void rememberScene();
     void rememberFilmLength();
     void edgeMoved();
@@ -186,15 +176,12 @@ private:
     void layOutPages (juce::Rectangle<int>);
     void layOutPanels (juce::Rectangle<int>& area);   ///< leaves the area of the canvas
     void panelsMoved();                               ///< makes a step of the history of what has changed since the last call
-    void tell (const juce::String& title, const juce::String& text, std::function<void()> use = {});
     void openOscPort (const OscListen&);
     void attendLiveNodes();
-    void showProblems();
     bool hasBoundRole() const;   ///< true if the session binds a role of the graph to a device that moves a tool
     bool bindsTool (const std::string& role) const;
-    void attendNewFolder();
-    void openWhenMade (juce::AlertWindow&, juce::TextEditor& name);
     bool isAnythingOpen() const;
+    const Attached* openCover() const;   ///< the panel that covers the window; null: none
     bool escStops();
     void escape (const juce::KeyPress&);
     juce::Component& keyboardHome();
@@ -209,13 +196,6 @@ private:
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();
     void openExample (const std::string& type);
-    void saveClipAs (const std::filesystem::path&);
-    void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    bool writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to, const readers::ClipFile* source = nullptr);
-    void recall (int snapshot);
-    void store (int snapshot);
-    void compare();   ///< recalls the snapshot before the last one
-    void morph (int from, int to);
     void randomise();
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
     juce::PopupMenu languageMenu();
@@ -227,20 +207,14 @@ private:
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
     void addHands (std::vector<Action>&);
-    void addPresets (std::vector<Action>&);
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
+    void withTabs (const juce::Component& panel, const std::function<void (Tabs&)>&);
     void askForRecording();
-    void askForMissing (const Message&);
-    void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
-                        std::function<void (const std::filesystem::path&)>);
-    void askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
-    struct SaveWords;
-    void askWhereToSave (const SaveWords&, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
-    void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
-    void closeWithTake (const std::function<void()>& close);
+    void closePanels (std::size_t first, const std::function<void()>& close);
+    std::vector<const void*> work() const;   ///< another value once there is something else that closing asks about
     void closeWithFilm (const std::function<void()>& close);
     void attendFilm();
     void loadAssets (const graph::Graph&, const juce::String& name, std::function<void()> show);
@@ -265,10 +239,6 @@ private:
     Files files;         // declared before the run, so that an edit is autosaved before it runs
     Playback playback;   // declared before the panels that show it
     LimitWatch limits;
-    StemExport stems { catalogue,
-                       { .question = question,
-                         .notify = [this] (const juce::String& text) { status.notify (text); },
-                         .chooseFolder = [this] (const auto& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); } } };
     AssetLoad asset_load;
     juce::String loading;                                     // title of the question that offers to cancel
     std::function<void()> after_load;                         // shows the graph whose files are being loaded
@@ -276,7 +246,6 @@ private:
     const void* loaded_for = nullptr;                         // identity of the graph
     std::unique_ptr<OscServer> osc_server;
     std::optional<LiveNodes> live_nodes;
-    Reaches reaches { device_setup };
     SafetyStrip strip { playback };
     std::optional<DirectStop> direct_stop;
     HandPanel hand { playback, sound };
@@ -288,44 +257,31 @@ private:
     Shares shares_before {};                // at the last step of the history
     std::array<bool, 3> folded_before {};   // by panel, before foldPanels() folded them all
     bool is_canvas_alone = false;           // foldPanels() has folded them, until it brings them back
-    TopBar top { edited };
     Canvas patching;
+    Desk desk { catalogue, edited, patching, playback, device_setup, limits, settings, pictures, question };
+    StemExport stems { desk };
+    TopBar top { desk };
     Inspector inspector;
     LiveFeed live;
-    PresetBrowser& presets;
-    NodeList& nodes;
-    ScopePanel& scopes;
-    TakePanel& takes;
-    LayersPanel& layers;
-    DevicesPanel& devices;
-    ProblemList& problems;
+    std::vector<Attached> panels;
     TemplateRow templates;
     Palette palette;
     WelcomePage welcome { pictures };
     HelpPanel help;
-    FitPanel fitting;
     Tour tour;
     Shade shade;
-    juce::Component menus;                          // menus open inside it: below the strip, so that STOP stays within reach
-    std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
-    std::unique_ptr<juce::FileChooser> chooser;
-    juce::File recordings;                                   // the folder of the last recording that was chosen
-    juce::Component::SafePointer<juce::Component> begun;     // the dialog for a new folder, once its name has the keyboard
+    juce::Component menus;   // menus open inside it: below the strip, so that STOP stays within reach
+    FileDialogs dialogs { *this, SafetyStrip::height, patching, question };
+    std::filesystem::path recordings;                        // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     bool was_trying = false;                                 // a device was being tested
     bool holds_clutch = false, clutch_ends = false;          // the key of the clutch is down; some key has come up since it was pressed
-    Messages missing;                                        // what the graph needs before it can be felt
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     std::function<void()> close_after_film;                  // while the window waits for a film that is being saved
-    std::array<int, 2> compared {};                          // the last two snapshots; 0: none
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time
-
-    /// The version of the document of which `missing` speaks, and the ports that scopes showed.
-    using VersionAndPorts = std::pair<std::uint64_t, std::vector<std::string>>;
-    std::optional<VersionAndPorts> missing_of;
 };
 
 }   // namespace tactus::host

@@ -73,6 +73,13 @@ void MainView::reveal (Tabs& tabs, const juce::Component& panel)
     tabs.show (panel);
 }
 
+/// Calls f with the row of tabs of a panel.
+void MainView::withTabs (const juce::Component& panel, const std::function<void (Tabs&)>& f)
+{
+    for (const auto& p : panels)
+        if (&p.component == &panel && p.tabs != nullptr) f (*p.tabs);
+}
+
 /// Adds the actions for the parameters of the selected node, and the commands of the canvas.
 void MainView::addEdits (std::vector<Action>& all)
 {
@@ -110,30 +117,12 @@ void MainView::addTabsAndButtons (std::vector<Action>& all)
     });
 }
 
-/// Adds the choices for what moves the tool: the mouse, a gesture, or the device of a role.
+/// Adds the choices for what moves the tool.
 void MainView::addHands (std::vector<Action>& all)
 {
     if (welcome.isVisible()) return;
     for (auto& [name, choose] : hand.choices())
         all.push_back ({ name, TRANS ("What moves the tool"), std::move (choose) });
-    for (const auto& [role, labels] : devices.choices())
-        for (const auto& label : labels)
-            all.push_back ({ filled (TRANS ("Device of %1: %2"), role, label), TRANS ("The device for this role, in every graph"),
-                             [this, of = role, to = label] { devices.bind (of, to); } });
-}
-
-/// Adds the presets that can be added to the graph, whole or without their walls.
-void MainView::addPresets (std::vector<Action>& all)
-{
-    if (welcome.isVisible() || edited.graph().root.nodes.empty()) return;
-    for (const auto& p : presets.shipped())
-    {
-        if (! p.problem.empty()) continue;
-        all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), TRANS ("A preset, as a node and a layer"),
-                         [this, file = p.file] { addToGraph (file); } });
-        all.push_back ({ filled (TRANS ("Add %1 without its walls"), p.name), TRANS ("A preset, as a node and a layer"),
-                         [this, file = p.file] { addToGraph (file, compose::withoutWalls()); } });
-    }
 }
 
 /// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
@@ -178,7 +167,10 @@ void MainView::findAction()
     addTabsAndButtons (all);
     addItems (windowMenu(), {}, all);
     addNodes (all);
-    addPresets (all);
+    for (const auto& p : panels)
+        if (p.panel.actions && ! welcome.isVisible())
+            for (auto& a : p.panel.actions())
+                all.push_back ({ std::move (a.name), std::move (a.about), std::move (a.act) });
     std::map<std::string, std::function<void()>> acts;
     std::vector<PaletteEntry> entries;
     std::vector<Findable> searched;

@@ -22,21 +22,23 @@ juce::String waitingText (double part)
 void MainView::closeWhenSaved (std::function<void()> close)
 {
     close_after_film = nullptr;   // the questions start again
-    files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] { closeWithTake (close); });
+    files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] { closePanels (0, close); });
 }
 
-void MainView::closeWithTake (const std::function<void()>& close)
+/// Asks about what each panel would lose, from this one on.
+void MainView::closePanels (std::size_t first, const std::function<void()>& close)
 {
-    const auto unsaved = takes.unsaved();
-    if (unsaved.empty()) return closeWithFilm (close);
-    const auto length = juce::String (unsaved.front()->length_s, 1);
-    question.ask (unsaved.size() == 1 ? filled (TRANS ("Save the take of %1 s before closing Tactus?"), length)
-                                      : filled (TRANS ("Save %1 takes before closing Tactus?"), unsaved.size()),
-                  TRANS ("Takes that you have not used are kept only while Tactus is open. `tactus capture` makes clips, gestures and tests from a "
-                         "saved take."),
-                  { { TRANS ("Save"), [this, close] { takes.save ([this, close] { closeWithFilm (close); }); } },
-                    { TRANS ("Don't save"), [this, close] { closeWithFilm (close); } },
-                    { TRANS ("Cancel"), {} } });
+    if (first == panels.size()) return closeWithFilm (close);
+    const auto next = [this, first, close] { closePanels (first + 1, close); };
+    panels[first].panel.close ? panels[first].panel.close (next) : next();
+}
+
+std::vector<const void*> MainView::work() const
+{
+    std::vector<const void*> all;
+    for (const auto& p : panels)
+        if (p.panel.work) all.push_back (p.panel.work());
+    return all;
 }
 
 void MainView::closeWithFilm (const std::function<void()>& close)
@@ -50,9 +52,9 @@ void MainView::closeWithFilm (const std::function<void()>& close)
     if (film.isSaving())
     {
         // Once it is saved, asks again only about what was changed meanwhile.
-        close_after_film = [this, close, end, version = edited.version(), take = takes.take().recorded()] {
+        close_after_film = [this, close, end, version = edited.version(), before = work()] {
             endTyping();
-            version == edited.version() && take == takes.take().recorded() ? end() : closeWhenSaved (close);
+            version == edited.version() && before == work() ? end() : closeWhenSaved (close);
         };
         question.ask (TRANS ("A film is being saved"), waitingText (film.progress()),
                       { { TRANS ("Close when it is saved"), [this] { status.notify (TRANS ("Tactus closes when the film is saved.")); } },
@@ -92,7 +94,10 @@ void MainView::attendFilm()
 void MainView::closeSuddenly()
 {
     run().letGo();
-    files.endSuddenly (takes.leave());
+    bool has_left = false;
+    for (const auto& p : panels)
+        has_left = (p.panel.leave && p.panel.leave()) || has_left;
+    files.endSuddenly (has_left);
 }
 
 }   // namespace tactus::host

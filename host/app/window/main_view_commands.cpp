@@ -37,7 +37,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         question.keyPressed (key);   // even if the question does not have the focus
         return true;
     }
-    if (fitting.isOpen()) return true;   // the panel has had the key
+    if (openCover() != nullptr) return true;   // it has had the key
     if (fileKey (key) || panelKey (key)) return true;
     if (key == juce::KeyPress::createFromDescription ("shift + F1"))
     {
@@ -49,21 +49,10 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         help.isOpen() ? help.close() : helpOnSelection();
         return true;
     }
-    if (clutchKey (key)) return true;
-    const int digit = key.getKeyCode() - '0';
-    if (digit >= 1 && digit <= snapshot_count && ! key.getModifiers().isAltDown())
-    {
-        key.getModifiers().isAnyModifierKeyDown() ? store (digit) : recall (digit);
-        return true;
-    }
+    if (clutchKey (key) || top.snapshotKey (key)) return true;
     if (key == juce::KeyPress::createFromDescription ("z"))
     {
         foldPanels();
-        return true;
-    }
-    if (key == juce::KeyPress::createFromDescription ("v"))
-    {
-        compare();
         return true;
     }
     if (key == juce::KeyPress::createFromDescription ("h"))
@@ -80,16 +69,22 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
     // Keys that move or delete the selected nodes are for the canvas alone. In a panel, such a key is meant for a value.
     const bool is_in_panel = inspector.hasKeyboardFocus (true) || bottom.hasKeyboardFocus (true);
-    if (is_in_panel && (isErasing (key) || isArrow (key))) return scopes.keyPressed (key);
+    if (is_in_panel && (isErasing (key) || isArrow (key))) return false;
     const bool is_hidden = ! patching.isVisible();   // you would not see what you edit
-    return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
+    return ! is_hidden && patching.keyPressed (key);
+}
+
+const MainView::Attached* MainView::openCover() const
+{
+    const auto found = std::ranges::find_if (panels, [] (const Attached& p) { return p.tabs == nullptr && p.component.isVisible(); });
+    return found == panels.end() ? nullptr : &*found;
 }
 
 /// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed; or if it would
 /// bring the keyboard from the inspector back to the canvas.
 bool MainView::isAnythingOpen() const
 {
-    return inspector.hasKeyboardFocus (true) || question.isOpen() || fitting.isOpen() || help.isOpen() || tour.isOpen() || palette.isVisible()
+    return inspector.hasKeyboardFocus (true) || question.isOpen() || openCover() != nullptr || help.isOpen() || tour.isOpen() || palette.isVisible()
            || juce::Component::getNumCurrentlyModalComponents() > 0
            || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
 }
@@ -141,7 +136,7 @@ bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
     const bool stops = playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops());
     if (stops) stopBy (key);
     if (patching.cancelDrag() || stops) return true;   // the next Esc closes what is open
-    if (! help.isOpen() || question.isOpen() || fitting.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0) return false;
+    if (! help.isOpen() || question.isOpen() || openCover() != nullptr || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0) return false;
     help.close();   // even while a field has the keyboard, which would keep the key
     return true;
 }
@@ -153,7 +148,7 @@ void MainView::escape (const juce::KeyPress& key)
     status.clearNotice();
     if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops())) return stopBy (key);
     if (question.isOpen()) return question.cancel();
-    if (fitting.isOpen()) return fitting.close();
+    if (const auto* cover = openCover()) return cover->panel.escape();
     if (help.isOpen()) return help.close();
     if (tour.isOpen() && ! palette.isVisible()) return tour.close();
     if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
@@ -206,53 +201,12 @@ void MainView::helpOnSelection()
 
 void MainView::openExample (const std::string& type)
 {
+    const auto shipped = desk.presets();
     const Preset* smallest = nullptr;
-    for (const auto& p : presets.shipped())
+    for (const auto& p : shipped)
         if (p.problem.empty() && p.types.contains (type) && (smallest == nullptr || p.types.size() < smallest->types.size())) smallest = &p;
     if (smallest != nullptr) return files.openCopy (smallest->file, false);
     if (const auto* known = catalogue.find (type)) files.openGraph (exampleOf (*known, catalogue), filled (TRANS ("example of %1"), type).toStdString(), false);
-}
-
-void MainView::recall (int number)
-{
-    const juce::String n (number);
-    if (! hasSnapshot (edited.graph(), number)) return status.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
-    if (auto command = recallSnapshot (edited.graph(), number)) edited.perform (std::move (*command));
-    if (compared[1] != number) compared = { compared[1], number };
-    const auto missing = missingNodes (edited.graph(), number);
-    if (missing.empty()) return status.notify (filled (TRANS ("Recalled snapshot %1."), n));
-    juce::StringArray names;
-    for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
-        names.add (valueText (missing[i]));
-    const juce::String more = missing.size() > 3 ? ", …" : "";
-    status.notify (filled (TRANS ("Recalled snapshot %1, except for nodes that the graph no longer has: %2."), n, names.joinIntoString (", ") + more));
-}
-
-void MainView::store (int number)
-{
-    const juce::String n (number);
-    if (! edited.perform (storeSnapshot (edited.graph(), number))) return;
-    status.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
-    if (compared[1] != number) compared = { compared[1], number };
-}
-
-void MainView::compare()
-{
-    if (compared[0] == 0 || ! hasSnapshot (edited.graph(), compared[0]))
-        return status.notify (TRANS ("V switches between the last two snapshots: store one with Ctrl+1 and another with Ctrl+2 first."));
-    recall (compared[0]);
-}
-
-void MainView::morph (int from, int to)
-{
-    auto made = morphBetween (edited.graph(), from, to, catalogue);
-    if (! made) return status.notify (fromUtf8 (messageText (made.error())));
-    if (! edited.perform (std::move (made->command))) return;
-    status.notify (made->left_out == 0
-                       ? filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3."), made->params, from, to)
-                       : filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3. %4 differences stay as in snapshot %2: choices, "
-                                        "vectors, values in subgraphs, and what a wire or a control sets."),
-                                 made->params, from, to, made->left_out));
 }
 
 /// New values for the selected nodes, or for all of the patch.

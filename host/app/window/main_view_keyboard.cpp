@@ -2,7 +2,6 @@
 // Which part of the window has the keyboard.
 #include "main_view.hpp"
 
-#include <host/app/dialogs/file_dialog_parts.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -16,7 +15,7 @@ namespace tactus::host
 juce::Component& MainView::keyboardHome()
 {
     if (question.isOpen()) return question;
-    if (fitting.isOpen()) return fitting;
+    if (const auto* cover = openCover()) return cover->component;
     if (welcome.isVisible()) return welcome;
     return patching.isShowing() ? static_cast<juce::Component&> (patching) : *this;
 }
@@ -24,50 +23,15 @@ juce::Component& MainView::keyboardHome()
 /// The keyboard is never lost: after a menu, a dialog, a field or a start, JUCE leaves it with nothing, or with a part of the window that has no keys.
 void MainView::keepKeyboard()
 {
-    attendNewFolder();
+    dialogs.attendNewFolder();
     const auto* peer = getPeer();
     if (peer == nullptr || ! peer->isFocused()) return;
-    if (auto* modal = juce::Component::getCurrentlyModalComponent())
-    {
-        // A menu that closes after its entry has opened a dialog takes the keyboard from the name.
-        const auto* now = juce::Component::getCurrentlyFocusedComponent();
-        auto* name = dynamic_cast<juce::FileChooserDialogBox*> (modal) != nullptr ? nameField (*modal) : nullptr;
-        if (name != nullptr && (now == nullptr || now == modal || ! modal->isParentOf (now))) takeFocus (*name);
-        return;
-    }
+    if (auto* modal = juce::Component::getCurrentlyModalComponent()) return dialogs.keepKeyboard (*modal);
     auto& home = keyboardHome();
-    const bool is_over = question.isOpen() || fitting.isOpen();   // nothing else may have the keyboard
+    const bool is_over = question.isOpen() || openCover() != nullptr;   // nothing else may have the keyboard
     const auto* now = juce::Component::getCurrentlyFocusedComponent();
     const bool is_kept = is_over ? home.hasKeyboardFocus (true) : now != nullptr && isParentOf (now) && now->isShowing();
     if (! is_kept && now != &home) takeFocus (home);
-}
-
-/// JUCE asks for the name of a new folder in a window of its own, and gives the keyboard to its button.
-void MainView::attendNewFolder()
-{
-    auto* asks = dynamic_cast<juce::AlertWindow*> (juce::Component::getCurrentlyModalComponent());
-    if (asks == nullptr || asks == begun.getComponent()) return;
-    auto* name = nameField (*asks);
-    if (name == nullptr) return;
-    if (! name->hasKeyboardFocus (false)) return takeFocus (*name);
-    begun = asks;
-    openWhenMade (*asks, *name);
-}
-
-/// JUCE makes the folder and goes on to list the one around it.
-void MainView::openWhenMade (juce::AlertWindow& asks, juce::TextEditor& name)
-{
-    auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (juce::ModalComponentManager::getInstance()->getModalComponent (1));
-    auto* browser = dialog == nullptr ? nullptr : browserIn (*dialog);
-    if (browser == nullptr) return;
-    const auto open = [browser = SafePointer (browser), name = SafePointer (&name)] (int result) {
-        if (result == 0 || browser == nullptr || name == nullptr) return;
-        const auto folder = browser->getRoot().getChildFile (juce::File::createLegalFileName (name->getText()));
-        juce::MessageManager::callAsync ([browser, folder] {   // when it is made
-            if (browser != nullptr && folder != browser->getRoot() && folder.isDirectory()) browser->setRoot (folder);
-        });
-    };
-    juce::ModalComponentManager::getInstance()->attachCallback (&asks, juce::ModalCallbackFunction::create (open));
 }
 
 void MainView::nextPanel (int step)
@@ -123,16 +87,18 @@ void MainView::attendClutch()
     status.hint ({});
 }
 
-/// F6 goes from panel to panel, Ctrl+F to the search for presets and Ctrl+K to that for everything else, and F5 starts.
+/// F6 goes from panel to panel, Ctrl+K finds everything, and F5 starts. The other keys are those of the panels.
 bool MainView::panelKey (const juce::KeyPress& key)
 {
+    for (const auto& p : panels)
+        for (const auto& k : p.panel.keys)
+            if (k.act && key == juce::KeyPress::createFromDescription (k.key))
+            {
+                k.act();
+                return true;
+            }
     if (key.isKeyCode (juce::KeyPress::F6Key))
         nextPanel (key.getModifiers().isShiftDown() ? -1 : 1);
-    else if (key == juce::KeyPress::createFromDescription ("ctrl + f"))
-    {
-        reveal (left, presets);
-        presets.beginSearch();
-    }
     else if (key == juce::KeyPress::createFromDescription ("ctrl + k") || key == juce::KeyPress::createFromDescription ("F3"))
         findAction();
     else if (key.isKeyCode (juce::KeyPress::F5Key))

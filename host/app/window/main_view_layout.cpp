@@ -27,7 +27,7 @@ void MainView::addPages()
     menus.setInterceptsMouseClicks (false, true);
     menus.setAlwaysOnTop (true);
     for (const auto& [name, part] : pageParts())
-        pages.add<juce::Component> (juce::translate (name));
+        pages.add (juce::translate (name), std::make_unique<juce::Component>());
     pages.onShow = [this] {
         if (! isSmall()) return;
         resized();
@@ -107,7 +107,8 @@ void MainView::resized()
     showBeginnings();
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (isSmall() ? area.getBottom() : hand.getBottom()).reduced (isSmall() ? 4 : 16));
-    fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
+    for (const auto& p : panels)
+        if (p.tabs == nullptr) p.component.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
     tour.setBounds (getLocalBounds());
     tour.resized();   // what it frames may have moved
     for (auto* over : std::initializer_list<juce::Component*> { &question, &menus })

@@ -3,7 +3,6 @@
 #include "main_view.hpp"
 
 #include <host/app/canvas/picture/save_picture.hpp>
-#include <host/app/fit_panel/fitted_nodes.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
@@ -45,11 +44,6 @@ void MainView::startOpened (bool by_pointer)
     playback.startOther (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {});
 }
 
-void MainView::openPreset (const Preset& p, bool is_own)
-{
-    is_own ? files.open (p.file) : files.openCopy (p.file, false);
-}
-
 void MainView::chooseNode (const NodeRequest& request)
 {
     openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), [this, request] (const std::string& type) {
@@ -85,7 +79,7 @@ void MainView::savePictureAs()
 {
     const auto& name = edited.graph().name;
     const auto legal = juce::File::createLegalFileName (juce::String (name.empty() ? "canvas" : name)).toStdString();
-    chooseOwnFile (legal + ".svg", [this] (const std::filesystem::path& file) {
+    desk.chooseOwnFile (legal + ".svg", [this] (const std::filesystem::path& file) {
         const auto saved = savePicture (patching, file);
         status.notify (saved ? filled (TRANS ("Saved %1"), file.string()) : juce::String (messageText (saved.error())));
     });
@@ -117,19 +111,6 @@ void MainView::choose (const juce::String& purpose, PaletteSearch search, std::f
     openPalette (palette, patching, purpose, std::move (search), std::move (chosen));
 }
 
-void MainView::probe (const std::vector<std::string>& ports)
-{
-    for (const auto& port : ports)
-        scopes.probe (port);
-    bottom.show (scopes);
-}
-
-void MainView::showAdded (const std::string& patch, graph::Id node)
-{
-    patching.show (patch, node);
-    patching.endEdit();   // undoing the edit brings back the view from before
-}
-
 void MainView::feel (const std::filesystem::path& preset, bool by_pointer)
 {
     files.openCopy (preset, by_pointer);
@@ -141,29 +122,6 @@ void MainView::feel (const std::filesystem::path& preset, bool by_pointer)
     else
         status.notify (by_pointer ? TRANS ("Press and drag on the surface of the hand: the mouse is your hand.")
                                   : TRANS ("The hand moves by itself. Press and drag on its surface, and the mouse is your hand."));
-}
-
-void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open (file); }
-
-void MainView::openFitted (const FittedGraph& made)
-{
-    files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString(), true, [this] { fitting.close(); });
-}
-
-void MainView::insertFitted (const FittedGraph& made)
-{
-    Selection added;
-    auto command = addFitted (edited.graph(), patching.patch(), made, patching.types(), added);
-    if (! command) return status.notify (fromUtf8 (command.error().text));
-    if (patching.commands().performPlaced (*std::move (command)).empty()) return;
-    patching.select (added);
-    const auto isWired = [&] (const SceneWire& w) {
-        return added.contains (patching.scene().nodes()[static_cast<std::size_t> (w.start)].id)
-               != added.contains (patching.scene().nodes()[static_cast<std::size_t> (w.end)].id);
-    };
-    status.notify (std::ranges::any_of (patching.scene().wires(), isWired)
-                       ? TRANS ("Added the fitted node, with the wires that go without saying. One undo takes it away.")
-                       : TRANS ("Added the fitted node. Wire it to feel it."));
 }
 
 void MainView::rememberScene()

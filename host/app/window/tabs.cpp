@@ -15,12 +15,14 @@ namespace
 constexpr float margin = 4.0f, menu_width = 28.0f;
 }   // namespace
 
-void Tabs::insert (const juce::String& name, std::unique_ptr<juce::Component> panel)
+juce::Component& Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel)
 {
-    addChildComponent (*panel);
+    auto& added = *panel;
+    addChildComponent (added);
     tabs.push_back ({ name, std::move (panel) });
     show (current);
     resized();
+    return added;
 }
 
 void Tabs::rename (const juce::Component& panel, const juce::String& name, bool alarms)

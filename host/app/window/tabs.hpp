@@ -23,16 +23,7 @@ public:
         setOpaque (true);
     }
 
-    /// Creates a panel from the arguments, and adds a tab for it.
-    template <typename Panel, typename... Args>
-    Panel& add (const juce::String& name, Args&&... args)
-    {
-        auto panel = std::make_unique<Panel> (std::forward<Args> (args)...);
-        auto& added = *panel;
-        insert (name, std::move (panel));
-        return added;
-    }
-
+    juce::Component& add (const juce::String& name, std::unique_ptr<juce::Component> panel);
     void rename (const juce::Component& panel, const juce::String&, bool alarms = false);   ///< alarms: the title is drawn in red
 
     void show (int index);
@@ -53,8 +44,6 @@ public:
     void focusLost (FocusChangeType) override { repaint(); }
 
 private:
-    void insert (const juce::String& name, std::unique_ptr<juce::Component>);
-
     struct Tab
     {
         juce::String name;

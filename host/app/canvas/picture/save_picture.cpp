@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float margin = 32.0f, pixels_per_unit = 2.0f, most_pixels = 12'000.0f;   // the last one along each side
+constexpr float picture_margin = 32.0f, pixels_per_unit = 2.0f, most_pixels = 12'000.0f;   // the last one along each side
 
 void paintAll (juce::Graphics& g, const Canvas& canvas, juce::Point<float> corner)
 {
@@ -26,7 +26,7 @@ void paintAll (juce::Graphics& g, const Canvas& canvas, juce::Point<float> corne
 
 Result<> savePicture (const Canvas& canvas, const std::filesystem::path& path)
 {
-    const auto area = canvas.scene().bounds().expanded (margin);
+    const auto area = canvas.scene().bounds().expanded (picture_margin);
     const auto refused = [&] {
         return Message::error ("canvas/picture", path.string(), TRANS ("the picture could not be created").toStdString(),
                                TRANS ("save it as SVG, which has no limit of size").toStdString());

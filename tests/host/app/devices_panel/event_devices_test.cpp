@@ -5,6 +5,7 @@
 
 #include "support/waiting.hpp"
 
+#include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <tactus/file/graph_file.hpp>
 

@@ -1,31 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Another program, such as `tactus session`, changes the session while the window is open.
-#include "host/app/support/window_rig.hpp"
+// Another program, such as `tactus session`, changes the session while the panel of devices is on the desk.
+#include "host/app/support/desk_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include "support/waiting.hpp"
 
+#include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/devices_panel/session_change.hpp>
 #include <host/devices/audio/card.hpp>
 #include <host/devices/sessions/session_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskRig;
 
 namespace
 {
-struct Rig : WindowRig
+struct Rig : DeskRig
 {
-    Rig() : WindowRig ("dry_wood.json", 1280, 720, false)
+    DevicesPanel& panel_of_devices;
+
+    Rig() : DeskRig ("dry_wood.json"), panel_of_devices (make<DevicesPanel> (devicesPanel))
     {
-        REQUIRE (until ([&] { return view->run().isRunning(); }));
+        panel_of_devices.setVisible (true);
+        playback.start (LiveRun::Hand {});
+        REQUIRE (until ([&] { return run().isRunning(); }));
     }
+
+    LiveRun& run() { return playback.run(); }
 
     template <typename F>
     bool until (F&& isSo)
     {
         return tactus::test::eventually ({}, [&] {
-            settle (5);
+            work();
             return isSo();
         });
     }
@@ -37,7 +45,12 @@ struct Rig : WindowRig
         REQUIRE (edited.isGood());
     }
 
-    juce::String noticeText() const { return view->statusText(); }
+    /// As the window does while it is open.
+    void work()
+    {
+        refresh();
+        tactus::host::test::settle (5);
+    }
 };
 
 const Json tap { { "driver", "gesture" }, { "path", "tap" } }, board { { "driver", "hid" }, { "profile", "tactus_board" } };
@@ -47,34 +60,33 @@ TEST_CASE ("a device that another program binds is noticed, and drives nothing b
 {
     Rig r;
     r.otherwise ([] (DeviceSession& s) { s.bind ("stylus", board); });
-    REQUIRE (r.until ([&] { return ! r.view->run().isWanted(); }));
-    CHECK (r.noticeText().contains ("stylus: hid tactus_board"));
-    CHECK (r.noticeText().contains ("START"));
+    REQUIRE (r.until ([&] { return ! r.run().isWanted(); }));
+    CHECK (r.said.contains ("stylus: hid tactus_board"));
+    CHECK (r.said.contains ("START"));
     CHECK (tactus::test::stays (std::chrono::milliseconds (300), [&] {
-        r.settle (5);
-        return ! r.view->run().isWanted() && ! r.view->run().drivesDevice();
+        r.work();
+        return ! r.run().isWanted() && ! r.run().drivesDevice();
     }));
-    r.view->document().perform (graph::SetParam { "", "drag", "mu", 0.3 });   // nor does an edit
-    CHECK_FALSE (r.view->run().isWanted());
-    r.key ("F5");   // as START does
-    CHECK (r.until ([&] { return r.view->run().drivesDevice(); }));
-    r.view->run().letGo();
+    r.document.perform (graph::SetParam { "", "drag", "mu", 0.3 });   // nor does an edit
+    CHECK_FALSE (r.run().isWanted());
+    r.playback.restart();   // as START does
+    CHECK (r.until ([&] { return r.run().drivesDevice(); }));
+    r.run().letGo();
 }
 
 TEST_CASE ("a change of the clock does not bind what another program has bound since", "[app][sessions][safety]")
 {
     Rig r;
-    r.click ("Devices");
     r.otherwise ([] (DeviceSession& s) { s.bind ("stylus", board); });
-    r.view->devicesPanel().chooseClock ("timer");   // before the window has looked at the file
-    CHECK_FALSE (r.view->run().isWanted());
-    CHECK (r.noticeText().contains ("stylus: hid tactus_board"));
+    r.panel_of_devices.chooseClock ("timer");   // before the window has looked at the file
+    CHECK_FALSE (r.run().isWanted());
+    CHECK (r.said.contains ("stylus: hid tactus_board"));
     const auto saved = loadDefaultSession (r.home.path());
     CHECK (saved.session.clock() == "timer");   // both changes are kept
     REQUIRE (saved.session.binding ("stylus") != nullptr);
     CHECK (tactus::test::stays (std::chrono::milliseconds (300), [&] {
-        r.settle (5);
-        return ! r.view->run().drivesDevice();
+        r.work();
+        return ! r.run().drivesDevice();
     }));
 }
 
@@ -82,24 +94,23 @@ TEST_CASE ("a change that does not concern the run is said, and the run goes on"
 {
     Rig r;
     r.otherwise ([] (DeviceSession& s) { s.bind ("other", tap); });
-    CHECK (r.until ([&] { return r.noticeText().contains ("other: gesture tap"); }));
-    CHECK (r.view->run().isRunning());
+    CHECK (r.until ([&] { return r.said.contains ("other: gesture tap"); }));
+    CHECK (r.run().isRunning());
     r.home.write ("session.json", "{ \"format\": ");   // a program is still writing it
     CHECK (tactus::test::stays (std::chrono::milliseconds (300), [&] {
-        r.settle (5);
-        return r.view->run().isRunning() && ! std::filesystem::exists (r.home / "session.json.broken");
+        r.work();
+        return r.run().isRunning() && ! std::filesystem::exists (r.home / "session.json.broken");
     }));
 }
 
 TEST_CASE ("a sound card that is missing cannot be the clock", "[app][sessions]")
 {
     Rig r;
-    r.click ("Devices");
     const auto cards = audio::soundCards().list();
     const bool has_one = std::ranges::any_of (cards, [] (const auto& c) { return c.trouble.empty() && ! c.outputs.empty(); });
-    r.view->devicesPanel().chooseClock ("sound card");
+    r.panel_of_devices.chooseClock ("sound card");
     CHECK ((loadDefaultSession (r.home.path()).session.clock() == "audio") == has_one);
-    CHECK (r.noticeText().contains ("cannot be the clock") == ! has_one);
+    CHECK (r.said.contains ("cannot be the clock") == ! has_one);
 }
 
 TEST_CASE ("what another program has changed is said role by role", "[app][sessions]")

@@ -6,6 +6,7 @@
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/devices_panel/axes_text.hpp>
+#include <host/app/devices_panel/devices_panel.hpp>
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;

@@ -39,7 +39,7 @@ struct FitRig
         view.begin ({ home.path(), true });
     }
 
-    FitPanel& panel() { return view.fitPanel(); }
+    FitPanel& panel() { return view.panel<FitPanel>(); }
 
     std::filesystem::path write (const std::string& name, const std::string& text)
     {

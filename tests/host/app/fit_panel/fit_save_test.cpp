@@ -2,6 +2,8 @@
 // What happens to a fit when it meets unsaved changes, in the whole window.
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/fit_panel/fit_panel.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -29,7 +31,7 @@ TEST_CASE ("fit panel: Cancel at the question about unsaved changes keeps the fi
             out << 1e-3 * i << ',' << v << ",2," << -0.8 * d / 1e-4 + 0.002 * std::sin (7.0 * i) << '\n';
         }
     }
-    auto& panel = w.view->fitPanel();
+    auto& panel = w.view->panel<FitPanel>();
     w.view->fitRecordingIn (file);
     for (int i = 0; i < 4000 && panel.isFitting(); ++i)
         WindowRig::settle (5);

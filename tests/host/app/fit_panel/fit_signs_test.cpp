@@ -3,6 +3,8 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/fit_panel/fit_panel.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -18,7 +20,7 @@ namespace
 /// Waits for the fit of the panel, which must come about or not.
 void finishFit (WindowRig& w, bool is_possible)
 {
-    auto& panel = w.view->fitPanel();
+    auto& panel = w.view->panel<FitPanel>();
     for (int i = 0; i < 4000 && panel.isFitting(); ++i)
         WindowRig::settle (5);
     INFO (panel.problem());
@@ -38,7 +40,7 @@ std::filesystem::path writeHeights (WindowRig& w)
 
 bool isSaid (WindowRig& w, const char* text)
 {
-    const auto texts = tactus::host::test::readTexts (w.view->fitPanel());
+    const auto texts = tactus::host::test::readTexts (w.view->panel<FitPanel>());
     return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
 }
 
@@ -53,7 +55,7 @@ bool isTurned (WindowRig& w, const char* title)
 TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and each sign can be turned by a click", "[app][fit]")
 {
     WindowRig w ("dry_wood.json");
-    auto& panel = w.view->fitPanel();
+    auto& panel = w.view->panel<FitPanel>();
     w.view->fitRecordingIn (writeHeights (w));
     CHECK (panel.kind() == FitKind::curve);
     finishFit (w, true);
@@ -86,7 +88,7 @@ TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and e
 TEST_CASE ("fit panel: a minus in a unit turns the sign, and the button shows it", "[app][fit]")
 {
     WindowRig w ("dry_wood.json");
-    auto& panel = w.view->fitPanel();
+    auto& panel = w.view->panel<FitPanel>();
     w.view->fitRecordingIn (writeHeights (w));
     finishFit (w, true);
     panel.columns().turn ("depth");
@@ -115,7 +117,7 @@ TEST_CASE ("fit panel: at 1024 by 700 and 200 %, the table and the legend are wh
     w.view->fitRecordingIn (writeHeights (w));
     finishFit (w, true);
     WindowRig::settle (50);
-    auto& panel = w.view->fitPanel();
+    auto& panel = w.view->panel<FitPanel>();
     const auto texts = tactus::host::test::readTexts (panel);
     const auto area = panel.getLocalBounds().toFloat();
     CHECK (tactus::host::test::overlaps (texts, area).joinIntoString ("; ") == "");

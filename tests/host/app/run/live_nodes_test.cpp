@@ -2,6 +2,7 @@
 // Live C++ in the window: the header of a node is saved while its graph runs.
 #include "host/app/support/wait_for.hpp"
 
+#include <host/app/problems/problem_list.hpp>
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -154,7 +155,7 @@ struct Window
     /// What the compiler said last, as Problems shows it.
     std::optional<Message> error()
     {
-        const auto& all = view->problemList().messages();
+        const auto& all = view->panel<ProblemList>().messages();
         const auto found = std::ranges::find (all, std::string ("live/compile"), &Message::id);
         return found == all.end() ? std::nullopt : std::optional (*found);
     }

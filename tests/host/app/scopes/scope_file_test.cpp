@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_rig.hpp"
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/scope_file.hpp>
@@ -9,7 +9,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::Bench;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskRig;
 
 namespace
 {
@@ -81,18 +81,25 @@ TEST_CASE ("the scopes that the user adds, closes or sets are saved with the gra
         return all;
     };
     {
-        WindowRig w (file.string(), 1280, 1000);
-        w.key ("ctrl + s");
+        DeskRig r (file.string());
+        auto& scopes = r.make<ScopePanel> (scopesPanel);
+        r.panel->restore();
+        const auto save = [&] {
+            auto written = r.document.graph();
+            r.panel->keep (written);
+            REQUIRE (r.document.save (file, written).empty());
+        };
+        save();
         CHECK_FALSE (readScopes (loadGraph (file).graph));
-        w.click ("+ Spectrum");
-        w.key ("ctrl + s");
+        scopes.add (ScopeKind::spectrum);
+        save();
         CHECK (kinds (loadGraph (file).graph) == std::vector { ScopeKind::time, ScopeKind::over, ScopeKind::energy, ScopeKind::spectrum });
-        CHECK_FALSE (w.view->document().isChanged());
     }
     {
-        WindowRig w (file.string(), 1280, 1000);
-        CHECK (w.titled ("Spectrum") != nullptr);
-        w.key ("ctrl + s");
-        CHECK (kinds (loadGraph (file).graph).size() == 4);
+        DeskRig r (file.string());
+        auto& scopes = r.make<ScopePanel> (scopesPanel);
+        r.panel->restore();
+        CHECK (scopes.shown().size() == 4);
+        CHECK (scopes.shown().back()->shown().kind == ScopeKind::spectrum);
     }
 }

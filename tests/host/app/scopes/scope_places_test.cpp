@@ -5,6 +5,7 @@
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/over_plot.hpp>
+#include <host/app/scopes/scope_panel.hpp>
 #include <host/app/window/appearance.hpp>
 
 using namespace tactus;

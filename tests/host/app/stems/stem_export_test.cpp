@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stems that the window exports, compared with those that `tactus render --stems` is made of.
+#include "host/app/support/desk_rig.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include "support/waiting.hpp"
 
+#include <host/app/stems/stem_export.hpp>
 #include <host/base/files/wav.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskRig;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -74,30 +78,31 @@ TEST_CASE ("the window exports the stems of the open graph, and they add up to i
 
 TEST_CASE ("a user who cancels the export gets no folder, and a refused folder is named", "[app][stems]")
 {
-    const TemporaryFolder folder;
-    WindowRig w ("bronze_bell.json");
-    auto into = folder / "bell";
-    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) { chosen (into); };
+    DeskRig r ("bronze_bell.json");
+    std::optional<StemExport> stems;
     const auto begin = [&] {
-        w.key ("ctrl + k");
-        w.stage->type ("export stems");
-        w.key ("return");
-        WindowRig::settle();
-        REQUIRE (w.view->asked().isOpen());
-        w.view->asked().answer (0);
+        stems.emplace (r.desk);
+        stems->ask();
+        REQUIRE (r.question.isOpen());
+        r.question.answer (0);
+        REQUIRE (stems->isRunning());
+        REQUIRE (r.question.isOpen());   // it offers to cancel
     };
+    r.chosen = r.home / "bell";
     begin();
-    REQUIRE (w.view->asked().isOpen());
-    w.view->asked().cancel();
-    WindowRig::settle (100);
-    CHECK_FALSE (w.view->asked().isOpen());
-    CHECK_FALSE (std::filesystem::exists (into));
+    r.question.cancel();
+    CHECK_FALSE (r.question.isOpen());
+    stems.reset();   // waits until the thread has ended
+    CHECK_FALSE (std::filesystem::exists (r.chosen));
 
-    std::filesystem::create_directories (folder / "full");
-    folder.write ("full/mine.txt", "mine");
-    into = folder / "full";
+    r.chosen = r.home / "full";
+    std::filesystem::create_directories (r.chosen);
+    r.home.write ("full/mine.txt", "mine");
     begin();
-    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
-    INFO (w.view->statusText());
-    CHECK (w.view->statusText().contains ("not empty"));
+    REQUIRE (until ([&] {
+        stems->attend();
+        return ! stems->isRunning();
+    }));
+    CHECK_FALSE (r.question.isOpen());
+    CHECK (r.said.contains ("not empty"));
 }

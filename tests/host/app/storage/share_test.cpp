@@ -3,6 +3,7 @@
 #include "host/app/support/window_rig.hpp"
 #include "support/with_limits.hpp"
 
+#include <host/app/problems/problem_list.hpp>
 #include <host/app/storage/share.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <host/base/files/preset_pack.hpp>
@@ -134,7 +135,7 @@ TEST_CASE ("the window shares the open graph, and opens such a file as a copy", 
     WindowRig::settle();
     CHECK (w.graph().name == "Heartbeat");
     CHECK (w.view->document().file().empty());
-    CHECK (w.view->problemList().messages().empty());
+    CHECK (w.view->panel<ProblemList>().messages().empty());
 
     folder.write ("bad.tactus", "no archive");
     w.view->open (folder / "bad.tactus");

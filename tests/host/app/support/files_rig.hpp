@@ -3,7 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <host/app/window/files.hpp>
+#include <host/app/files/files.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 

@@ -2,6 +2,8 @@
 // What the monkey does with keys, files, menus and dialogs.
 #include "monkey.hpp"
 
+#include <host/app/history/history_panel.hpp>
+
 #include <algorithm>
 
 namespace tactus::host::test

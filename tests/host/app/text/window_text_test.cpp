@@ -2,6 +2,7 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/storage/language.hpp>
 
 #include <algorithm>
@@ -101,7 +102,7 @@ TEST_CASE ("texts neither overlap nor are cut off in questions, in the fit panel
     checkLayout (question, question.getLocalBounds());
     rig.key ("escape");
     rig.view->fitRecordingIn (rig.home / "nowhere.csv");
-    checkLayout (rig.view->fitPanel(), rig.view->fitPanel().getLocalBounds());
+    checkLayout (rig.view->panel<FitPanel>(), rig.view->panel<FitPanel>().getLocalBounds());
     rig.key ("escape");
     rig.key ("F1");
     auto& help = rig.view->helpPanel();

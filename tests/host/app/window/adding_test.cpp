@@ -2,6 +2,7 @@
 // Presets that are added to the open graph in the window: dragged, from the menu, by keys, from the list of commands, and as files.
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/browser/browser.hpp>
 #include <host/app/compose/banks.hpp>
 #include <tactus/file/graph_file.hpp>
 
@@ -19,7 +20,7 @@ namespace
 /// The middle of the row of a preset, which is searched for first.
 juce::Point<float> rowOf (WindowRig& w, const juce::String& name)
 {
-    auto& browser = w.view->browser();
+    auto& browser = w.view->panel<PresetBrowser>();
     browser.search (name);
     WindowRig::settle();
     juce::ListBox* list = nullptr;

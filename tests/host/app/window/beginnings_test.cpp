@@ -3,6 +3,8 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/browser/browser.hpp>
+#include <host/app/node_list/node_list.hpp>
 #include <host/app/storage/settings.hpp>
 #include <tactus/file/graph_file.hpp>
 
@@ -20,7 +22,7 @@ const std::filesystem::path templates = TACTUS_SOURCE_DIR "/graphs/templates";
 /// Where a node of the list is on the screen.
 juce::Point<float> rowOf (WindowRig& w, const std::string& type)
 {
-    auto& nodes = w.view->nodeList();
+    auto& nodes = w.view->panel<NodeList>();
     juce::ListBox* list = nullptr;
     for (auto* child : nodes.getChildren())
         if (auto* l = dynamic_cast<juce::ListBox*> (child)) list = l;
@@ -44,7 +46,7 @@ TEST_CASE ("an empty graph offers five templates, each of which can be felt at o
     for (const auto& t : row.all())
         names.push_back (t.name);
     CHECK (names == std::vector<std::string> { "Press", "Stroke", "Tap", "Cut", "Clip" });
-    for (const auto& p : w.view->browser().shipped())
+    for (const auto& p : w.view->panel<PresetBrowser>().shipped())
         CHECK (std::ranges::count (names, p.name) == 0);   // they are no presets
 
     const auto name = GENERATE (as<juce::String>(), "Press", "Stroke", "Tap", "Cut", "Clip");
@@ -163,7 +165,7 @@ TEST_CASE ("a node is dragged from the list to the canvas", "[app][beginnings]")
 {
     WindowRig w ("dry_wood.json", 1600, 900);
     w.click ("Nodes");
-    REQUIRE (w.view->nodeList().isShowing());
+    REQUIRE (w.view->panel<NodeList>().isShowing());
     auto& canvas = w.view->canvas();
     const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
     const auto count = w.graph().root.nodes.size();
@@ -190,7 +192,7 @@ TEST_CASE ("a node is dragged from the list into a wire", "[app][beginnings]")
     REQUIRE (search != nullptr);
     w.stage->click (w.middleOf (*search));
     w.stage->type ("reconstruction");
-    REQUIRE (waitFor ([&] { return w.view->nodeList().entries().front().type == "filter.reconstruction"; }));
+    REQUIRE (waitFor ([&] { return w.view->panel<NodeList>().entries().front().type == "filter.reconstruction"; }));
     const auto wire = std::ranges::find (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text);
     REQUIRE (wire != canvas.scene().wires().end());
     const auto path = wire->path();
@@ -209,7 +211,7 @@ TEST_CASE ("the list of nodes finds as the palette does, Return adds, and Esc gi
     REQUIRE (search != nullptr);
     w.stage->click (w.middleOf (*search));
     w.stage->type ("grating");
-    REQUIRE (waitFor ([&] { return w.view->nodeList().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
+    REQUIRE (waitFor ([&] { return w.view->panel<NodeList>().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
     const auto count = w.graph().root.nodes.size();
     w.key ("return");
     CHECK (w.graph().root.nodes.size() == count + 1);

@@ -2,6 +2,7 @@
 // Closing the window, or opening another graph, loses no film and no take without a question.
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/take/take_panel.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/run/log/stretch.hpp>
@@ -37,7 +38,7 @@ struct Closing
 
     Question& question() { return w.view->asked(); }
     FilmButton& film() { return w.view->handPanel().film(); }
-    Take& take() { return w.view->takePanel().take(); }
+    Take& take() { return w.view->panel<TakePanel>().take(); }
     void close()
     {
         w.view->closeWhenSaved ([this] { ++closed; });
@@ -61,7 +62,7 @@ struct Closing
     {
         w.click ("Take");
         w.click ("Record");
-        REQUIRE (waitFor ([&] { return take().state() == Take::State::recording && w.view->takePanel().plot().length() > 0.05; }));
+        REQUIRE (waitFor ([&] { return take().state() == Take::State::recording && w.view->panel<TakePanel>().plot().length() > 0.05; }));
     }
 
     void stopRecording()
@@ -241,7 +242,7 @@ TEST_CASE ("closing asks about a take of which nothing was made, and saves it so
         c.w.key ("escape");
         WindowRig::settle (50);
         CHECK (c.closed == 0);
-        CHECK_FALSE (c.w.view->takePanel().unsaved().empty());
+        CHECK_FALSE (c.w.view->panel<TakePanel>().unsaved().empty());
         CHECK ((c.take().state() == Take::State::recording) == ! is_complete);
     }
     SECTION ("Don't save")
@@ -306,7 +307,7 @@ TEST_CASE ("a take of which something was made needs no question, a new graph ke
         CHECK (c.w.graph().name != "Dry wood");
         CHECK (c.take().log() == log);
         CHECK (fs::exists (log));
-        REQUIRE (waitFor ([&] { return c.w.view->takePanel().plot().length() > 0.05; }));
+        REQUIRE (waitFor ([&] { return c.w.view->panel<TakePanel>().plot().length() > 0.05; }));
         c.close();
         CHECK (c.question().title().startsWith ("Save the take"));
         CHECK (c.closed == 0);

@@ -3,6 +3,8 @@
 #include "host/app/support/wait_for.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/take/take_panel.hpp>
+
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
@@ -302,8 +304,8 @@ TEST_CASE ("the search for commands finds what a click can do, wherever it is", 
     CHECK (w.view->canvas().selection().size() >= w.graph().root.nodes.size());
     w.key ("z");   // all panels are folded
     find ("take");
-    CHECK (w.view->takePanel().isShowing());
-    CHECK (w.view->takePanel().getHeight() > 100);
+    CHECK (w.view->panel<TakePanel>().isShowing());
+    CHECK (w.view->panel<TakePanel>().getHeight() > 100);
     const bool was_dark = themeOf (*w.view).is_dark;
     find ("light theme");
     CHECK (themeOf (*w.view).is_dark != was_dark);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/wait_for.hpp"
 
+#include <host/app/browser/browser.hpp>
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -299,7 +300,7 @@ TEST_CASE ("the browser searches by words and lists favourites first")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true });
-    auto& browser = o.view->browser();
+    auto& browser = o.view->panel<PresetBrowser>();
     browser.setSize (232, 600);
     const auto all = browser.rows().size();
     CHECK (all >= 30);
@@ -377,14 +378,14 @@ TEST_CASE ("settings persist between starts, and damaged ones are reported")
         "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");
     o.view->begin ({ o.home.path(), true });
     CHECK (o.look.theme().is_dark == false);
-    CHECK (o.view->browser().getWidth() == 320);
+    CHECK (o.view->panel<PresetBrowser>().getWidth() == 320);
     CHECK (o.view->inspected().getWidth() == 304);   // pixels, as older versions wrote them, are the usual size
     o.view->setSize (1920, 1080);
-    CHECK (o.view->browser().getWidth() == 480);
+    CHECK (o.view->panel<PresetBrowser>().getWidth() == 480);
     CHECK (o.view->inspected().getWidth() == 304);
-    REQUIRE (o.view->browser().rows().size() > 2);
-    CHECK (o.view->browser().rows()[0].heading == "Favourites");
-    CHECK (o.view->browser().rows()[1].preset->name == "Dry wood");
+    REQUIRE (o.view->panel<PresetBrowser>().rows().size() > 2);
+    CHECK (o.view->panel<PresetBrowser>().rows()[0].heading == "Favourites");
+    CHECK (o.view->panel<PresetBrowser>().rows()[1].preset->name == "Dry wood");
     o.view.reset();
     CHECK (o.home.textOf ("settings.json").find ("\"welcomed\": true") != std::string::npos);
 

@@ -5,6 +5,7 @@
 
 #include <host/app/scopes/scope_view.hpp>
 #include <host/app/storage/settings.hpp>
+#include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/template_row.hpp>
 
 #include <array>
@@ -274,7 +275,7 @@ TEST_CASE ("the labels of a take are whole in a small window", "[app][small][tak
     const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360), std::pair (1280, 720));
     INFO (width << " x " << height);
     WindowRig w ("dry_wood.json", width, height, false);
-    auto& panel = w.view->takePanel();
+    auto& panel = w.view->panel<TakePanel>();
     w.click ("Take");
     const auto checkLabels = [&] (const std::vector<std::array<juce::String, 2>>& wanted) {
         const auto texts = host::test::readTexts (panel);

@@ -2,6 +2,8 @@
 // Undo takes back what was done to the window too, and never touches the graph for it. The history says what was done.
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/scopes/scope_panel.hpp>
+
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;

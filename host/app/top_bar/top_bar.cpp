@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "top_bar.hpp"
 
+#include <host/app/compose/variation.hpp>
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -98,8 +103,8 @@ private:
     bool is_stored = false;
 };
 
-TopBar::TopBar (Document& d)
-    : document (d),
+TopBar::TopBar (Desk& d)
+    : desk (d),
       undo (std::make_unique<IconButton> (TRANS ("Undo"), curvedArrow (false))),
       redo (std::make_unique<IconButton> (TRANS ("Redo"), curvedArrow (true))),
       help (std::make_unique<IconButton> (TRANS ("Help (F1)"), questionMark())),
@@ -111,7 +116,7 @@ TopBar::TopBar (Document& d)
         slot = std::make_unique<Slot> (n);
         slot->onClick = [this, n, s = slot.get()] {
             const bool stores = ! s->isStored() || juce::ModifierKeys::currentModifiers.isShiftDown() || juce::ModifierKeys::currentModifiers.isCtrlDown();
-            if (const auto& act = stores ? onStore : onRecall) act (n);
+            stores ? store (n) : recall (n);
         };
         slot->onMenu = [this, n, s = slot.get()] { openSnapshots (*s, n, n); };
         addAndMakeVisible (*slot);
@@ -135,10 +140,18 @@ TopBar::TopBar (Document& d)
 
 TopBar::~TopBar() = default;
 
-void TopBar::show (std::vector<juce::String> t, std::optional<Instance> i)
+juce::String TopBar::graphName() const
 {
-    trail = std::move (t);
-    shown = i;
+    const auto& name = document.graph().name;
+    return name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (name));
+}
+
+void TopBar::show()
+{
+    trail = { graphName() };
+    for (const auto& [node, subgraph] : desk.canvas.breadcrumbs())
+        trail.emplace_back (printableName (node));
+    shown = desk.canvas.instance();
     instance.setVisible (shown.has_value());
     if (shown) instance.setButtonText (filled (TRANS ("Instance [%1] of %2"), shown->number, shown->count));
     resized();
@@ -191,20 +204,16 @@ void TopBar::openSnapshots (juce::Component& at, int first, int last)
     const auto add = [&] (const char* stored, const char* empty, const std::function<void (int)>& act) {
         for (int n = first; n <= last; ++n)
             if (const auto* text = hasSnapshot (document.graph(), n) ? stored : empty; text != nullptr)
-                list.addItem (filled (juce::translate (text), n), [act, n] {
-                    if (act) act (n);
-                });
+                list.addItem (filled (juce::translate (text), n), [act, n] { act (n); });
         list.addSeparator();
     };
-    add (NEEDS_TRANS ("Recall snapshot %1"), nullptr, onRecall);
-    add (NEEDS_TRANS ("Overwrite snapshot %1"), NEEDS_TRANS ("Store in snapshot %1"), onStore);
-    add (NEEDS_TRANS ("Clear snapshot %1"), nullptr, onClear);
+    add (NEEDS_TRANS ("Recall snapshot %1"), nullptr, [this] (int n) { recall (n); });
+    add (NEEDS_TRANS ("Overwrite snapshot %1"), NEEDS_TRANS ("Store in snapshot %1"), [this] (int n) { store (n); });
+    add (NEEDS_TRANS ("Clear snapshot %1"), nullptr, [this] (int n) { document.perform (clearSnapshot (document.graph(), n)); });
     for (int n = first; n <= last; ++n)
         for (int to = 1; to <= snapshot_count && first == last && hasSnapshot (document.graph(), n); ++to)
             if (to != n && hasSnapshot (document.graph(), to))
-                list.addItem (filled (TRANS ("Morph from snapshot %1 to %2"), n, to), [this, n, to] {
-                    if (onMorph) onMorph (n, to);
-                });
+                list.addItem (filled (TRANS ("Morph from snapshot %1 to %2"), n, to), [this, n, to] { morph (n, to); });
     list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (at));
 }
 
@@ -215,7 +224,7 @@ void TopBar::openInstances()
     for (int i = 0; shown && i < std::min (shown->count, most_items); ++i)
         list.addItem (i + 1, filled (TRANS ("Instance [%1]"), i), true, i == shown->number);
     list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (instance), [safe = juce::Component::SafePointer (this)] (int item) {
-        if (safe != nullptr && item > 0 && safe->onInstance) safe->onInstance (item - 1);
+        if (safe != nullptr && item > 0) safe->desk.canvas.chooseInstance (item - 1);
     });
 }
 
@@ -281,7 +290,71 @@ void TopBar::mouseUp (const juce::MouseEvent& e)
 {
     const auto all = places();
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
-        if (all[i].contains (e.position) && e.mods.isLeftButtonDown() && onLeave) onLeave (i);
+        if (all[i].contains (e.position) && e.mods.isLeftButtonDown()) desk.canvas.leaveTo (i);
+}
+
+//==============================================================================
+bool TopBar::snapshotKey (const juce::KeyPress& key)
+{
+    const int digit = key.getKeyCode() - '0';
+    const bool is_digit = digit >= 1 && digit <= snapshot_count && ! key.getModifiers().isAltDown();
+    if (is_digit)
+        key.getModifiers().isAnyModifierKeyDown() ? store (digit) : recall (digit);
+    else if (key == juce::KeyPress::createFromDescription ("v"))
+        compare();
+    else
+        return false;
+    return true;
+}
+
+/// Remembers which snapshot was recalled or stored last, and which one before it.
+void TopBar::note (int number)
+{
+    if (std::exchange (compared_in, document.identity()) != document.identity()) compared = {};
+    if (compared[1] != number) compared = { compared[1], number };
+}
+
+void TopBar::recall (int number)
+{
+    const juce::String n (number);
+    if (! hasSnapshot (document.graph(), number)) return desk.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
+    if (auto command = recallSnapshot (document.graph(), number)) document.perform (std::move (*command));
+    note (number);
+    const auto missing = missingNodes (document.graph(), number);
+    if (missing.empty()) return desk.notify (filled (TRANS ("Recalled snapshot %1."), n));
+    juce::StringArray names;
+    for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
+        names.add (valueText (missing[i]));
+    const juce::String more = missing.size() > 3 ? ", …" : "";
+    desk.notify (filled (TRANS ("Recalled snapshot %1, except for nodes that the graph no longer has: %2."), n, names.joinIntoString (", ") + more));
+}
+
+void TopBar::store (int number)
+{
+    const juce::String n (number);
+    if (! document.perform (storeSnapshot (document.graph(), number))) return;
+    desk.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
+    note (number);
+}
+
+void TopBar::compare()
+{
+    if (compared_in != document.identity()) compared = {};
+    if (compared[0] == 0 || ! hasSnapshot (document.graph(), compared[0]))
+        return desk.notify (TRANS ("V switches between the last two snapshots: store one with Ctrl+1 and another with Ctrl+2 first."));
+    recall (compared[0]);
+}
+
+void TopBar::morph (int from, int to)
+{
+    auto made = morphBetween (document.graph(), from, to, desk.types);
+    if (! made) return desk.notify (fromUtf8 (messageText (made.error())));
+    if (! document.perform (std::move (made->command))) return;
+    desk.notify (made->left_out == 0
+                     ? filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3."), made->params, from, to)
+                     : filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3. %4 differences stay as in snapshot %2: choices, "
+                                      "vectors, values in subgraphs, and what a wire or a control sets."),
+                               made->params, from, to, made->left_out));
 }
 
 }   // namespace tactus::host

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/desk/desk.hpp>
 #include <host/app/look/plain_button.hpp>
 #include <host/app/look/tool_button.hpp>
-#include <host/app/model/document.hpp>
 #include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -23,25 +23,17 @@ class TopBar final : public juce::Component
 public:
     static constexpr int height = 40;
 
-    explicit TopBar (Document&);
+    explicit TopBar (Desk&);
     ~TopBar() override;
 
-    /// The instance of the current subgraph whose values are shown.
-    struct Instance
-    {
-        int number = 0, count = 1;
-    };
-
-    /// Call after each change of the document or the trail.
-    void show (std::vector<juce::String> trail, std::optional<Instance> = {});
+    void show();   ///< call after each change of the document, or of the patch that the canvas shows
 
     /// The file of the graph, and whether the graph was edited since it was saved: "oak.json, edited". Empty for a new graph.
     juce::String savedText() const;
 
-    std::function<void (std::size_t depth)> onLeave;
-    std::function<void (int number)> onRecall, onStore, onClear;   ///< receive the number of a snapshot, from 1
-    std::function<void (int from, int to)> onMorph;                ///< receives two snapshots
-    std::function<void (int instance)> onInstance;
+    juce::String graphName() const;
+    bool snapshotKey (const juce::KeyPress&);   ///< a digit recalls a snapshot or stores it, and V compares; false for other keys
+
     std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;
 
@@ -55,11 +47,19 @@ private:
     std::vector<juce::Rectangle<float>> places() const;
     void placeCaption (juce::Rectangle<int>);
 
+    void recall (int snapshot);   // from 1
+    void store (int snapshot);
+    void compare();   // recalls the snapshot before the last one
+    void morph (int from, int to);
+    void note (int snapshot);
     void openInstances();
     void openSnapshots (juce::Component& at, int first, int last);
 
-    Document& document;
-    std::optional<Instance> shown;
+    Desk& desk;
+    Document& document { desk.document };
+    std::optional<Canvas::Instance> shown;
+    std::array<int, 2> compared {};      // the last two snapshots; 0: none
+    const void* compared_in = nullptr;   // identity of their document
     ToolButton instance { "", ToolButton::Kind::framed, TRANS ("Choose the instance of this subgraph whose values are shown") };
     std::vector<juce::String> trail;
     int room = 0;                   // width available for the trail, in pixels

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "question.hpp"
+
+#include <filesystem>
+
+namespace tactus::host
+{
+
+/// The dialogs of a window in which a file is chosen. They open inside the window, below the place of STOP. [main thread]
+class FileDialogs
+{
+public:
+    using Path = std::filesystem::path;
+    using TakePath = std::function<void (const Path&)>;   ///< called unless the user cancels
+
+    /// The dialogs keep clear of the upper edge of the window. When one closes, `home` gets the keyboard.
+    FileDialogs (juce::Component& in, int upper_edge, juce::Component& gets_keyboard, Question& q)
+        : window (in), kept_at_top (upper_edge), home (gets_keyboard), question (q)
+    {
+    }
+
+    /// Asks for a graph, a clip or a take to open, or where to save a file; `begin` is the folder or the file to begin with, and says which kind.
+    void choose (bool saves, const Path& begin, TakePath);
+    void chooseInput (const juce::String& patterns, const Path& begin, TakePath);   ///< a file that a setting names; without a folder: in that of the user
+    void open (const juce::String& title, const juce::String& patterns, const Path& begin, TakePath);
+
+    void attendNewFolder();                 ///< call many times a second
+    void keepKeyboard (juce::Component&);   ///< of what is modal: a menu that closes after its entry has opened a dialog takes the keyboard from the name
+
+private:
+    struct SaveWords;
+    void save (const SaveWords&, const Path& begin, TakePath);
+    void launch (const juce::String& title, const juce::String& patterns, const Path& begin, int how, TakePath);
+    void openWhenMade (juce::AlertWindow&, juce::TextEditor& name);
+
+    juce::Component& window;
+    const int kept_at_top;
+    juce::Component& home;
+    Question& question;
+    std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
+    std::unique_ptr<juce::FileChooser> chooser;
+    juce::Component::SafePointer<juce::Component> begun;   // the dialog for a new folder, once its name has the keyboard
+};
+
+/// The folder of a file, from ~ on if it is in the home folder of the user.
+juce::String folderText (const std::filesystem::path& file);
+
+}   // namespace tactus::host

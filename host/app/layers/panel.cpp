@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The layers in the window.
+#include "layers_panel.hpp"
+
+#include <host/app/desk/panel.hpp>
+#include <host/app/inspector/settings/setting_editor.hpp>
+
+namespace tactus::host
+{
+
+Panel layersPanel (Desk& desk)
+{
+    auto made = std::make_unique<LayersPanel> (desk.document, desk.playback.run().traces(), desk.types);
+    auto* layers = made.get();
+    layers->onHint = [&desk] (const juce::String& text) { desk.hint (text); };
+    layers->onSelect = [&desk] (const std::string& patch, graph::Id node) { desk.show (patch, node); };
+    layers->commandToMix = [&desk] (const UnmixedSignal& u) { return desk.layerOf (u.sink, u.port); };
+    layers->onChooseClip = [&desk] (auto chosen) { desk.chooseInput (clip_patterns, {}, std::move (chosen)); };
+    layers->onAdded = [&desk] (const std::string& patch, graph::Id node) {
+        desk.canvas.show (patch, node);
+        desk.canvas.endEdit();   // undoing the edit brings back the view from before
+    };
+    desk.addClip = [&desk, layers] (const std::filesystem::path& file, std::optional<double> gain) {
+        desk.toFront (*layers);
+        layers->addClip (file, gain);
+    };
+    return { .name = TRANS ("Layers"), .component = std::move (made), .refresh = [layers] { layers->refresh(); } };
+}
+
+}   // namespace tactus::host
