@@ -41,7 +41,7 @@ SECTIONS = {
                ["host", "replay", "fit", "import", "clips", "spectra", "devices", "known_devices", "sessions", "audio", "check", "realtime",
                 "library", "steps", "states", "live", "export", "python", "lab", "plugins"]),
     "Concepts": ("What the words mean, and how the parts work together.",
-                 ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "fusion"]),
+                 ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "panels", "threads", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
                   ["nodes/index", "graph_file", "commands", "osc", "profiles", "wires", "cpp_api", "c_api", "python_api",
                    "preset_table", "bench", "instructions", "promises", "changelog", "contributing", "security"]),

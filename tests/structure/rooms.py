@@ -12,7 +12,9 @@ Usage: rooms.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 
 - docs/architecture.md, "Rooms and doors": if it lists a room of a folder, it lists all of them, each with its doors, which are the headers that
   others include. The doors of a folder such as host/devices/hid are the headers that other parts of host include. The page also lists the
   folders that have more than MOST_FILES files.
-- The folders of MODELS include no header of a component."""
+- The folders of MODELS include no header of a component.
+- A panel of the window is a folder of host/app with a file panel.cpp, which defines a function `Panel NAME (Desk&)`. The list PANELS names each of
+  these functions once, and no other file of host does. No panel includes another panel, and no other folder includes a component of a panel."""
 
 import pathlib
 import re
@@ -25,6 +27,7 @@ HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers":
 DRIVERS = ["base/platform/peer_lock.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
            "devices/hid/calibration.hpp", "devices/hid/vibration_tracker.hpp"]
 MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
+PANELS = pathlib.PurePath("host/app/window/panels.hpp")
 PAGE = "docs/architecture.md"
 MOST_FILES = 40
 
@@ -160,11 +163,36 @@ def wrong_doors(root, files, all_includes):
     return problems
 
 
+def wrong_panels(root, files, all_includes):
+    """The places where a panel is known to more than the list."""
+    text = {file: (root / file).read_text(encoding="utf-8") for file in files if file.parts[0] == "host"}
+    makers, problems = {}, []   # the folder of a panel, and its function
+    for file in text:
+        if file.name == "panel.cpp" and file.parts[:2] == ("host", "app"):
+            made = re.findall(r"^Panel (\w+) \(Desk&", text[file], re.M)
+            problems += [] if len(made) == 1 else [f"{file}: it defines {len(made)} functions that return a Panel, instead of one"]
+            makers[file.parent] = made[0] if made else ""
+    problems += [] if makers else ["host/app has no panel"]
+    for folder, maker in makers.items():
+        named = {file: len(re.findall(rf"\b{maker}\b", text[file])) for file in text if maker and file != folder / "panel.cpp"}
+        problems += [f"{file}: it names the panel {maker}; only {PANELS} may" for file, count in named.items() if count and file != PANELS]
+        problems += [f"{PANELS}: it names the panel {maker} {named[PANELS]} times, instead of once"] if named.get(PANELS, 1) != 1 else []
+    for file, line, target in all_includes:
+        room = next((folder for folder in makers if folder in target.parents), None)
+        if room is None or room in file.parents or file.parts[0] != "host":
+            continue
+        if any(folder in file.parents for folder in makers):
+            problems.append(f"{file}:{line}: <{target}>: a panel must not include another panel")
+        elif "public juce::Component" in text[target]:
+            problems.append(f"{file}:{line}: <{target}>: it is a component of a panel, which only the panel may include")
+    return problems
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
     files = list(sources(root))
     all_includes = [(file, line, target) for file in files for line, target in includes(root, file)]
-    problems, edges = wrong_doors(root, files, all_includes), {}
+    problems, edges = wrong_doors(root, files, all_includes) + wrong_panels(root, files, all_includes), {}
     for file, line, target in all_includes:
         if reason := points_upwards(file, target):
             problems.append(f"{file}:{line}: <{target}>: {reason}")
