@@ -64,6 +64,62 @@ void addFirstMixer (graph::Graph& g, const Catalogue& catalogue)
     auto with = g;
     if (graph::apply (with, first->command) && with.root.find (first->place.node)->settings.contains ("names")) g = std::move (with);
 }
+/// True if several wires end at the same input of a motor, in some patch.
+bool hasJoinedWires (const graph::Graph& g)
+{
+    const auto isJoined = [] (const graph::Patch& patch) {
+        std::set<std::pair<std::string, std::string>> ends;
+        for (const auto& w : patch.wires)
+        {
+            const auto* to = patch.find (w.to.node);
+            if (to != nullptr && ! sinkPortsOf (*to).empty() && ! ends.emplace (w.to.node, w.to.port).second) return true;
+        }
+        return false;
+    };
+    return isJoined (g.root) || std::ranges::any_of (g.graphs, [&] (const auto& subgraph) { return isJoined (subgraph.second); });
+}
+
+/// The number of effects among the signals that reach an input: groups of sources whose nodes are wired to each other. The devices join nothing.
+int effectsInto (const plan::Flat& flat, const SinkMix& mix)
+{
+    std::vector<std::vector<int>> from (flat.nodes.size());
+    const auto isDevice = [&] (int n) { return flat.node (n).type != nullptr && flat.node (n).type->info.id.starts_with ("device."); };
+    for (const auto& w : flat.wires)
+        if (w.from && w.to.role == Role::input && ! isDevice (w.from->node)) from[static_cast<std::size_t> (w.to.node)].push_back (w.from->node);
+    std::vector<int> group (flat.nodes.size(), -1), joined;   // `joined`: by group, the one that it belongs to
+    const auto whole = [&] (int k) {
+        while (joined[static_cast<std::size_t> (k)] != k)
+            k = joined[static_cast<std::size_t> (k)];
+        return k;
+    };
+    for (const auto& u : mix.unmixed)
+    {
+        const auto& source = flat.wires[u.wire].from;
+        if (! source) continue;
+        const int mine = static_cast<int> (joined.size());
+        joined.push_back (mine);
+        if (isDevice (source->node)) continue;
+        std::vector<int> next { source->node };
+        while (! next.empty())
+        {
+            auto& of = group[static_cast<std::size_t> (next.back())];
+            const int n = next.back();
+            next.pop_back();
+            if (of == mine) continue;
+            if (of >= 0)
+            {
+                joined[static_cast<std::size_t> (whole (of))] = mine;
+                continue;
+            }
+            of = mine;
+            next.insert (next.end(), from[static_cast<std::size_t> (n)].begin(), from[static_cast<std::size_t> (n)].end());
+        }
+    }
+    int count = 0;
+    for (int k = 0; k < static_cast<int> (joined.size()); ++k)
+        count += whole (k) == k ? 1 : 0;
+    return count;
+}
 }   // namespace
 
 Result<std::string> bankBefore (graph::Patch& root, const std::string& sink, const SinkPort& port, const Catalogue& catalogue)
@@ -120,7 +176,7 @@ Result<> mixAll (graph::Graph& g, const Catalogue& catalogue)
 
 std::vector<Bypassed> bypassedBanks (const graph::Graph& g, const Catalogue& catalogue)
 {
-    if (mixersOf (g).empty()) return {};
+    if (mixersOf (g).empty() && ! hasJoinedWires (g)) return {};
     const auto flat = plan::flatten (g, catalogue, {}, nullptr, plan::SettingFiles::left_out).flat;
     const auto mixes = sinkMixes (flat);
     const bool has_bank = std::ranges::any_of (mixes, &SinkMix::is_direct);
@@ -128,10 +184,11 @@ std::vector<Bypassed> bypassedBanks (const graph::Graph& g, const Catalogue& cat
     std::set<std::pair<std::string, std::string>> known;
     for (const auto& m : mixes)
     {
-        if (m.unmixed.empty() || ! (m.is_direct || (has_bank && m.mixers.empty()))) continue;
+        const bool goes_past = m.is_direct || (has_bank && m.mixers.empty());
+        if (m.unmixed.empty() || ! (goes_past || (m.mixers.empty() && effectsInto (flat, m) > 1))) continue;
         const auto& path = flat.node (m.sink).path;
         if (! known.emplace (graph::firstNameOf (path), flat.sheet (m.input).id).second) continue;
-        Bypassed b { path, std::string (flat.sheet (m.input).id), m.is_direct ? flat.node (m.mixers.front()).path : std::string(), {} };
+        Bypassed b { path, std::string (flat.sheet (m.input).id), m.is_direct ? flat.node (m.mixers.front()).path : std::string(), {}, has_bank };
         for (const auto& u : m.unmixed)
             b.sources.push_back (u.from);
         found.push_back (std::move (b));

@@ -21,15 +21,18 @@ Result<> addStrip (graph::Patch& root, const std::string& mixer, const graph::En
 /// Makes layers of all signals that reach a motor. Ids: those of liftSinks.
 Result<> mixAll (graph::Graph&, const Catalogue&);
 
-/// An input of a motor that some signals reach without passing a mixer. A mixer is wired directly into it, or into another input.
+/// An input of a motor that some signals reach without passing a mixer.
 struct Bypassed
 {
     std::string sink, port;             ///< the path of the node, and its input
     std::string mixer;                  ///< path; "" if none stands before this input
     std::vector<std::string> sources;   ///< the ports that bypass it: "wall.force"
+    bool has_bank = false;              ///< a mixer is wired directly into this input, or into another one
 };
 
-/// The bypassed inputs of a graph with a mixer. Of several instances of a subgraph, the first one counts.
+/// The inputs of motors that some signals reach past a mixer: one before this input, or before another. Without any mixer, the inputs that several effects
+/// reach. Signals whose nodes are wired to each other are one effect, such as a wall, and the friction that its force presses on; the hand, and wires to
+/// parameters, join nothing. Of several instances of a subgraph, the first one counts.
 std::vector<Bypassed> bypassedBanks (const graph::Graph&, const Catalogue&);
 
 /// Makes layers of the signals that reach this input. A motor inside a subgraph moves to the top of the graph with all others. Ids: those of mixAll.

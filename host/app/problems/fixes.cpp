@@ -95,11 +95,14 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     }
     if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"));
     if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"));
-    if (m.id == "mixer/bypassed")
+    if (m.id == "mixer/bypassed" || m.id == "mixer/none")
         for (const auto& b : compose::bypassedBanks (g, catalogue()))
             if (graph::firstNameOf (b.sink) == location.node && m.text.find (b.sources.front()) != std::string::npos)
                 if (auto mixed = compose::mixIn (g, b.sink, b.port, catalogue()))
-                    return Fix { (b.mixer.empty() ? TRANS ("Mix it in") : filled (TRANS ("Mix it in %1"), b.mixer)).toStdString(), std::move (*mixed) };
+                    return Fix { (! b.has_bank ? TRANS ("Mix them") : b.mixer.empty() ? TRANS ("Mix it in")
+                                                                                      : filled (TRANS ("Mix it in %1"), b.mixer))
+                                     .toStdString(),
+                                 std::move (*mixed) };
     if (m.id == "node/no_effect") return leadToMotor (g, location);
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));

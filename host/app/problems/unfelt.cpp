@@ -166,11 +166,16 @@ Messages unfelt (const graph::Graph& g, const Catalogue& catalogue)
     for (const auto& b : compose::bypassedBanks (g, catalogue))
     {
         const auto sources = listText (b.sources);
-        const auto text = b.mixer.empty() ? filled (TRANS ("%1 goes to '%2' without a mixer, so mute, solo and ceiling miss it"), sources, b.sink)
-                                          : filled (TRANS ("%1 goes to '%2' past the mixer '%3', so mute, solo and ceiling miss it"), sources, b.sink,
-                                                    b.mixer);
-        all.push_back (Message::warning ("mixer/bypassed", "/nodes/" + pointerPart (graph::firstNameOf (b.sink)), text.toStdString(),
-                                         TRANS ("wire it into a layer of a mixer before the motor").toStdString()));
+        auto text = filled (TRANS ("several effects reach '%1' without a mixer, so none can be muted alone: %2"), b.sink, sources);
+        auto remedy = TRANS ("put a mixer before the motor, with a layer for each");
+        if (b.has_bank)
+        {
+            text = b.mixer.empty() ? filled (TRANS ("%1 goes to '%2' without a mixer, so mute, solo and ceiling miss it"), sources, b.sink)
+                                   : filled (TRANS ("%1 goes to '%2' past the mixer '%3', so mute, solo and ceiling miss it"), sources, b.sink, b.mixer);
+            remedy = TRANS ("wire it into a layer of a mixer before the motor");
+        }
+        const auto where = "/nodes/" + pointerPart (graph::firstNameOf (b.sink));
+        all.push_back (Message::warning (b.has_bank ? "mixer/bypassed" : "mixer/none", where, text.toStdString(), remedy.toStdString()));
     }
     return all;
 }

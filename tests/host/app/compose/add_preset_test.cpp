@@ -356,6 +356,33 @@ TEST_CASE ("what goes past a mixer is found, and becomes a layer in one step", "
     CHECK (difference (more.graph, {}, after, {}).most < 1e-12);
 }
 
+TEST_CASE ("several effects that reach a motor without a mixer are a problem with a fix, and one effect of several nodes is none", "[compose]")
+{
+    for (const auto& file : presetFiles())
+    {
+        INFO (file);
+        CHECK (std::ranges::count (unfelt (loadGraph (file).graph, catalogue()), "mixer/none", &Message::id) == 0);
+    }
+    tactus::test::Sketch s { preset ("dry_wood") };   // a wall, a friction that it presses on, and grain that the wall opens
+    s.node ("hum", "signal.lfo");
+    CHECK (bypassedBanks (s.graph, catalogue()).empty());
+    s.wire ("hum.out -> (+) drag.mu");   // a modulator is no effect
+    CHECK (bypassedBanks (s.graph, catalogue()).empty());
+    s.wire ("hum.out -> motor.force.x");
+    const auto said = unfelt (s.graph, catalogue());
+    REQUIRE (said.size() == 1);
+    CHECK (said[0].id == "mixer/none");
+    CHECK (said[0].text.find ("hum.out") != std::string::npos);
+    const auto fix = fixOf (s.graph, said[0]);
+    REQUIRE (fix);
+    CHECK (fix->label == "Mix them");
+    auto after = s.graph;
+    REQUIRE (graph::apply (after, fix->command));
+    CHECK (isMixed (after));
+    CHECK (unfelt (after, catalogue()).empty());
+    CHECK (difference (s.graph, {}, after, {}).most < 1e-12);
+}
+
 TEST_CASE ("a graph that drives nothing cannot be a layer", "[compose]")
 {
     const auto wood = preset ("dry_wood");
