@@ -2,6 +2,7 @@
 #include "knob_strip.hpp"
 #include "control_value.hpp"
 
+#include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/drag_way.hpp>
 #include <host/app/look/fitted_text.hpp>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -54,7 +56,12 @@ public:
         overridden = overriddenText (document.graph(), *c);
         has_no_effect = isOverridden (document.graph(), *c);
         const auto usual = filled (TRANS ("%1: drag up or down, Shift+drag for fine steps; double-click to type a value, or on the name to rename it"), name);
-        setTooltip (has_no_effect ? name + ": " + overridden : usual + (overridden.isEmpty() ? "" : "\n" + overridden));
+        auto about = has_no_effect ? name + ": " + overridden : usual + (overridden.isEmpty() ? "" : "\n" + overridden);
+        findDepths (*c);
+        for (const auto& d : depths)
+            about << "\n"
+                  << filled (TRANS ("%1. Drag the ring around the knob to change this; drag it to 0 to end it."), textOf (d.modulation));
+        setTooltip (about);
         setValue (c->value, juce::dontSendNotification);
         repaint();
     }
@@ -88,9 +95,11 @@ public:
         if (! refusesHand()) typeValue();
     }
 
-    void mouseDown (const juce::MouseEvent&) override
+    void mouseDown (const juce::MouseEvent& e) override
     {
-        refusesHand();
+        holds_ring = isOnRing (e.position) && ! e.mods.isPopupMenu();
+        depth_grabbed = holds_ring ? depths.front().modulation.depth : 0.0;
+        if (! holds_ring) refusesHand();
         grabbed = getValue();
         way = {};
         continues = false;
@@ -99,12 +108,19 @@ public:
     void mouseDrag (const juce::MouseEvent& e) override
     {
         constexpr double pixels = 200.0;   // over the whole range
+        if (holds_ring) return turnDepth (way.to (e));
         if (! has_no_effect) turnTo (grabbed + way.to (e) / pixels);
     }
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        continues = false;
+        const bool moved = std::exchange (continues, false);
+        if (std::exchange (holds_ring, false))
+        {
+            if (moved && ! depths.empty() && depths.front().modulation.depth == 0.0)
+                document.perform (removeModulation (depths.front().modulation), graph::Step::joined);
+            return;
+        }
         if (! e.mods.isPopupMenu() && ! e.source.hasMovedSignificantlySincePressed() && ! field && ! has_no_effect) takeFocus (*this);   // to type a value
     }
 
@@ -150,6 +166,9 @@ public:
         };
         arc (scale_end, theme.hairline);
         if (getValue() > 0.0) arc (scale_start + (scale_end - scale_start) * getValue(), has_no_effect ? theme.dim.withMultipliedAlpha (0.5f) : theme.accent);
+        for (const auto& d : depths)
+            paintDepth (g, dial.getCentre(), ring_radius, 3.0f, getValue() + (d.modulation.is_one_sided ? 0.0 : -d.part), getValue() + d.part,
+                        theme.of (Quantity::energy));
         if (hasKeyboardFocus (false))
         {
             g.setColour (theme.accent);
@@ -237,9 +256,54 @@ private:
         document.perform (graph::ChangeControl { id, std::move (changed) }, joins ? graph::Step::joined : graph::Step::own);
     }
 
+    /// A modulator of a target.
+    struct Depth
+    {
+        Modulation modulation;
+        double range = 1.0, part = 0.0;   ///< of the target, in SI; the depth as a part of the scale
+    };
+
+    void findDepths (const graph::Control& c)
+    {
+        depths.clear();
+        for (const auto& t : c.to)
+            if (const auto param = controlOf (document.graph(), t.path); param && param->high != param->low)
+                for (auto& m : modulationsAt (document.graph(), t.path, strip.catalogue))
+                {
+                    const double range = param->high - param->low, part = m.depth / range;
+                    depths.push_back ({ std::move (m), range, part });
+                }
+    }
+
+    bool isOnRing (juce::Point<float> at) const
+    {
+        const auto middle = getLocalBounds().withTrimmedBottom (label_height).toFloat().getCentre();
+        return ! depths.empty() && ! has_no_effect && std::abs (at.getDistanceFrom (middle) - ring_radius) <= 3.5f;
+    }
+
+    void turnDepth (double pixels)
+    {
+        if (depths.empty()) return;
+        auto& d = depths.front();
+        const double to = draggedDepth (depth_grabbed, std::abs (d.range), pixels);
+        if (to == d.modulation.depth) return;
+        auto command = changeDepth (document.graph(), d.modulation, to);
+        if (! command || ! document.perform (std::move (*command), continues ? graph::Step::joined : graph::Step::own) || depths.empty()) return;
+        continues = true;
+        if (! strip.onHint) return;
+        const auto& now = depths.front();
+        strip.onHint (now.modulation.depth == 0.0 ? filled (TRANS ("%1: release to end the modulation"), now.modulation.from)
+                                                  : textOf (now.modulation));
+    }
+
+    static constexpr float ring_radius = 21.0f;
+
     KnobStrip& strip;
     Document& document;
     std::string id;
+    std::vector<Depth> depths;
+    double depth_grabbed = 0.0;
+    bool holds_ring = false;
     juce::String name, overridden;
     bool has_no_effect = false;         // wires set all its targets
     std::unique_ptr<TextField> field;   // while its name or its value is being typed
@@ -250,7 +314,7 @@ private:
     bool continues = false;
 };
 
-KnobStrip::KnobStrip (Document& d) : document (d) { setTitle (TRANS ("Controls")); }
+KnobStrip::KnobStrip (Document& d, const Catalogue& c) : document (d), catalogue (c) { setTitle (TRANS ("Controls")); }
 
 KnobStrip::~KnobStrip() = default;
 

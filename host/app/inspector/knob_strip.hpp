@@ -14,10 +14,11 @@ namespace tactus::host
 
 /// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
 /// keys; a double click on the dial sets it to the middle, and one on the name renames it. A knob is dimmed and does not turn if wires set all its targets.
+/// A ring around a knob shows how far modulators move its targets; drag the ring to change the depth of the first one.
 class KnobStrip final : public juce::Component
 {
 public:
-    explicit KnobStrip (Document&);
+    KnobStrip (Document&, const Catalogue&);
     ~KnobStrip() override;
 
     void refresh();   ///< after each change of the document
@@ -37,6 +38,7 @@ private:
     int columnsFor (int width) const;
 
     Document& document;
+    const Catalogue& catalogue;
     std::vector<std::unique_ptr<Knob>> knobs;
 };
 

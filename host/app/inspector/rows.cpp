@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
 
+#include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
@@ -74,6 +75,7 @@ public:
             drivers.push_back (driverName (document.graph(), patch, node_name, port, numbers.size() > 1 ? static_cast<int> (i) : -1));
         }
         setIsSet (now.is_set && (numbers.empty() || std::ranges::any_of (drivers, &std::string::empty)));
+        showDepths (*node);
         note (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String());
         refreshLive();
         if (port.isChoice())
@@ -99,6 +101,8 @@ public:
 
     void place (juce::Rectangle<int> area) override
     {
+        for (auto& ring : rings)
+            ring->setBounds (area.removeFromRight (DepthRing::width));
         choice.setBounds (area);
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
@@ -113,9 +117,40 @@ private:
     {
         const auto driver = std::ranges::find_if_not (drivers, &std::string::empty);
         if (driver != drivers.end()) return setNote (filled (TRANS ("from %1"), *driver), themeOf (*this).accent);
-        const auto* in = findPatch (document.graph(), patch.name);
-        const auto added = in == nullptr ? juce::String() : addedTo (*in, node_name, port);
-        setNote (added.isEmpty() ? control : filled (TRANS ("plus %1"), added), themeOf (*this).accent);
+        juce::StringArray depths;
+        for (const auto& m : modulations)
+            depths.add (textOf (m));
+        setNote (depths.isEmpty() ? control : depths.joinIntoString (", "), themeOf (*this).accent);
+    }
+
+    /// A dial for each wire that adds to the value.
+    void showDepths (const graph::Node& node)
+    {
+        constexpr std::size_t most_rings = 3;
+        modulations = modulationsOf (document.graph(), patch.name, node.name, port, catalogue);
+        const auto count = std::min (modulations.size(), most_rings);
+        const bool has_changed = count != rings.size();
+        while (rings.size() > count)
+            rings.pop_back();
+        while (rings.size() < count)
+        {
+            auto& ring = *rings.emplace_back (std::make_unique<DepthRing>());
+            ring.onChange = [this, &ring] (double depth, bool continues) {
+                if (auto command = changeDepth (document.graph(), ring.shown(), depth))
+                    document.perform (std::move (*command), continues ? graph::Step::joined : graph::Step::own);
+            };
+            ring.onEnd = [this, &ring] (bool continues) {
+                // Later, because this deletes the dial.
+                juce::MessageManager::callAsync ([safe = SafePointer (this), m = ring.shown(), continues] {
+                    if (safe != nullptr) safe->document.perform (removeModulation (m), continues ? graph::Step::joined : graph::Step::own);
+                });
+            };
+            ring.onHint = refused;
+            addAndMakeVisible (ring);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            rings[i]->show (modulations[i], siOf (current, sheet), sheet, label().length() > 1 ? label() : spokenName (*port.sheet));
+        if (has_changed) resized();
     }
 
     void change (const std::optional<Json>& value, bool continues)
@@ -156,6 +191,8 @@ private:
     Json current;
     std::vector<std::string> drivers;   // of the numbers: the outputs whose wires set them
     bool was_driven = false;
+    std::vector<Modulation> modulations;
+    std::vector<std::unique_ptr<DepthRing>> rings;
     std::vector<std::unique_ptr<NumberField>> numbers;
     juce::ComboBox choice;
 };

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modulation.hpp"
+
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/model/param_value.hpp>
+#include <host/app/model/patch.hpp>
+#include <host/app/model/quantity_text.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/plan/values.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/read_number.hpp>
+#include <tactus/text/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The unit of a gain as it is written, and its value in SI units.
+struct GainUnit
+{
+    std::string text {};
+    double si = 1.0;
+};
+
+GainUnit unitOf (const Json& gain)
+{
+    if (! gain.is_string()) return {};
+    const auto written = gain.asString();
+    const auto start = std::min (written.find_first_not_of (' '), written.size());
+    auto unit = written.substr (start + readNumber (std::string_view (written).substr (start)).size);
+    unit.erase (0, unit.find_first_not_of (' '));
+    const auto one = parseMeasure ("1 " + unit);
+    return unit.empty() || ! one ? GainUnit {} : GainUnit { unit, one->value };
+}
+
+/// The value of a source at a full swing, and whether it is never below 0.
+std::pair<double, bool> swingOf (const graph::Graph& g, const graph::Patch& patch, const graph::Endpoint& from, const Catalogue& catalogue)
+{
+    constexpr double slow = 0.1;   // m/s, as in depthOf()
+    const auto* node = patch.find (graph::firstNameOf (from.node));
+    if (node == nullptr) return { 1.0, false };
+    const auto face = faceOf (g, patch, *node, catalogue);
+    const auto* out = face.startOf (from);
+    if (out != nullptr && out->quantity() == Quantity::speed) return { slow, true };
+    const auto* amplitude = face.find (Role::param, "amplitude");
+    if (amplitude == nullptr || amplitude->sheet == nullptr) return { 1.0, node->type == "signal.envelope" };
+    const auto written = writtenValue (*node, *amplitude);
+    return { std::abs (siOf (written.is_null() ? initialValue (g, *node, *amplitude) : written, *amplitude->sheet, 1.0)), false };
+}
+}   // namespace
+
+std::vector<Modulation> modulationsOf (const graph::Graph& g, const std::string& patch_name, const std::string& node, const FacePort& param,
+                                       const Catalogue& catalogue)
+{
+    std::vector<Modulation> found;
+    const auto* patch = findPatch (g, patch_name);
+    if (patch == nullptr || param.width != 1 || param.isChoice()) return found;
+    const auto entry = entryOf (param.id);
+    for (const auto& w : patch->wires)
+    {
+        if (! w.add || ! w.enabled.value_or (true) || w.to.node != node || w.to.port != baseOf (param.id)) continue;
+        if (w.to.index != (entry ? static_cast<int> (*entry) : -1)) continue;
+        const auto gain = plan::readNumber (w.gain.is_null() ? Json (1.0) : w.gain);
+        const auto [swing, is_one_sided] = swingOf (g, *patch, w.from, catalogue);
+        if (! gain) continue;
+        found.push_back ({ patch_name, w.id, graph::toText (w.from), gain->value * swing, is_one_sided, unitOf (w.gain).si * swing,
+                           param.unit.kind == UnitRule::Kind::fixed ? std::string (param.unit.unit.symbol) : std::string() });
+    }
+    return found;
+}
+
+std::vector<Modulation> modulationsAt (const graph::Graph& g, const std::string& path, const Catalogue& catalogue)
+{
+    const auto end = graph::parseEndpoint (path);
+    if (! end || end->component >= 0 || end->node.find ('[') != std::string::npos) return {};
+    std::string patch, rest = end->node;
+    for (auto slash = rest.find ('/'); slash != std::string::npos; slash = rest.find ('/'))
+    {
+        const auto* around = findPatch (g, patch);
+        const auto* node = around == nullptr ? nullptr : around->find (rest.substr (0, slash));
+        if (node == nullptr || ! node->type.starts_with ("graph:")) return {};
+        patch = node->type.substr (6);
+        rest.erase (0, slash + 1);
+    }
+    const auto* in = findPatch (g, patch);
+    const auto* node = in == nullptr ? nullptr : in->find (rest);
+    if (node == nullptr) return {};
+    const auto face = faceOf (g, *in, *node, catalogue);
+    const auto* port = face.find (Role::param, end->index < 0 ? end->port : end->port + '[' + std::to_string (end->index) + ']');
+    return port == nullptr ? std::vector<Modulation> {} : modulationsOf (g, patch, rest, *port, catalogue);
+}
+
+juce::String textOf (const Modulation& m)
+{
+    const auto size = fromUtf8 (shownQuantity (rounded (std::abs (m.depth)), m.unit));
+    const auto sign = m.is_one_sided ? fromUtf8 (m.depth < 0.0 ? "\xe2\x88\x92" : "+") : fromUtf8 ("\xc2\xb1");
+    return filled (TRANS ("%1 by %2"), sign + size, m.from);
+}
+
+std::optional<graph::Command> changeDepth (const graph::Graph& g, const Modulation& m, double to)
+{
+    const auto* patch = findPatch (g, m.patch);
+    if (patch == nullptr || m.of_one == 0.0) return std::nullopt;
+    const auto wire = std::ranges::find (patch->wires, m.wire, &graph::Wire::id);
+    if (wire == patch->wires.end()) return std::nullopt;
+    auto changed = *wire;
+    const auto unit = unitOf (wire->gain).text;
+    const double number = rounded (to / m.of_one);
+    changed.gain = unit.empty() ? Json (number) : Json (numberText (number) + " " + unit);
+    return graph::Batch { NEEDS_TRANS ("change depth"), { graph::ChangeWire { m.patch, m.wire, std::move (changed) } } };
+}
+
+graph::Command removeModulation (const Modulation& m)
+{
+    return graph::Batch { NEEDS_TRANS ("end modulation"), { graph::RemoveWire { m.patch, m.wire } } };
+}
+
+double draggedDepth (double from, double span, double pixels)
+{
+    constexpr double whole = 200.0, catches = 4.0;   // pixels
+    const double to = from + pixels / whole * span;
+    return std::abs (to) < catches / whole * span ? 0.0 : to;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The depth of a modulator, as the dials and knobs show and change it. The reference is the run: how far the parameter moves there.
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/inspector/blocks/depth_ring.hpp>
+#include <host/app/inspector/modulation.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/engine.hpp>
+
+#include "support/sketch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+using tactus::test::Sketch;
+
+namespace
+{
+/// Dry wood with an oscillator that moves the friction.
+graph::Graph wavy (const char* gain)
+{
+    Sketch s { loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph };
+    s.node ("wave", "signal.lfo", { { "frequency", "5 Hz" }, { "amplitude", 2 } });
+    s.wire ("wave.out -> (+) drag.mu");
+    s.graph.root.wires.back().gain = Json::parse (gain);
+    return s.graph;
+}
+
+Modulation first (const graph::Graph& g, const std::string& path)
+{
+    const auto all = modulationsAt (g, path, catalogue());
+    REQUIRE (all.size() == 1);
+    return all[0];
+}
+
+/// How far the sum of a constant 0.3 and the modulator goes from 0.3 in a run: the gain of a node whose input is 1.
+std::pair<double, double> reachOf (graph::Graph g)
+{
+    auto compiled = compile (g, catalogue(), { .records = { "scaled.out" } });
+    REQUIRE (compiled.plan);
+    Engine engine (std::move (compiled.plan));
+    double low = 1e9, high = -1e9;
+    for (int k = 0; k < 2000; ++k)
+    {
+        engine.tick();
+        const double v = engine.plan().taps()[0].sample (0, 1);
+        low = std::min (low, v);
+        high = std::max (high, v);
+    }
+    return { low - 0.3, high - 0.3 };
+}
+}   // namespace
+
+TEST_CASE ("the depth of a modulator is how far the parameter moves in the run", "[app][modulation]")
+{
+    using Case = std::tuple<const char*, const char*, bool>;
+    for (const auto& [type, gain, one_sided] :
+         { Case { "signal.lfo", "0.05", false }, Case { "signal.lfo", "-0.2", false }, Case { "signal.envelope", "0.25", true } })
+    {
+        INFO (type << " " << gain);
+        Sketch s;
+        s.node ("one", "signal.constant", { { "value", 1 } }).node ("scaled", "signal.gain", { { "gain", 0.3 } }).node ("source", type);
+        s.wire ("one.out -> scaled.in").wire ("source.out -> (+) scaled.gain");
+        s.graph.root.wires.back().gain = Json::parse (gain);
+        if (type == std::string ("signal.lfo"))
+            std::ranges::find (s.graph.root.nodes, "source", &graph::Node::name)->params["amplitude"] = 0.5;
+        else
+            s.wire ("one.out -> source.gate");
+        const auto m = first (s.graph, "scaled.gain");
+        const auto [low, high] = reachOf (s.graph);
+        CHECK (m.is_one_sided == one_sided);
+        CHECK (high == Approx (std::abs (m.depth)).epsilon (0.02));
+        CHECK (low == Approx (one_sided ? 0.0 : -std::abs (m.depth)).margin (1e-3));
+        const auto changed = changeDepth (s.graph, m, 0.123);
+        REQUIRE (changed);
+        REQUIRE (graph::apply (s.graph, *changed));
+        CHECK (first (s.graph, "scaled.gain").depth == Approx (0.123));
+        CHECK (reachOf (s.graph).second == Approx (0.123).epsilon (0.02));
+        REQUIRE (graph::apply (s.graph, removeModulation (m)));
+        CHECK (modulationsAt (s.graph, "scaled.gain", catalogue()).empty());
+    }
+}
+
+TEST_CASE ("a depth has the unit of its parameter, and its gain keeps the one in which it is written", "[app][modulation]")
+{
+    Sketch s;
+    s.node ("wall", "deform.plane", { { "stiffness", "2 N/mm" } }).node ("lfo", "signal.lfo");
+    s.wire ("lfo.out -> (+) wall.stiffness");
+    s.graph.root.wires.back().gain = "0.3 N/mm";
+    const auto m = first (s.graph, "wall.stiffness");
+    CHECK (m.depth == Approx (300.0));
+    CHECK (textOf (m).toStdString() == "\xc2\xb1"
+                                       "300 N/m by lfo.out");
+    REQUIRE (graph::apply (s.graph, *changeDepth (s.graph, m, 450.0)));
+    CHECK (s.graph.root.wires.back().gain == Json ("0.45 N/mm"));
+    s.graph.root.wires.back().enabled = false;
+    CHECK (modulationsAt (s.graph, "wall.stiffness", catalogue()).empty());
+    CHECK (modulationsAt (s.graph, "nothing/at.all", catalogue()).empty());
+}
+
+TEST_CASE ("a dial beside a parameter shows its modulator, and a drag changes the depth or ends it, in one undo step", "[app][modulation]")
+{
+    const TemporaryFolder folder;
+    REQUIRE (saveGraph (wavy ("0.02"), folder / "wood.json"));
+    WindowRig w ((folder / "wood.json").string(), 1280, 1000);
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    WindowRig::settle();
+    const auto before = writeGraph (w.graph());
+    const auto ring = [&] { return dynamic_cast<DepthRing*> (w.titled ("Depth of mu by wave.out")); };
+    REQUIRE (ring() != nullptr);
+    CHECK (ring()->shown().depth == Approx (0.04));
+    CHECK (ring()->getDescription().contains ("0.04"));
+    const auto at = w.middleOf (*ring());
+    w.stage->drag (at, at.translated (0.0f, -30.0f));
+    WindowRig::settle();
+    REQUIRE (ring() != nullptr);
+    CHECK (ring()->shown().depth > 0.06);
+    CHECK (w.view->statusText().contains ("by wave.out"));
+    w.view->document().undo();
+    CHECK (writeGraph (w.graph()) == before);
+    WindowRig::settle();
+
+    const auto again = w.middleOf (*ring());
+    // Down to where the depth is 0: there, it holds for some pixels.
+    w.stage->move (again);
+    w.stage->press();
+    float y = 0.0f;
+    while (ring() != nullptr && ring()->shown().depth > 0.0 && y < 400.0f)
+        w.stage->move (again.translated (0.0f, y += 1.0f));
+    w.stage->release();
+    WindowRig::settle();
+    CHECK (ring() == nullptr);
+    CHECK (modulationsAt (w.graph(), "drag.mu", catalogue()).empty());
+    w.view->document().undo();
+    CHECK (writeGraph (w.graph()) == before);
+    WindowRig::settle();
+
+    w.stage->click (w.middleOf (*ring()));
+    WindowRig::settle();
+    w.key ("cursor up");
+    CHECK (first (w.graph(), "drag.mu").depth > 0.04);
+    w.key ("delete");
+    WindowRig::settle();
+    CHECK (modulationsAt (w.graph(), "drag.mu", catalogue()).empty());
+    CHECK (w.graph().root.find ("drag") != nullptr);   // the key was for the dial
+}
+
+TEST_CASE ("a ring around a knob shows the modulators of its targets, and a drag on it turns the depth and not the knob", "[app][modulation]")
+{
+    const TemporaryFolder folder;
+    auto g = wavy ("0.02");
+    REQUIRE (g.controls.size() == 1);
+    REQUIRE (std::ranges::count (g.controls[0].to, "drag.mu", [] (const auto& t) { return t.path; }) == 1);
+    REQUIRE (saveGraph (g, folder / "wood.json"));
+    WindowRig w ((folder / "wood.json").string(), 1280, 1000);
+    w.view->canvas().select ({ w.graph().root.find ("board")->id });
+    WindowRig::settle();
+    auto* strip = dynamic_cast<KnobStrip*> (w.titled ("Controls"));
+    REQUIRE (strip != nullptr);
+    auto& knob = strip->knob (0);
+    CHECK (knob.getTooltip().contains ("by wave.out"));
+    const double value = w.graph().controls[0].value;
+    const auto before = writeGraph (w.graph());
+    const auto middle = w.stage->getLocalPoint (&knob, knob.getLocalBounds().withTrimmedBottom (16).getCentre()).toFloat();
+    const auto on_ring = middle.translated (-21.0f, 0.0f);
+    w.stage->drag (on_ring, on_ring.translated (0.0f, -30.0f));
+    WindowRig::settle();
+    CHECK (w.graph().controls[0].value == value);
+    CHECK (first (w.graph(), "drag.mu").depth > 0.05);
+    w.view->document().undo();
+    CHECK (writeGraph (w.graph()) == before);
+    w.stage->drag (middle, middle.translated (0.0f, -30.0f));
+    CHECK (w.graph().controls[0].value > value);
+    CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04));
+}
