@@ -59,16 +59,21 @@ void addGraph (const Desk& desk, const fs::path& file, const compose::Parts& par
     for (const auto& m : loaded.messages)
         if (m.severity == Message::Severity::error)
             return desk.tell (filled (TRANS ("Cannot add %1"), printableName (file.filename().string())), messageText (m) + ".");
+    addGraph (desk, loaded.graph, parts, at);
+}
+
+void addGraph (const Desk& desk, const graph::Graph& added, const compose::Parts& parts, std::optional<juce::Point<float>> at)
+{
     if (! desk.canvas.patch().empty()) at.reset();   // a place in the subgraph that the canvas shows
-    const auto maps = compose::roleMaps (desk.document.graph(), loaded.graph);
-    if (maps.size() == 1) return addLoaded (desk, loaded.graph, { maps.front(), parts, {} }, at);
+    const auto maps = compose::roleMaps (desk.document.graph(), added);
+    if (maps.size() == 1) return addLoaded (desk, added, { maps.front(), parts, {} }, at);
     constexpr std::size_t most = 6;
     std::vector<Question::Choice> choices;
     for (std::size_t i = 0; i < std::min (most, maps.size()); ++i)
-        choices.push_back ({ textOf (maps[i], compose::rolesIn (loaded.graph)),
-                             [&desk, g = loaded.graph, map = maps[i], parts, at] { addLoaded (desk, g, { map, parts, {} }, at); } });
+        choices.push_back (
+            { textOf (maps[i], compose::rolesIn (added)), [&desk, added, map = maps[i], parts, at] { addLoaded (desk, added, { map, parts, {} }, at); } });
     choices.push_back ({ TRANS ("Cancel"), {} });
-    desk.question.ask (filled (TRANS ("Where do you feel '%1'?"), printableName (loaded.graph.name)),
+    desk.question.ask (filled (TRANS ("Where do you feel '%1'?"), printableName (added.name)),
                        TRANS ("Choose a device of this graph for each of its tools."), std::move (choices));
 }
 

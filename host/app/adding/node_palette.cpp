@@ -28,7 +28,7 @@ std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
     return found;
 }
 
-/// The id of a template in the palette, as that of a subgraph is "graph:grain".
+/// The id of a template or preset in the palette, as that of a subgraph is "graph:grain".
 std::string idOf (const Preset& t) { return "template:" + t.file.stem().string(); }
 
 /// The entries whose name begins like this.
@@ -39,30 +39,39 @@ std::vector<PaletteEntry> withName (std::vector<PaletteEntry> entries, const std
 }
 }   // namespace
 
-const Preset* templateOf (const std::string& entry, const std::vector<Preset>& templates)
+const Preset* templateOf (const std::string& entry, const std::vector<Preset>& of)
 {
-    const auto found = std::ranges::find (templates, entry, idOf);
-    return found == templates.end() ? nullptr : &*found;
+    const auto found = std::ranges::find (of, entry, idOf);
+    return found == of.end() ? nullptr : &*found;
 }
 
 void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
-                      const std::vector<Preset>& templates, std::function<void (const std::string&)> chosen)
+                      const std::vector<Preset>& templates, const std::vector<Preset>& presets,
+                      std::function<void (const std::string&)> chosen)
 {
-    std::vector<PaletteEntry> beginnings;
-    if (canvas.edited().graph().root.nodes.empty() && canvas.patch().empty())
-        for (const auto& t : templates)
-            beginnings.push_back ({ idOf (t), t.name, t.about });
+    std::vector<PaletteEntry> beginnings, layers;
+    const bool is_empty = canvas.edited().graph().root.nodes.empty() && canvas.patch().empty();
+    for (const auto& t : is_empty ? templates : std::vector<Preset> {})
+        beginnings.push_back ({ idOf (t), t.name, t.about });
+    if (! is_empty && ! request.start && request.wire == 0)
+        for (const auto& p : presets)
+            if (p.problem.empty()) layers.push_back ({ idOf (p), p.name, TRANS ("A preset, as a node and a layer of the mixer").toStdString() });
     auto purpose = TRANS ("Add node");
     if (request.wire != 0)
         purpose = TRANS ("Insert into wire");
     else if (request.start)
         purpose = filled (request.start->role == Role::output ? TRANS ("Connect %1 to") : TRANS ("Connect %1 from"), request.start->port);
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
-    const auto search = [&canvas, &catalogue, recent, request, beginnings] (const std::string& query) {
+    const auto search = [&canvas, &catalogue, recent, request, beginnings, layers] (const std::string& query) {
         auto found = searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
         if (found.empty() && (request.start || request.wire != 0))
             if (const auto all = searchPalette (query, canvas.edited().graph(), catalogue, {}, {}, canvas.patch()); ! all.empty())
                 found.push_back ({ {}, filled (TRANS ("%1 has no port for this wire"), all[0].name.empty() ? all[0].type : all[0].name).toStdString(), {} });
+        if (const auto added = withName (layers, query); ! added.empty())
+        {
+            found.push_back ({ {}, TRANS ("Add to this graph").toStdString(), {} });
+            found.insert (found.end(), added.begin(), added.end());
+        }
         if (beginnings.empty()) return found;
         auto all = withName (beginnings, query);
         if (! juce::String (query).trim().isEmpty())   // what the user types is the name of a node first

@@ -175,7 +175,7 @@ std::optional<graph::Command> duplicate (const graph::Graph& g, const std::strin
     const auto& patch = patchOf (g, name);
     graph::Batch all { NEEDS_TRANS ("duplicate"), {} };
     Selection copies;
-    auto pasted = paste (g, name, copyText (g, name, ids), { beside, beside }, copies);
+    auto pasted = paste (g, name, fragmentOf (g, name, ids), { beside, beside }, copies);
     if (pasted && ! copies.empty())
     {
         // The copies are in the order of the originals.

@@ -115,6 +115,7 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Cut"), "ctrl + x", hasSelection, cut },
     { NEEDS_TRANS ("Copy"), "ctrl + c", hasSelection, copy },
     { NEEDS_TRANS ("Paste"), "ctrl + v", always, call<&CanvasCommands::pasteText> },
+    { NEEDS_TRANS ("Paste as a layer"), "ctrl + shift + v", hasSomeNodes, call<&CanvasCommands::pasteLayer> },
     { NEEDS_TRANS ("Duplicate with incoming wires"), "ctrl + d", hasNode, call<&CanvasCommands::duplicateSelection> },
     { NEEDS_TRANS ("Delete and reconnect"), "delete|backspace", hasSelection, call<&CanvasCommands::removeSelection> },
     { NEEDS_TRANS ("Select all"), "ctrl + a", hasSomeNodes, call<&CanvasCommands::selectAll>, true },

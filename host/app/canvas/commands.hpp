@@ -69,6 +69,7 @@ public:
     void duplicateSelection();
     void copySelection() const;
     void pasteText();
+    void pasteLayer();   ///< the copied graph as a node and a layer, see Canvas::onLayerPasted
     void bypassSelection();
     void groupSelection();
     void expandSelection();
@@ -118,6 +119,7 @@ private:
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
+    std::optional<graph::Graph> copied() const;             ///< from the clipboard
     graph::Graph graphAsShown() const;                      ///< stores in the nodes of the patch where they are, and what controls set them to
 
     Canvas& canvas;

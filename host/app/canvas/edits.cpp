@@ -11,17 +11,24 @@
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/step_text.hpp>
 #include <host/app/model/value_in_effect.hpp>
+#include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/file/graph_file.hpp>
 #include <tactus/run/turn.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <memory>
+#include <vector>
 
 namespace tactus::host
 {
 
 namespace
 {
+const std::vector<std::filesystem::path> no_files;   // that are copied when a graph is carried to another folder
+
 /// A value as it is shown on a node: a quantity, or a vector such as "(0, 0, 1)", with or without its parentheses and commas.
 Result<Json> readTyped (const std::string& text, const FacePort& port)
 {
@@ -175,26 +182,61 @@ void CanvasCommands::duplicateSelection()
     if (command && performBeside (*std::move (command), made)) canvas.select (made);
 }
 
+/// If settings name files by relative paths, the text says from which folder, so that another program that pastes it finds them.
 void CanvasCommands::copySelection() const
 {
-    if (! canvas.selection().empty()) copyToClipboard (copyText (graphAsShown(), canvas.patch(), canvas.selection()));
+    if (canvas.selection().empty()) return;
+    auto graph = fragmentOf (graphAsShown(), canvas.patch(), canvas.selection());
+    std::error_code failed;
+    const auto folder = std::filesystem::absolute (graph.folder, failed);
+    if (! graph.folder.empty() && writeGraph (carriedTo (folder.root_path(), graph, no_files).graph) != writeGraph (graph))
+        graph.extra["ui"] = Json { { "folder", folder.string() } };
+    copyToClipboard (writeGraph (graph));
+}
+
+/// The graph in the clipboard, with the paths of its files as this graph has to say them. Says why there is none.
+std::optional<graph::Graph> CanvasCommands::copied() const
+{
+    auto read = readCopied (textFromClipboard());
+    if (! read)
+    {
+        canvas.notice (filled (TRANS ("Nothing to paste: %1"), fromUtf8 (read.error().text)));
+        return std::nullopt;
+    }
+    const auto ui = read->extra.find ("ui");
+    if (ui == read->extra.end() || ! ui->is_object()) return std::move (*read);
+    const auto folder = ui->find ("folder");
+    if (folder == ui->end() || ! folder->is_string() || ! std::filesystem::path (folder->asString()).is_absolute()) return std::move (*read);
+    read->folder = folder->asString();
+    auto made = carriedTo (document.graph().folder, *read, no_files).graph;
+    made.folder = document.graph().folder;
+    return made;
 }
 
 void CanvasCommands::pasteText()
 {
-    const auto text = textFromClipboard();
+    auto graph = copied();
+    if (! graph) return;
     juce::Point<double> offset { 32.0, 32.0 };   // next to the original
-    if (const auto corner = cornerOf (text); corner && canvas.isMouseOver())
+    if (const auto corner = cornerOf (graph->root); corner && canvas.isMouseOver())
     {
         const auto at = (pointerOrCentre() / Box::grid).roundToInt().toDouble() * static_cast<double> (Box::grid);
         offset = at - *corner;
     }
+    const auto isMotor = [] (const graph::Node& n) { return n.type == "device.force" || n.type == "device.effort" || n.type == "device.signal_out"; };
+    const bool brings_motor = std::ranges::any_of (graph->root.nodes, isMotor) && std::ranges::any_of (document.graph().root.nodes, isMotor);
     Selection made;
-    auto command = paste (document.graph(), canvas.patch(), text, offset, made);
+    auto command = paste (document.graph(), canvas.patch(), *std::move (graph), offset, made);
     if (! command)
-        canvas.notice (filled (TRANS ("Nothing to paste: %1"), fromUtf8 (command.error().text)));
-    else if (! made.empty() && performBeside (*std::move (command), made))
-        canvas.select (made);
+        return canvas.notice (filled (TRANS ("Nothing to paste: %1"), fromUtf8 (command.error().text)));
+    if (made.empty() || ! performBeside (*std::move (command), made)) return;
+    canvas.select (made);
+    if (brings_motor) canvas.notice (TRANS ("Pasted with a motor of its own. Ctrl+Shift+V pastes a whole effect as a node and a layer of the mixer instead."));
+}
+
+void CanvasCommands::pasteLayer()
+{
+    if (auto graph = copied(); graph && canvas.onLayerPasted) canvas.onLayerPasted (*graph);
 }
 
 void CanvasCommands::bypassSelection() { perform (toggleBypass (document.graph(), canvas.patch(), canvas.selection())); }

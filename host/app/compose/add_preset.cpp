@@ -37,21 +37,6 @@ std::set<std::string> subgraphsOf (const graph::Graph& g)
     return names;
 }
 
-/// New identities, so that a graph can be added twice.
-void renew (graph::Patch& patch)
-{
-    for (auto& n : patch.nodes)
-    {
-        n.id = graph::newId();
-        n.origin.clear();
-    }
-    for (auto& w : patch.wires)
-    {
-        w.id = graph::newId();
-        w.origin.clear();
-    }
-}
-
 /// Moves the subgraphs of the added graph into the open one, under free names.
 void moveSubgraphs (graph::Graph& into, graph::Graph& added, std::set<std::string>& taken)
 {
@@ -65,7 +50,7 @@ void moveSubgraphs (graph::Graph& into, graph::Graph& added, std::set<std::strin
         for (auto& n : patch.nodes)
             if (n.type.starts_with ("graph:"))
                 if (const auto to = renamed.find (n.type.substr (6)); to != renamed.end()) n.type = "graph:" + to->second;
-        renew (patch);
+        renewIds (patch);
     };
     adapt (added.root);
     for (auto& [name, patch] : added.graphs)

@@ -62,7 +62,7 @@ Result<graph::Command> addFitted (const graph::Graph& g, const std::string& in, 
             ids.insert (node.id);
             names.emplace_back (node.name, std::string());
         }
-    auto pasted = paste (g, in, copyText (source, {}, ids), {}, made);
+    auto pasted = paste (g, in, fragmentOf (source, {}, ids), {}, made);
     if (! pasted) return pasted;
     std::size_t number = 0;   // the copies are in the order of the originals
     for (const auto& c : std::get<graph::Batch> (pasted->edit).commands)

@@ -7,6 +7,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <algorithm>
 #include <map>
@@ -40,10 +41,10 @@ std::string stemOf (const std::string& name)
 
 }   // namespace
 
-std::optional<juce::Point<double>> cornerOf (const std::string& text)
+std::optional<juce::Point<double>> cornerOf (const graph::Patch& patch)
 {
     std::optional<juce::Point<double>> corner;
-    for (const auto& node : readGraph (text).graph.root.nodes)
+    for (const auto& node : patch.nodes)
         if (const auto at = positionOf (node)) corner = corner ? juce::Point<double> { std::min (corner->x, at->x), std::min (corner->y, at->y) } : *at;
     return corner;
 }
@@ -67,11 +68,15 @@ std::string freeName (const graph::Patch& patch, const std::set<std::string>& al
         if (const auto name = stem + '_' + std::to_string (i); ! taken (name)) return name;
 }
 
-std::string copyText (const graph::Graph& g, const std::string& patch_name, const std::set<graph::Id>& ids)
+graph::Graph fragmentOf (const graph::Graph& g, const std::string& patch_name, const std::set<graph::Id>& ids)
 {
     graph::Graph copied;
     const auto* patch = findPatch (g, patch_name);
-    if (patch == nullptr) return {};
+    if (patch == nullptr) return copied;
+    copied.name = g.name;
+    copied.folder = g.folder;
+    copied.files = g.files;
+    copied.rate_hz = g.rate_hz;
     std::set<std::string> names;
     for (const auto& n : patch->nodes)
         if (ids.contains (n.id))
@@ -82,22 +87,99 @@ std::string copyText (const graph::Graph& g, const std::string& patch_name, cons
     for (const auto& w : patch->wires)
         if (names.contains (graph::firstNameOf (w.from.node)) && names.contains (graph::firstNameOf (w.to.node))) copied.root.wires.push_back (w);
     addSubgraphs (g, copied.root, copied);
-    copied.rate_hz = g.rate_hz;
-    return writeGraph (copied);
+    if (! patch_name.empty()) return copied;   // roles and controls are those of the top
+    std::set<std::string> roles;
+    for (const auto& n : copied.root.nodes)
+        roles.insert (n.role);
+    for (const auto& [role, device] : g.devices)
+        if (roles.contains (role) || ! copied.graphs.empty()) copied.devices.emplace_back (role, device);   // a subgraph may have roles inside
+    for (auto c : g.controls)
+    {
+        std::erase_if (c.to, [&] (const auto& t) { return ! names.contains (graph::firstNameOf (t.path)); });
+        if (! c.to.empty()) copied.controls.push_back (std::move (c));
+    }
+    return copied;
 }
 
-Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_name, const std::string& text, juce::Point<double> offset,
-                              std::set<graph::Id>& made)
+std::string copyText (const graph::Graph& g, const std::string& patch, const std::set<graph::Id>& ids) { return writeGraph (fragmentOf (g, patch, ids)); }
+
+Result<graph::Graph> readCopied (const std::string& text)
 {
+    if (static_cast<double> (text.size()) > budgets().file)
+        return Message::error ("file/too_large", {}, TRANS ("the text is larger than a graph file may be").toStdString());
     auto read = readGraph (text);
     for (auto& m : read.messages)
         if (m.severity == Message::Severity::error) return std::move (m);
+    return std::move (read.graph);
+}
+
+void renewIds (graph::Patch& patch)
+{
+    for (auto& n : patch.nodes)
+    {
+        n.id = graph::newId();
+        n.origin.clear();
+    }
+    for (auto& w : patch.wires)
+    {
+        w.id = graph::newId();
+        w.origin.clear();
+    }
+}
+
+namespace
+{
+std::string contentOf (const graph::Patch& patch)
+{
+    graph::Graph g;
+    g.graphs.emplace_back ("a", patch);
+    return writeGraph (g);
+}
+
+/// Gives the subgraphs whose names are taken by others new names.
+void renameTaken (const graph::Graph& g, graph::Graph& copied)
+{
+    std::set<std::string> taken;
+    for (const auto& [name, patch] : g.graphs)
+        taken.insert (name);
+    for (const auto& [name, patch] : copied.graphs)
+        taken.insert (name);
+    std::map<std::string, std::string> renamed;
+    for (auto& [name, patch] : copied.graphs)
+    {
+        const auto* known = g.find (name);
+        if (known == nullptr || contentOf (*known) == contentOf (patch)) continue;
+        const auto to = freeName ({}, taken, name);
+        taken.insert (to);
+        renamed.emplace (name, to);
+        name = to;
+    }
+    const auto adapt = [&] (graph::Patch& patch) {
+        for (auto& n : patch.nodes)
+            if (n.type.starts_with ("graph:"))
+                if (const auto to = renamed.find (n.type.substr (6)); to != renamed.end()) n.type = "graph:" + to->second;
+    };
+    adapt (copied.root);
+    for (auto& [name, patch] : copied.graphs)
+        adapt (patch);
+}
+}   // namespace
+
+Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_name, graph::Graph copied, juce::Point<double> offset,
+                              std::set<graph::Id>& made)
+{
     const auto* patch = findPatch (g, patch_name);
     graph::Batch batch { NEEDS_TRANS ("paste"), {} };
     if (patch == nullptr) return graph::Command (std::move (batch));
 
-    for (auto& [name, inside] : read.graph.graphs)
+    renewIds (copied.root);
+    for (auto& [name, inside] : copied.graphs)
+        renewIds (inside);
+    renameTaken (g, copied);
+    for (auto& [name, inside] : copied.graphs)
         if (g.find (name) == nullptr) batch.commands.push_back (graph::AddSubgraph { name, inside });
+    for (const auto& [role, device] : copied.devices)
+        if (patch_name.empty() && g.device (role) == nullptr) batch.commands.push_back (graph::SetDevice { role, device });
     std::set<std::pair<double, double>> places;
     for (const auto& n : patch->nodes)
         if (const auto at = positionOf (n)) places.emplace (at->x, at->y);
@@ -106,11 +188,11 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
         return at && places.contains ({ at->x + offset.x, at->y + offset.y });
     };
     // The number of steps is limited, because a copied position may be so large that a step does not change it.
-    for (std::size_t i = 0; i < places.size() && std::ranges::any_of (read.graph.root.nodes, covers); ++i)
+    for (std::size_t i = 0; i < places.size() && std::ranges::any_of (copied.root.nodes, covers); ++i)
         offset += { 32.0, 32.0 };
     std::map<std::string, std::string> renamed;
     std::set<std::string> taken;
-    for (auto& node : read.graph.root.nodes)
+    for (auto& node : copied.root.nodes)
     {
         const auto name = freeName (*patch, taken, node.name);
         taken.insert (name);
@@ -124,7 +206,7 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
         const auto first = graph::firstNameOf (e.node);
         if (const auto to = renamed.find (first); to != renamed.end()) e.node = to->second + e.node.substr (first.size());
     };
-    for (auto& wire : read.graph.root.wires)
+    for (auto& wire : copied.root.wires)
     {
         rename (wire.from);
         rename (wire.to);

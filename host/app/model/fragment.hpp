@@ -15,16 +15,27 @@
 namespace tactus::host
 {
 
-/// Copies nodes and the wires between them as text: a complete graph file that includes the subgraphs they use.
+/// Copies nodes and the wires between them as a graph of their own, with the subgraphs they use, and, from the top of a graph, with their devices and the
+/// controls that turn them. It has the name and the folder of the graph.
+graph::Graph fragmentOf (const graph::Graph&, const std::string& patch, const std::set<graph::Id>& nodes);
+
+/// The same as text: a complete graph file.
 std::string copyText (const graph::Graph&, const std::string& patch, const std::set<graph::Id>& nodes);
 
-/// Pastes copied text into a patch as one undo step, under free names and moved by `offset`, or further where a node would
-/// cover another one completely. `made` receives the ids of the new nodes. Fails if the text is not a graph.
-Result<graph::Command> paste (const graph::Graph&, const std::string& patch, const std::string& text, juce::Point<double> offset,
+/// Reads text that may come from another program, within the budgets of a graph file. Fails if it is not a graph, or has errors. Ids: those of readGraph.
+Result<graph::Graph> readCopied (const std::string& text);
+
+/// Gives the nodes and wires of a patch new identities, so that it can be added twice.
+void renewIds (graph::Patch&);
+
+/// Pastes copied nodes into a patch as one undo step, under free names and moved by `offset`, or further where a node would
+/// cover another one completely. A subgraph whose name is taken by another one gets a new name. Roles without a device get that of the copied graph.
+/// Its controls are left out. `made` receives the ids of the new nodes.
+Result<graph::Command> paste (const graph::Graph&, const std::string& patch, graph::Graph copied, juce::Point<double> offset,
                               std::set<graph::Id>& made);
 
-/// The upper left corner of the nodes in copied text. Empty if no node has a position.
-std::optional<juce::Point<double>> cornerOf (const std::string& text);
+/// The upper left corner of the nodes. Empty if no node has a position.
+std::optional<juce::Point<double>> cornerOf (const graph::Patch&);
 
 /// The name of a new node of this type, if nothing else names it.
 std::string usualName (const std::string& type);

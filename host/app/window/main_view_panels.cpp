@@ -46,10 +46,13 @@ void MainView::startOpened (bool by_pointer)
 
 void MainView::chooseNode (const NodeRequest& request)
 {
-    openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), [this, request] (const std::string& type) {
-        if (const auto* chosen = templateOf (type, templates.all())) return feel (chosen->file, false);
+    const auto choose_type = [this, request] (const std::string& type) {
+        const bool begins = edited.graph().root.nodes.empty();
+        if (const auto* chosen = begins ? templateOf (type, templates.all()) : nullptr) return feel (chosen->file, false);
+        if (const auto* chosen = begins ? nullptr : templateOf (type, desk.presets())) return addGraph (desk, chosen->file, {}, request.at);
         addNode (type, request);
-    });
+    };
+    openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), desk.presets(), choose_type);
 }
 
 void MainView::addNode (const std::string& type, const NodeRequest& request)

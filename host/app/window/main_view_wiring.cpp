@@ -94,6 +94,7 @@ void MainView::connectCanvas()
     patching.onChoose = [this] (const auto& purpose, auto search, auto chosen) { choose (purpose, std::move (search), std::move (chosen)); };
     patching.onProbe = [this] (const auto& ports) { desk.probe (ports); };
     patching.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (desk, file, {}, at); };
+    patching.onLayerPasted = [this] (const graph::Graph& g) { addGraph (desk, g); };
     patching.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (type, request); };
     patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (desk, file); };
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The clipboard between two windows, and text that strangers put there.
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/compose/banks.hpp>
+#include <host/app/model/clipboard.hpp>
+#include <host/app/model/fragment.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
+
+#include "support/sketch.hpp"
+
+#include <algorithm>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+using tactus::test::Sketch;
+
+namespace
+{
+void copyAll (WindowRig& w)
+{
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + a");
+    w.key ("ctrl + c");
+}
+
+bool hasMotorLayers (const graph::Graph& g, std::size_t layers)
+{
+    const auto mixer = std::ranges::find (g.root.nodes, "layer.mix_vectors", &graph::Node::type);
+    return mixer != g.root.nodes.end() && mixer->settings.at ("inputs") == Json (layers) && compose::bypassedBanks (g, catalogue()).empty()
+           && std::ranges::count (g.root.nodes, "device.force", &graph::Node::type) == 1;
+}
+}   // namespace
+
+TEST_CASE ("a graph that is copied in one window becomes a layer in another one, with its knobs, in one undo step", "[app][canvas][clipboard]")
+{
+    {
+        WindowRig first ("velvet.json");
+        copyAll (first);
+    }
+    const auto text = textFromClipboard();
+    const auto alone = readGraph (text);
+    REQUIRE_FALSE (hasErrors (alone.messages));
+    CHECK (alone.graph.name == "Velvet");
+    CHECK (alone.graph.devices.size() == 1);
+    CHECK_FALSE (alone.graph.controls.empty());
+
+    WindowRig w ("dry_wood.json");
+    const auto before = writeGraph (w.graph());
+    const auto knobs = w.graph().controls.size();
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + shift + v");
+    WindowRig::settle();
+    INFO (w.view->statusText());
+    CHECK (w.graph().root.find ("velvet") != nullptr);
+    CHECK (hasMotorLayers (w.graph(), 4));
+    CHECK (w.graph().controls.size() == knobs + alone.graph.controls.size());
+    CHECK (w.view->statusText().contains ("Velvet"));
+    w.key ("ctrl + z");
+    CHECK (writeGraph (w.graph()) == before);
+
+    w.key ("ctrl + v");   // the nodes themselves
+    WindowRig::settle();
+    CHECK (std::ranges::count (w.graph().root.nodes, "device.force", &graph::Node::type) == 2);
+    CHECK (w.view->statusText().contains ("Ctrl+Shift+V"));
+}
+
+TEST_CASE ("a preset becomes a layer from the list of nodes", "[app][canvas][clipboard]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("spacebar");
+    w.stage->type ("bronze b");
+    w.key ("return");
+    WindowRig::settle();
+    INFO (w.view->statusText());
+    CHECK (w.graph().root.find ("bronze_bell") != nullptr);
+    CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
+    w.key ("spacebar");
+    w.stage->type ("lfo");
+    w.key ("return");
+    CHECK (std::ranges::count (w.graph().root.nodes, "signal.lfo", &graph::Node::type) == 1);
+}
+
+TEST_CASE ("relative files of copied nodes are found from the other graph's folder", "[app][canvas][clipboard]")
+{
+    const TemporaryFolder folder;
+    std::filesystem::create_directories (folder / "a");
+    std::filesystem::create_directories (folder / "b");
+    REQUIRE (writeTextFile (folder / "a" / "heart.haptic", *readFile (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic")));
+    Sketch s;
+    s.node ("beat", "signal.clip", Json::object(), { { "clip", "heart.haptic" } });
+    REQUIRE (saveGraph (s.graph, folder / "a" / "one.json"));
+    REQUIRE (saveGraph (Sketch {}.node ("x", "signal.constant").graph, folder / "b" / "two.json"));
+    {
+        WindowRig first ((folder / "a" / "one.json").string());
+        copyAll (first);
+        first.key ("ctrl + v");   // in the same graph, the path stays as it is
+        REQUIRE (first.graph().root.nodes.size() == 2);
+        CHECK (first.graph().root.nodes[1].settings.at ("clip") == Json ("heart.haptic"));
+    }
+    WindowRig w ((folder / "b" / "two.json").string());
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + v");
+    REQUIRE (w.graph().root.find ("beat") != nullptr);
+    CHECK (w.graph().root.find ("beat")->settings.at ("clip") == Json ("../a/heart.haptic"));
+}
+
+TEST_CASE ("text of strangers in the clipboard changes nothing, and the window says why", "[app][canvas][clipboard]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto before = writeGraph (w.graph());
+    std::string deep (100'000, '['), wide = R"({"format":"tactus-graph","version":2,"nodes":{)";
+    for (int i = 0; i < 400'000; ++i)
+        wide += (i == 0 ? "\"n" : ",\"n") + std::to_string (i) + R"(":{"type":"signal.gain","params":{"gain":1}})";
+    wide += "}}";
+    for (const auto& text : { std::string ("no graph"), std::string(), std::string ("{}"), deep, wide,
+                              std::string (R"({"format":"tactus-graph","version":99})"),
+                              std::string (R"({"format":"tactus-graph","version":2,"nodes":{"a":{"type":7}}})"),
+                              std::string (R"({"format":"tactus-graph","version":2,"nodes":{"../x":{"type":"signal.gain"}}})") })
+        for (const auto* key : { "ctrl + v", "ctrl + shift + v" })
+        {
+            INFO (text.substr (0, 80) << " " << key);
+            copyToClipboard (text);
+            w.view->canvas().grabKeyboardFocus();
+            w.key (key);
+            CHECK (writeGraph (w.graph()) == before);
+            CHECK (w.view->statusText().contains ("Nothing to paste"));
+        }
+}
+
+TEST_CASE ("a pasted subgraph does not become another one of the same name", "[fragment]")
+{
+    const auto with = [] (double gain) {
+        Sketch s;
+        auto& inside = s.subgraph ("grain");
+        s.add (inside, "a", "signal.gain", { { "gain", gain } });
+        s.node ("x", "graph:grain");
+        return s.graph;
+    };
+    auto g = with (1.0);
+    for (const double gain : { 1.0, 2.0 })
+    {
+        const auto other = with (gain);
+        std::set<graph::Id> made;
+        const auto pasted = paste (g, "", fragmentOf (other, "", { other.root.nodes[0].id }), {}, made);
+        REQUIRE (pasted);
+        auto after = g;
+        REQUIRE (graph::apply (after, *pasted));
+        CHECK (after.graphs.size() == (gain == 1.0 ? 1 : 2));
+        const auto& node = *after.root.find ("x_2");
+        CHECK (after.find (node.type.substr (6))->nodes[0].params.at ("gain") == Json (gain));
+        CHECK (made == std::set<graph::Id> { node.id });
+        CHECK (node.id != other.root.nodes[0].id);
+    }
+}
