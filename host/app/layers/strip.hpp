@@ -54,6 +54,7 @@ public:
     void setGain (const std::optional<Json>&, bool goes_on);
     void setValue (const std::string& param, const std::optional<Json>&, bool goes_on);
     void typeGain (const juce::String&);   ///< sets the gain, as if the user typed it: "-6 dB", "0.3 N"
+    NumberField& gainField() noexcept { return gain_field; }
     void setGate (bool on);
     void sendTo (const std::string& sink);   ///< turns the send to an output on or off; "" adds a vibration motor
     void setSendGain (double decibels, bool goes_on);

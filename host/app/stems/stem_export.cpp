@@ -4,6 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <memory>
 #include <utility>
@@ -26,14 +27,16 @@ void StemExport::ask()
     };
     constexpr double rate_hz = 48000.0;
     const StemOptions integers { .format = SampleFormat::pcm24, .rate_hz = rate_hz, .scale = StemOptions::Scale::together };
-    auto small = integers, looped = integers;
+    auto small = integers, looped = integers, with_clips = integers;
     small.format = SampleFormat::pcm16;
     looped.loop_s = 0.05;
+    with_clips.clips = stemClipFormats();
     const auto about = TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device "
                               "feels them.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end is blended into "
-                              "its start. Float: as many samples as the run has, and 1 is 1 N.");
+                              "its start. With clips: 24 bit, and each layer as .haptic, AHAP and HJIF. Float: as many samples as the run has, and 1 is 1 N.");
     std::vector<Question::Choice> choices { choice (TRANS ("24 bit"), integers), choice (TRANS ("16 bit"), small) };
     choices.push_back (choice (TRANS ("24 bit loop"), looped));
+    choices.push_back (choice (TRANS ("With clips"), with_clips));
     choices.push_back (choice (TRANS ("Float"), {}));
     choices.push_back ({ TRANS ("Cancel"), {} });
     desk.question.ask (filled (TRANS ("Export the stems of %1"), name), about, std::move (choices));
@@ -54,8 +57,12 @@ void StemExport::attend()
     const auto result = job.take();
     if (! result) return desk.question.say (filled (TRANS ("%1 %"), juce::roundToInt (100.0 * job.share())));
     desk.question.cancel();
-    desk.notify (*result ? filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()))
-                         : fromUtf8 (messageText (result->error())));
+    if (! *result) return desk.notify (fromUtf8 (messageText (result->error())));
+    auto text = filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()));
+    for (const auto& f : (*result)->files)
+        if (! f.not_applied.empty() && f.kind == "not_mixed")
+            text << ". " << filled (TRANS ("%1 is without %2, through which it reaches the motor"), f.file, listText (f.not_applied));
+    desk.notify (text);
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,7 @@
 // What the window does when its panels call it.
 #include "main_view.hpp"
 
+#include <host/app/adding/add_graph.hpp>
 #include <host/app/canvas/picture/save_picture.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
@@ -49,7 +50,8 @@ void MainView::chooseNode (const NodeRequest& request)
     const auto choose_type = [this, request] (const std::string& type) {
         const bool begins = edited.graph().root.nodes.empty();
         if (const auto* chosen = begins ? templateOf (type, templates.all()) : nullptr) return feel (chosen->file, false);
-        if (const auto* chosen = begins ? nullptr : templateOf (type, desk.presets())) return addGraph (desk, chosen->file, {}, request.at);
+        const auto shipped = desk.presets();
+        if (const auto* chosen = begins ? nullptr : templateOf (type, shipped)) return addGraph (desk, chosen->file, {}, request.at);
         addNode (type, request);
     };
     openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), desk.presets(), choose_type);

@@ -6,11 +6,15 @@
 #include "support/waiting.hpp"
 
 #include <host/app/stems/stem_export.hpp>
+#include <host/base/files/clip_io.hpp>
 #include <host/base/files/wav.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -44,7 +48,7 @@ TEST_CASE ("the window exports the stems of the open graph, and they add up to i
     WindowRig::settle();
     REQUIRE (w.view->asked().isOpen());
     CHECK (w.view->asked().title() == "Export the stems of Bronze bell");
-    w.view->asked().answer (3);   // floats
+    w.view->asked().answer (4);   // floats
     CHECK (proposed == "Bronze bell stems");
     REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
     INFO (w.view->statusText());
@@ -74,6 +78,36 @@ TEST_CASE ("the window exports the stems of the open graph, and they add up to i
     }
     CHECK (peak > 0.05);
     CHECK (worst < 1e-5 * (1.0 + peak));
+}
+
+TEST_CASE ("the window exports a clip of each layer in each format", "[app][stems]")
+{
+    const TemporaryFolder folder;
+    WindowRig w ("bronze_bell.json");
+    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
+        chosen (folder / "bell");
+    };
+    w.key ("ctrl + k");
+    w.stage->type ("export stems");
+    w.key ("return");
+    WindowRig::settle();
+    REQUIRE (w.view->asked().isOpen());
+    w.view->asked().answer (3);
+    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
+    INFO (w.view->statusText());
+    std::map<std::string, std::set<std::string>> endings;
+    for (const auto& entry : std::filesystem::directory_iterator (folder / "bell"))
+        if (isClipExtension (entry.path()) && entry.path().extension() != ".wav")
+        {
+            INFO (entry.path());
+            const auto clip = loadClip (entry.path());
+            REQUIRE (clip);
+            CHECK (clip->clip.lastEvent() > 1.0);
+            endings[entry.path().stem().string()].insert (entry.path().extension().string());
+        }
+    CHECK (endings.size() == 4);   // three layers, and the wall
+    for (const auto& [name, all] : endings)
+        CHECK (all == std::set<std::string> { ".ahap", ".haptic", ".hjif" });
 }
 
 TEST_CASE ("a user who cancels the export gets no folder, and a refused folder is named", "[app][stems]")

@@ -82,6 +82,8 @@ std::string Monkey::act()
         { 1, &Monkey::preview },
         { 3, &Monkey::startOrStop },
         { 2, &Monkey::goInHistory },
+        { 4, &Monkey::compose },
+        { 3, &Monkey::turnDepth },
         { 1, &Monkey::drop },
         { 1, &Monkey::beginAgain },
     };

@@ -132,6 +132,8 @@ private:
     std::string preview();
     std::string startOrStop();
     std::string goInHistory();
+    std::string compose();     ///< adds a preset, mixes, pastes as a layer, modulates, varies values, exports stems
+    std::string turnDepth();   ///< drags the ring of a modulation, or a strip of the mixer, in the inspector and on the knobs
     std::string chooseInMenu();
     std::string answer();
 };

@@ -15,7 +15,8 @@ std::string Monkey::windowKey()
         "escape", "escape", "1", "2", "3", "4", "5", "ctrl + 1", "ctrl + 2", "ctrl + 3", "F1", "ctrl + n", "ctrl + o", "ctrl + s",
         "ctrl + shift + s", "ctrl + z", "ctrl + z", "ctrl + y", "c", "h", "x", "tab", "shift + tab", "return", "spacebar", "cursor up",
         "cursor down", "cursor left", "cursor right", "page up", "home", "end", "delete", "backspace", "ctrl + a", "ctrl + v", "ctrl + x", "?",
-        "F5", "F6", "shift + F6", "ctrl + f", "ctrl + k"
+        "F5", "F6", "shift + F6", "ctrl + f", "ctrl + k",
+        "ctrl + c", "ctrl + shift + v", "v"
     };
     const auto* k = oneOf (keys);
     stage->key (k);
