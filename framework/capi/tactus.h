@@ -542,4 +542,31 @@ TACTUS_API tactus_result tactus_run_emergency_stop (tactus_run*);
 /** Ends emergency stops and all other stops of the guards. Only a person should decide this. [any thread] */
 TACTUS_API tactus_result tactus_run_rearm (tactus_run*);
 
+/* ============================================================================ Logs */
+
+typedef struct tactus_table tactus_table; /**< numbers of a run in columns, one row for each tick */
+
+/** Reads what a log (docs/replay.md) says about each tick from `from_s` to before `until_s`; INFINITY: to the end. The columns are `passed` (s), for each
+ *  role the fields of its reading ("stylus.position.x"), and the feeds. Values that the log does not repeat are repeated. Nothing is played, so the files
+ *  that the graph uses are not needed. NULL if there are errors, such as take/too_large: see tactus_set_limits. [main thread] */
+TACTUS_API tactus_table* tactus_log_read (const char* log, double from_s, double until_s, tactus_messages*);
+
+/** Repeats a logged run, as `tactus render --replay` does, with the same bits. The columns are the recorded components. `graph`: played instead of that of
+ *  the log; may be NULL. Of the options, which may be NULL, `records`, `sets`, `assets` and `asset_context` are used. NULL if there are errors.
+ *  [main thread] */
+TACTUS_API tactus_table* tactus_replay (const char* log, const tactus_graph* graph, const tactus_run_options*, double from_s, double until_s,
+                                        tactus_messages*);
+
+TACTUS_API void tactus_table_free (tactus_table*);                                 /**< [main thread] */
+TACTUS_API size_t tactus_table_columns (const tactus_table*);                      /**< [any thread] */
+TACTUS_API size_t tactus_table_rows (const tactus_table*);                         /**< [any thread] */
+TACTUS_API uint64_t tactus_table_first (const tactus_table*);                      /**< the tick of the first row [any thread] */
+TACTUS_API const char* tactus_table_name (const tactus_table*, size_t column);     /**< "motor.force.x" [any thread] */
+TACTUS_API const char* tactus_table_unit (const tactus_table*, size_t column);     /**< SI; "" if unknown [any thread] */
+TACTUS_API const double* tactus_table_values (const tactus_table*, size_t column); /**< one for each row, until the table is freed [any thread] */
+
+/** The rest, as JSON: of a log, `head` (program, rate_hz, clocks: when tick 0 began), `events` (tick, kind, name, value) and `is_cut_off`; of a replay,
+ *  `name` of the graph, `rate_hz`, `ticks` and `is_cut_off`. Until the table is freed. [any thread] */
+TACTUS_API const char* tactus_table_about (const tactus_table*);
+
 #endif

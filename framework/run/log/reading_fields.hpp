@@ -45,6 +45,8 @@ struct LoggedReading
     Channels axes {}, signals {};
 };
 
+inline std::span<const double> valuesOf (const Channels& channels) noexcept { return { channels.begin(), channels.end() }; }
+
 /// The parts of a reading whose size depends on the device.
 struct ChannelField
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/run/guard.hpp>
+#include <tactus/text/json.hpp>
 
 #include <cstdint>
 #include <map>
@@ -27,6 +28,7 @@ struct RunHead
     std::vector<std::string> feeds {};                ///< ports, as in CompileOptions::feeds
     std::map<std::string, GuardLimits> guards {};     ///< by role; the guards of roles that join later are logged with their graph
     std::map<std::string, DeviceLayout> devices {};   ///< by role; only devices that have more than a tool
+    Json clocks {};                                   ///< when the first tick began: `wall` and `monotonic`, in s; null if it was not in real time
 };
 
 /// The limits of a guard, by their names in a log.

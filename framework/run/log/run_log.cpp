@@ -32,19 +32,6 @@ std::size_t roomFor (const RunHead& head)
 
 std::string textOf (const Json& value) { return value.dump(); }
 
-std::string listOf (std::span<const double> numbers)
-{
-    std::string text;
-    for (const double v : numbers)
-        text += (text.empty() ? "[" : ",") + logNumber (v);
-    return text.empty() ? "[]" : text + "]";
-}
-
-/// A list with one entry is written as a number.
-std::string textOf (std::span<const double> numbers) { return numbers.size() == 1 ? logNumber (numbers.front()) : listOf (numbers); }
-
-std::span<const double> all (const Channels& channels) { return { channels.begin(), channels.end() }; }
-
 Json toJson (const std::map<std::string, GuardLimits>& guards)
 {
     auto json = Json::object();
@@ -73,18 +60,20 @@ Json toJson (const std::map<std::string, DeviceLayout>& devices)
     return json;
 }
 
-std::string headLine (const RunHead& head)
+std::string headLine (const RunHead& head, const std::optional<Json>& clocks, bool is_packed)
 {
-    return textOf ({ { "format", run_format },
-                     { "version", run_version },
-                     { "program", head.program },
-                     { "functions", head.functions },
-                     { "rate_hz", head.rate_hz },
-                     { "sets", head.sets },
-                     { "feeds", head.feeds },
-                     { "guards", toJson (head.guards) },
-                     { "devices", toJson (head.devices) } })
-           + "\n";
+    Json json { { "format", run_format },
+                { "version", run_version },
+                { "program", head.program },
+                { "functions", head.functions },
+                { "rate_hz", head.rate_hz },
+                { "sets", head.sets },
+                { "feeds", head.feeds },
+                { "guards", toJson (head.guards) },
+                { "devices", toJson (head.devices) } };
+    if (clocks) json["clocks"] = *clocks;
+    if (is_packed) json["packed"] = true;
+    return json.dump() + "\n";
 }
 
 bool same (std::span<const double> a, std::span<const double> b) noexcept
@@ -93,16 +82,18 @@ bool same (std::span<const double> a, std::span<const double> b) noexcept
 }
 }   // namespace
 
-RunLog::RunLog (const std::filesystem::path& p, const RunHead& head)
-    : path (p), place (p.parent_path()), out (openDirectly (p)), taken (roomFor (head))
+RunLog::RunLog (const std::filesystem::path& p, const RunHead& h)
+    : path (p), place (p.parent_path()), head (h), out (openDirectly (p)), packer (p.extension() == packed_log ? std::make_unique<LogPacker>() : nullptr),
+      taken (roomFor (h))
 {
-    if (out) *out << headLine (head) << std::flush;
 }
 
 Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& path, const RunHead& head)
 {
     if (const auto who = whoElseLinks (path); ! who.empty())
         return Message::error ("output/unwritable", path.string(), "cannot be written: " + who, "choose another file");
+    if (std::error_code ignored; path.extension() == packed_log && std::filesystem::exists (path, ignored))
+        return Message::error ("output/exists", path.string(), "exists, and a packed log is never replaced", "choose another file");
     errno = 0;
     std::unique_ptr<RunLog> log { new RunLog (path, head) };
     if (auto problem = written (log->out && log->out->good(), path); ! problem) return problem.error();
@@ -173,7 +164,7 @@ void RunLog::take()
         late += (late.empty() ? "" : ",") + std::to_string (words.pop());
         break;
     case RunJournal::Kind::passed:
-        add ("passed", logNumber (number()));
+        line.passed = number();
         break;
     case RunJournal::Kind::halted:
         add ("halt", "true");
@@ -202,7 +193,7 @@ void RunLog::takeOver (std::uint64_t serial)
         expected.pop_front();
     if (expected.front().graph == graph) return;   // the same graph, recompiled for a probe
     graph = expected.front().graph;
-    if (line.find (R"("graph":)") != std::string::npos) endLine();   // before the first tick, another graph may replace the first one
+    if (line.rest.find (R"("graph":)") != std::string::npos) endLine();   // before the first tick, another graph may replace the first one
     add ("graph", graph);
 
     std::map<std::string, GuardLimits> guards;
@@ -225,7 +216,7 @@ void RunLog::takeTightened (std::size_t role)
     for (const auto& field : guard_fields)
         limits.*field.value = std::bit_cast<double> (words.pop());
     limits.dead_man_buttons = words.pop();
-    if (line.find (R"("graph":)") == std::string::npos) add ("graph", graph);
+    if (line.rest.find (R"("graph":)") == std::string::npos) add ("graph", graph);
 }
 
 LoggedReading RunLog::takeReading()
@@ -258,56 +249,66 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
     hits.clear();
     late.clear();
 
-    std::string read;
     for (std::size_t r = 0; r < roles; ++r)
     {
         const auto reading = takeReading();
         const auto& role = expected.front().plan->roles()[r].name;
         auto& before = readings.try_emplace (role, toLogged ({})).first->second;
-        std::string changed;
-        const auto change = [&] (std::string_view key, const std::string& value) {
-            if (! changed.empty()) changed += ",";
-            changed += "\"" + std::string (key) + "\":" + value;
-        };
+        std::uint32_t changed = 0, bit = 1;
         for (const auto& [key, first, size] : reading_fields)
-            if (const auto field = std::span (reading.numbers).subspan (first, size); ! same (field, std::span (before.numbers).subspan (first, size)))
-                change (key, textOf (field));
+        {
+            if (! same (std::span (reading.numbers).subspan (first, size), std::span (before.numbers).subspan (first, size))) changed |= bit;
+            bit <<= 1u;
+        }
         for (const auto& [key, value] : channel_fields)
-            if (! same (all (reading.*value), all (before.*value))) change (key, listOf (all (reading.*value)));
-        if (! changed.empty()) read += (read.empty() ? "" : ",") + textOf (role) + ":{" + changed + "}";
+        {
+            if (! same (valuesOf (reading.*value), valuesOf (before.*value))) changed |= bit;
+            bit <<= 1u;
+        }
+        if (changed != 0) line.read.push_back ({ role, changed, reading });
         before = reading;
     }
-    if (! read.empty()) add ("read", "{" + read + "}");
 
     std::vector<double> values (feeds);
     std::ranges::generate (values, number);
-    if (! same (values, feed))
-        add ("feed", listOf (values));
+    if (! same (values, feed)) line.feed = values;
     feed = std::move (values);
 
-    if (now == 0 && first_tick)
-        if (const auto clocks = first_tick()) add ("clocks", textOf (*clocks));
-    if (! line.empty()) endLine();
+    if (! has_begun) beginFile (first_tick ? first_tick() : std::nullopt);
+    if (! line.isEmpty()) endLine();
     ++now;
 }
 
 void RunLog::add (std::string_view key, std::string_view value)
 {
-    line += ",\"";
-    line += key;
-    line += "\":";
-    line += value;
+    line.rest += ",\"";
+    line.rest += key;
+    line.rest += "\":";
+    line.rest += value;
+}
+
+void RunLog::beginFile (const std::optional<Json>& clocks)
+{
+    *out << headLine (head, clocks, packer != nullptr) << held;
+    held.clear();
+    has_begun = true;
 }
 
 void RunLog::endLine()
 {
-    *out << "{\"tick\":" << now << line << "}\n";
-    line.clear();
+    line.tick = now;
+    const auto text = packer ? packer->pack (line) : textOf (line) + "\n";
+    if (has_begun)
+        *out << text;
+    else
+        held += text;
+    line = {};
 }
 
 Result<> RunLog::finish()
 {
     if (auto problem = drain(); ! problem || ! out) return problem;
+    if (! has_begun) beginFile (std::nullopt);
     add (brokenAt() ? "broken" : "end", "true");
     endLine();
     return written (closed (out), path);

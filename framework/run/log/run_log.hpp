@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reading_fields.hpp"
+#include "log_lines.hpp"
 #include "run_head.hpp"
 #include "run_journal.hpp"
 
@@ -23,12 +23,13 @@ namespace tactus
 {
 
 /// Writes a log during a run, so that the run can be repeated bit for bit; docs/replay.md describes the format. The file is
-/// written in place, one line per tick, so everything drained before a crash is in the file. [main thread, except journal()]
+/// written in place, one line per tick, so everything drained before a crash is in the file. The first line waits for the first tick, whose
+/// time it tells. [main thread, except journal()]
 class RunLog
 {
 public:
-    /// Replaces any file with this name. The buffer holds one second of data for the roles and feeds listed in the RunHead. Ids:
-    /// output/unwritable.
+    /// Replaces any file with this name, but a packed log, whose name ends in packed_log, is never replaced. The buffer holds one second of data for the
+    /// roles and feeds listed in the RunHead. Ids: output/unwritable, output/exists.
     static Result<std::unique_ptr<RunLog>> create (const std::filesystem::path&, const RunHead&);
 
     /// Receives the events of the tick thread.
@@ -70,10 +71,15 @@ private:
     void takeTightened (std::size_t role);
     void add (std::string_view key, std::string_view value);
     void endLine();
+    void beginFile (const std::optional<Json>& clocks);
     static Result<> written (bool good, const std::filesystem::path&);
 
     std::filesystem::path path, place;
+    RunHead head;
     std::unique_ptr<std::ostream> out;   // null once the log is closed
+    std::unique_ptr<LogPacker> packer;   // null: the log is text
+    bool has_begun = false;              // the first line is written
+    std::string held;                    // lines of graphs that take over before that
     std::uintmax_t whole = 0;            // bytes known to be in the file, up to the end of a line
     RunJournal taken;
 
@@ -87,7 +93,7 @@ private:
     std::uint64_t now = 0;   // tick number
 
     // Parts of the line for this tick.
-    std::string line;
+    LogLine line;
     std::map<std::string, GuardLimits> tightened;
     std::string turns, kept, hits;
     std::string late;

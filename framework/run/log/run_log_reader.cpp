@@ -178,27 +178,17 @@ Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std
 {
     RunLogReader reader;
     reader.number = lines_before;
-    reader.in = std::move (from);
+    reader.in = LogLines (std::move (from));
     reader.called = std::move (name);
     if (auto head = reader.readHead(); ! head) return head.error();
     return reader;
 }
 
-/// Reads a complete line; empty if there is none, if it breaks off, or if it is longer than any line of a log can be.
 std::optional<std::string> RunLogReader::line()
 {
-    const double longest = budgets().file;   // readJson refuses more
-    std::string text;
-    for (int c = in->get(); c != std::istream::traits_type::eof() && static_cast<double> (text.size()) <= longest; c = in->get())
-    {
-        if (c == '\n')
-        {
-            ++number;
-            return text;
-        }
-        text += static_cast<char> (c);
-    }
-    return std::nullopt;
+    auto text = in.next();
+    if (text) ++number;
+    return text;
 }
 
 Result<> RunLogReader::readHead()
@@ -228,6 +218,7 @@ Result<> RunLogReader::readHead()
                                             begin.rate_hz = v.get<double>();
                                             if (! (begin.rate_hz >= 1.0 && begin.rate_hz <= 1e6)) head.wrong (where, "the rate must be from 1 to 1000000 Hz");
                                         } },
+                                       { "clocks", JsonKind::object, [&] (Json& v, const std::string&) { begin.clocks = std::move (v); } },
                                        { "sets", JsonKind::list, [&] (Json& v, const std::string& where) { head.texts (v, where, begin.sets); } },
                                        { "feeds", JsonKind::list, [&] (Json& v, const std::string& where) { head.texts (v, where, begin.feeds); } },
                                        { "guards", JsonKind::object, [&] (Json& v, const std::string& where) { head.guards (v, where, begin.guards); } },
@@ -242,6 +233,11 @@ Result<std::optional<RunTick>> RunLogReader::next()
 {
     if (over) return std::nullopt;
     const auto text = line();
+    if (! text && in.isDamaged())
+    {
+        ++number;
+        return at ("log/value", "the line is not packed as it should be", as_written);
+    }
     if (! text)
     {
         over = cut_off = true;
@@ -306,6 +302,7 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
              for (std::size_t i = 0; i < v.size(); ++i)
                  line.number (v[i], where + "/" + std::to_string (i), (*tick.feed)[i]);
          } },
+        { "clocks", JsonKind::object, [&] (Json& v, const std::string&) { begin.clocks = std::move (v); } },   // where earlier programs wrote them
         { "end", JsonKind::truth, [&] (Json& v, const std::string&) { if (v.get<bool>()) tick.last = RunTick::Last::end; } },
         { "broken", JsonKind::truth, [&] (Json& v, const std::string&) { if (v.get<bool>()) tick.last = RunTick::Last::broken; } },
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reading_fields.hpp"
+#include "log_lines.hpp"
 #include "run_head.hpp"
 
 #include <tactus/node/device.hpp>
@@ -50,7 +50,7 @@ struct RunTick
     Last last = Last::no;
 };
 
-/// Reads a log line by line, so the log may be larger than memory. Accepts any text. [main thread]
+/// Reads a log line by line, packed or not, so the log may be larger than memory. Accepts any bytes. [main thread]
 ///
 /// Ids: log/not_a_log, log/newer_version, log/unknown_version, log/order, log/missing, log/value, and the JSON ids of a graph
 /// file: file/syntax, file/wrong_kind, …
@@ -86,7 +86,7 @@ private:
     Result<> place (RunTick&, std::optional<std::uint64_t> number);
     Message at (std::string id, std::string what, std::string remedy) const;
 
-    std::unique_ptr<std::istream> in;
+    LogLines in;
     std::string called;
     RunHead begin;
     std::map<std::string, LoggedReading, std::less<>> readings;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run_test.hpp"
 #include "graph_snapshot.hpp"
+#include "log_lines.hpp"
 #include "log_number.hpp"
 
 #include <tactus/file/atomic_file.hpp>
@@ -70,6 +71,13 @@ std::optional<std::uint64_t> tickOf (const std::string& line)
 
 bool hasGraph (const std::string& line) { return line.find ("\"graph\"") != line.npos; }
 
+/// The first line of a log, for lines that are not packed.
+std::string unpackedHead (const std::string& head)
+{
+    auto read = readJson (head);
+    return read.root.is_object() && read.root.erase ("packed") > 0 ? read.root.dump() : head;
+}
+
 /// The lines of a log up to a tick, or all of them, with paths relative to another folder, and the hash of the first graph.
 struct LogPart
 {
@@ -80,12 +88,13 @@ Result<LogPart> partOf (const std::string& log, std::optional<std::uint64_t> unt
 {
     auto in = opened (log);
     if (! in) return in.error();
-    auto head = wholeLine (**in);
+    LogLines lines { std::move (*in) };
+    auto head = lines.next();
     LogPart part;
     if (! head) return wrongTest ("log/not_a_log", log, 1, "it has no complete line", "name the file that `tactus play --log` wrote");
-    part.text = *head + "\n";
+    part.text = unpackedHead (*head) + "\n";
     std::uint64_t number = 1;
-    for (auto line = wholeLine (**in); line; line = wholeLine (**in))
+    for (auto line = lines.next(); line; line = lines.next())
     {
         ++number;
         const auto tick = tickOf (*line);

@@ -20,8 +20,14 @@
 #include <catch2/catch.hpp>
 
 #include <bit>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <memory>
 #include <random>
+#include <sstream>
 #include <thread>
 
 using namespace tactus;
@@ -262,19 +268,92 @@ std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
 TEST_CASE ("a run repeated from its log is bit-identical, no matter what was edited and turned", "[runlog][property]")
 {
     const TemporaryFolder folder;
-    const auto file = folder / "run.jsonl";
+    const auto file = folder / GENERATE ("run.jsonl", "run.tlog");
     test::property ("any run", [&] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
+        std::filesystem::remove (file);   // a packed log is never replaced
         const auto live = run (file, seed, 600);
         RC_ASSERT (runAgain (file) == live);
     });
     CHECK (hits_again > 0);
 }
 
+namespace
+{
+std::vector<std::string> linesOf (const std::filesystem::path& file)
+{
+    LogLines lines { std::make_unique<std::ifstream> (file, std::ios::binary) };
+    std::vector<std::string> all;
+    for (auto line = lines.next(); line; line = lines.next())
+        all.push_back (*line);
+    CHECK_FALSE (lines.isDamaged());
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("a packed log holds the same lines in fewer bytes, and is never replaced", "[runlog][packed]")
+{
+    const TemporaryFolder folder;
+    const auto text = folder / "run.jsonl", packed = folder / "run.tlog";
+    for (const unsigned seed : { 1u, 2u, 3u })
+    {
+        std::filesystem::remove (packed);
+        REQUIRE (run (text, seed, 600) == run (packed, seed, 600));
+        const auto lines = linesOf (text), same = linesOf (packed);
+        REQUIRE (lines.size() > 600);
+        CHECK (same.front().find ("\"packed\":true") != std::string::npos);
+        const auto common = [] (const std::vector<std::string>& all) {   // ticks, readings and feeds: the ids in a graph are those of one run
+            std::vector<std::string> some;
+            for (const auto& line : all)
+                if (const auto read = line.find (",\"read\":"); read != line.npos) some.push_back (line.substr (0, line.find (',')) + line.substr (read));
+            return some;
+        };
+        CHECK (common (lines).size() > 500);
+        CHECK ((common (lines) == common (same)));
+        CHECK (lines.back() == same.back());
+        CHECK (std::filesystem::file_size (packed) < std::filesystem::file_size (text));
+    }
+    const auto again = RunLog::create (packed, { .program = "test", .rate_hz = rate_hz });
+    REQUIRE_FALSE (again);
+    CHECK (again.error().id == "output/exists");
+    CHECK (linesOf (packed).size() > 600);
+}
+
+TEST_CASE ("a packed log with a changed or a missing byte is read up to there, or refused", "[runlog][packed]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "run.tlog";
+    (void)run (file, 5, 40);
+    std::ifstream in (file, std::ios::binary);
+    const std::string bytes { std::istreambuf_iterator<char> (in), {} };
+    const auto head = bytes.find ('\n') + 1;
+    const auto read = [] (const std::string& some) {
+        auto reader = RunLogReader::open (std::make_unique<std::istringstream> (some), "some.tlog");
+        if (! reader) return reader.error().id;
+        for (;;)
+        {
+            const auto next = reader->next();
+            if (! next) return next.error().id;
+            if (! *next) return std::string (reader->isCutOff() ? "cut off" : "whole");
+        }
+    };
+    CHECK (read (bytes) == "whole");
+    std::map<std::string, int> ends;
+    std::mt19937 random (1);
+    for (auto i = head; i < bytes.size(); i += 1 + random() % 7)
+    {
+        CHECK (read (bytes.substr (0, i)) == "cut off");
+        auto changed = bytes;
+        changed[i] = static_cast<char> (random());
+        ++ends[read (changed)];
+    }
+    CHECK (ends["log/value"] > 0);
+}
+
 TEST_CASE ("every reading is read back bit for bit", "[runlog]")
 {
     const TemporaryFolder folder;
-    const auto file = folder / "run.jsonl";
+    const auto file = folder / GENERATE ("run.jsonl", "run.tlog");
     auto plan = test::Sketch {}.node ("hand", "device.position").compile().plan;
     Engine engine (plan);
     OddHand hand (7), same (7);
