@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checked_roles.hpp"
 #include "commands.hpp"
 #include "graph_argument.hpp"
 #include "report.hpp"
 #include "run_options.hpp"
 
+#include <host/base/assets/file_assets.hpp>
 #include <host/devices/hid/physics.hpp>
-#include <tactus/check/report.hpp>
-#include <tactus/check/trials/trials.hpp>
+#include <host/tools/reports/check_report.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/list_text.hpp>
@@ -18,20 +17,18 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 namespace tactus::host
 {
 
 namespace
 {
-struct CheckOptions
+struct CheckCommandOptions : CheckOptions
 {
     std::string graph;
     std::vector<std::string> devices, sets;
-    double rate_hz = 0.0, duration_s = 0.0;
-    bool json = false, sweep = false;
-    check::JudgeOptions judge {};
+    double rate_hz = 0.0;
+    bool json = false;
 };
 
 std::string padded (std::string_view text, std::size_t width) { return std::string (text) + std::string (width > text.size() ? width - text.size() : 1, ' '); }
@@ -69,9 +66,9 @@ std::string ableDevices (const check::Demand& demand, const std::string& role, c
     return names;
 }
 
-void print (const CheckOptions& options, const check::Demand& demand, const std::vector<check::RoleDevice>& devices,
-            const std::vector<check::Condition>& conditions, const check::JudgeOptions& judge, const hid::LoadedProfiles& profiles)
+void print (const CheckCommandOptions& options, const CheckReport& report, const hid::LoadedProfiles& profiles)
 {
+    const auto& [demand, devices, trials, judge, conditions] = report;
     std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz: "
               << check::scopeOf (demand, judge, options.sweep ? "a sweep" : "the hand's motion")
               << '\n';
@@ -97,25 +94,17 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
               << "; not everything can be judged: try it by hand\n";
 }
 
-void run (const CheckOptions& options)
+void run (const CheckCommandOptions& options)
 {
-    const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
-    const auto motion = options.sweep ? graph.sweep (options.duration_s) : graph.motion (options.duration_s);
-    const std::size_t threads = std::max (1u, std::thread::hardware_concurrency());
-    const auto demand = check::measure (graph.subject, motion, { .ticks = check::affordableTicks (*graph.plan), .threads = threads });
-    std::vector<check::RoleDevice> devices;
-    for (const auto& r : graph.roles)
-        devices.push_back (r.device);
-    const auto trials = check::tryLoops (graph.subject, motion, demand, devices,
-                                         { .ticks = check::affordableTicks (*graph.plan) / 2, .threads = threads });
-    auto judge = options.judge;
-    judge.trials = &trials;
-    const auto conditions = check::judge (demand, devices, judge);
+    FileAssets assets;
+    CheckedGraph graph { loadGraph (options.graph), options.graph, assets, { options.devices, readSets (options.sets), options.rate_hz } };
+    const CheckReport found { graph, options };
+    report (graph.takeWarnings());
     if (options.json)
-        std::cout << writeJson (check::toJson (demand, devices, conditions, judge));
+        std::cout << writeJson (found.json());
     else
-        print (options, demand, devices, conditions, judge, graph.profiles);
-    if (check::isBroken (conditions))
+        print (options, found, graph.profiles);
+    if (check::isBroken (found.conditions))
     {
         std::cout.flush();
         throw Stop {};
@@ -125,7 +114,7 @@ void run (const CheckOptions& options)
 
 void addCheck (const Command& app)
 {
-    const auto options = std::make_shared<CheckOptions>();
+    const auto options = std::make_shared<CheckCommandOptions>();
     const auto command = app.add ("check", "Check whether the devices of a graph can render it: stability, quanta, friction, textures, forces");
     command
         .addOption (

@@ -4,6 +4,7 @@
 
 #include <host/base/platform/patient_output.hpp>
 #include <host/code/plugins/installed_plugins.hpp>
+#include <host/tools/reports/refusal.hpp>
 #include <tactus/tactus.h>
 
 #include <cstdio>
@@ -95,6 +96,11 @@ int main (int argc, char** argv)
         const bool checks_plugin = argc > 1 && std::string_view (argv[1]) == "check-plugin";
         if (! checks_plugin) std::cerr << textOf (usePlugins (pluginFoldersIn (argc, argv)));
         if (const auto status = app.parse (argc, argv)) return *status == 0 ? fine : wrong_usage;
+    }
+    catch (const Refusal& refused)
+    {
+        report (refused.messages);
+        return fault_of_input;
     }
     catch (const Stop&)
     {

@@ -20,7 +20,7 @@ std::string placeInFile (const Message& m)
 std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::string& file)
 {
     const bool in_graph = m.where.empty() || m.where.starts_with ('/');
-    if (! m.file.empty() && m.file != file) return placeInFile (m);
+    if (file.empty() || (! m.file.empty() && m.file != file)) return m.file.empty() ? m.where : placeInFile (m);
     if (! in_graph) return m.where;   // `where` names a feed column or an option, not a part of the graph
     const auto at = m.line > 0 ? TextPosition { m.line, m.column } : loaded.positionOf (m.where);
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
@@ -57,12 +57,15 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
         const bool error = m.severity == Message::Severity::error;
         errors += error;
         if (++count > most_messages) continue;
-        std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << inOneLine (m.text);
+        const auto place = inOneLine (placeOf (m, loaded, file));
+        std::cerr << place << (place.empty() ? "" : ": ") << (error ? "error: " : "warning: ") << inOneLine (m.text);
         std::cerr << "\n    " << printable (cut (m.remedy)) << idOf (m);
     }
     if (count > most_messages) std::cerr << inOneLine (file) << ": problems not listed: " << count - most_messages << "\n    fix the listed ones first\n";
     return errors;
 }
+
+int report (const Messages& messages) { return report (messages, {}, ""); }
 
 void warn (const std::string& file, const Message& m)
 {

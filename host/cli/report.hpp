@@ -28,6 +28,9 @@ std::string inOneLine (std::string);
 /// Prints each message, up to most_messages, to stderr: the location, the problem, the remedy. Returns the number of errors.
 int report (const Messages&, const LoadedGraph&, const std::string& file);
 
+/// The same for messages that name their files and lines.
+int report (const Messages&);
+
 /// Prints a warning about this file.
 void warn (const std::string& file, const Message&);
 

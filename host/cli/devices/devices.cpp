@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "capture_device.hpp"
 #include "event_devices.hpp"
-#include "numbers_only.hpp"
 #include "probe_driver.hpp"
 
 #include <host/base/platform/signals.hpp>
@@ -16,6 +15,7 @@
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/hid_link/serial_ports.hpp>
 #include <host/devices/hid_link/udev_rule.hpp>
+#include <host/tools/reports/connected_devices.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/list_text.hpp>
 #include <tactus/text/number_text.hpp>
@@ -46,60 +46,6 @@ struct DevicesOptions
     DeviceCapture capture;
 };
 
-struct Listed
-{
-    ConnectedDevice device;
-    std::vector<std::shared_ptr<const Profile>> profiles;   // best match first
-    bool may_open = true;
-    Messages unable;   // why a device with force feedback cannot be driven
-};
-
-std::string hex4 (unsigned n)
-{
-    char text[8];
-    std::snprintf (text, sizeof text, "%04x", n);
-    return text;
-}
-
-std::string_view nameOf (Bus bus)
-{
-    switch (bus)
-    {
-    case Bus::usb:
-        return "usb";
-    case Bus::bluetooth:
-        return "bluetooth";
-    default:
-        return "unknown";
-    }
-}
-
-/// The degree to which a profile has been verified on a real device.
-std::string_view verifiedOf (const Profile& p)
-{
-    const auto seen = [] (const auto& report) { return report.verified; };
-    const auto all = std::ranges::all_of (p.inputs, seen) && std::ranges::all_of (p.outputs, seen);
-    const auto any = std::ranges::any_of (p.inputs, seen) || std::ranges::any_of (p.outputs, seen);
-    if (all) return "verified";
-    return any ? "partly verified" : "not verified";
-}
-
-std::vector<Listed> listAll (const LoadedProfiles& profiles)
-{
-    std::vector<Listed> all;
-    for (auto& device : eachOnce (thisComputer().connected(), profiles))
-    {
-        auto fitting = matching (profiles.profiles, device);
-        Messages unable;
-        if (fitting.empty() && hasForceFeedback (thisComputer(), device))
-            if (auto pid = profileOf (thisComputer(), device, std::nullopt, unable)) fitting.push_back (std::move (pid));
-        const bool may_open = thisComputer().mayOpen (device);
-        std::erase_if (unable, [] (const Message& m) { return m.severity == Message::Severity::warning; });
-        all.push_back ({ std::move (device), std::move (fitting), may_open, std::move (unable) });
-    }
-    return all;
-}
-
 Listed listedAs (ChosenDevice chosen)
 {
     if (! chosen.profile) fail ("hid/no_profile", printableName (chosen.device.path) + ": no profile says what its bytes mean", "name it: serial:PROFILE@PORT");
@@ -107,28 +53,6 @@ Listed listedAs (ChosenDevice chosen)
 }
 
 //==============================================================================
-Json jsonOf (const Listed& l)
-{
-    const auto& d = l.device;
-    Json profiles = Json::array();
-    for (const auto& p : l.profiles)
-        profiles.push_back ({ { "id", p->id }, { "name", p->name }, { "verified", verifiedOf (*p) } });
-    Json json { { "path", d.path },
-                { "vid", hex4 (d.vid) },
-                { "pid", hex4 (d.pid) },
-                { "usage_page", hex4 (d.usage_page) },
-                { "usage", hex4 (d.usage) },
-                { "interface", d.interface_number },
-                { "bus", nameOf (d.bus) },
-                { "product", d.product },
-                { "manufacturer", d.manufacturer },
-                { "serial", d.serial },
-                { "profiles", std::move (profiles) },
-                { "may_open", l.may_open } };
-    if (! l.may_open) json["udev_rule"] = udevRule (d);
-    return json;
-}
-
 std::string textOf (const Listed& l)
 {
     const auto& d = l.device;
@@ -206,20 +130,6 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     const auto device = "serial:" + (isOf (p, *fitting.front()) ? printableName (fitting.front()->id) : "PROFILE") + "@" + printableName (p.path);
     return text + "nothing on the line says which device it is. With a serial line: " + ids + "\n    to see and count its reports, without driving it: "
            + "tactus devices --probe --device " + device + "\n    to play: --device ROLE=" + device + "\n";
-}
-
-Json jsonOf (const SerialPort& p, const LoadedProfiles& profiles)
-{
-    Json could_be = Json::array();
-    for (const auto& profile : profilesFor (p, profiles.profiles))
-        could_be.push_back ({ { "id", profile->id }, { "name", profile->name } });
-    return { { "driver", "serial" },
-             { "port", p.path },
-             { "vid", p.vid },
-             { "pid", p.pid },
-             { "product", p.product },
-             { "may_open", p.may_open },
-             { "profiles", std::move (could_be) } };
 }
 
 //==============================================================================
@@ -413,14 +323,14 @@ void run (const DevicesOptions& options)
     const auto profiles = loadProfileLibrary();
     warnOfFiles (profiles.messages);
 
-    const auto all = options.capture.device.empty() ? listAll (profiles) : std::vector { listedAs (chooseDevice (options.capture.device, profiles)) };
+    const auto all = options.capture.device.empty() ? listDevices (profiles) : std::vector { listedAs (chooseDevice (options.capture.device, profiles)) };
     Json json = Json::array();
     for (const auto& l : all)
         json.push_back (jsonOf (l));
 
     const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
     for (const auto& port : ports)
-        json.push_back (jsonOf (port, profiles));
+        json.push_back (host::jsonOf (port, profiles));
     const auto event_devices = options.capture.device.empty() ? listEventDevices() : std::vector<ListedEvents> {};
     for (const auto& l : event_devices)
         json.push_back (l.json);

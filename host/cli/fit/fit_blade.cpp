@@ -12,10 +12,8 @@ void addFitBlade (const Command& fit)
                     "recording ends before the burst, it gives only lower bounds for the two forces, and the verdict is poor.\n\n"
                     "Example:\n"
                     "  tactus fit blade potato.csv --width \"20 mm\" -o potato.json --plot potato.png");
-    blade.addAmount ("--width", "m", "20 mm", "Length of the edge inside the sample; default 20 mm, a guess",
-                     [] (FitSettings& s, double metres) { s.width = metres; });
-    blade.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at the touch of the sample; default: 0, unless the force begins elsewhere",
-                           [] (FitSettings& s, double metres) { s.touch = metres; });
+    blade.add ("width", "20 mm", "Length of the edge inside the sample; default 20 mm, a guess");
+    blade.add ("touch", "0.2 mm", "Depth in the recording at the touch of the sample; default: 0, unless the force begins elsewhere");
 }
 
 }   // namespace tactus::host

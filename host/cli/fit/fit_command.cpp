@@ -6,12 +6,12 @@
 #include <host/cli/overwriting.hpp>
 #include <host/cli/report.hpp>
 #include <host/tools/figures/plot.hpp>
+#include <host/tools/fitting/fit_options.hpp>
 #include <host/tools/fitting/recording_file.hpp>
 #include <tactus/file/graph_file.hpp>
-#include <tactus/node/catalogue.hpp>
-#include <tactus/plan/compile.hpp>
 #include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -67,11 +67,7 @@ void printFit (const FittedGraph& made, const FitCommandOptions& options)
     const auto& info = infoOf (made.kind);
     if (options.json)
     {
-        auto json = host::jsonOf (made.report);
-        json["kind"] = info.id;
-        json["recording"] = options.recording;
-        json["preset"] = options.preset;
-        std::cout << json.dump (2) << "\n";
+        std::cout << host::jsonOf (made, options.recording, options.preset).dump (2) << "\n";
         return;
     }
     std::cout << printableName (options.recording) << ": " << made.report.rows << " rows, " << info.about << "\n"
@@ -80,17 +76,6 @@ void printFit (const FittedGraph& made, const FitCommandOptions& options)
         for (const auto& line : *lines)
             std::cout << "  " << line << "\n";
     std::cout << "wrote " << printableName (options.preset) << "\n";
-}
-
-/// Ends the command if the nodes refuse the fitted values.
-void checkPreset (const FittedGraph& made, const std::string& recording)
-{
-    FileAssets assets;
-    const auto compiled = compile (made.preset, catalogue(), { .assets = &assets });
-    const auto error = std::ranges::find (compiled.messages, Message::Severity::error, &Message::severity);
-    if (error == compiled.messages.end()) return;
-    fail (Message::error ("fit/preset", recording, "the fitted values cannot be played: " + error->text,
-                          "the recording does not look like one of this kind: check the columns and their units"));
 }
 
 void runFit (FitKind kind, FitCommandOptions options)
@@ -103,7 +88,8 @@ void runFit (FitKind kind, FitCommandOptions options)
     const auto table = orFail (readRecordingOrWav (options.recording));
     auto made = orFail (fitRecording (kind, table, options.recording, options.settings));
     made.preset.name = std::filesystem::path (options.preset).stem().string();
-    checkPreset (made, options.recording);
+    FileAssets assets;
+    orFail (checkFitted (made, options.recording, assets));
     orFail (saveGraph (made.preset, options.preset));
     if (! options.plot.empty()) drawFit (made.report.picture, std::filesystem::path (options.recording).filename().string(), options.plot);
     printFit (made, options);
@@ -112,22 +98,25 @@ void runFit (FitKind kind, FitCommandOptions options)
 }
 }   // namespace
 
-void FitCommand::addAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                            const std::function<void (FitSettings&, double)>& take) const
+void FitCommand::add (const std::string& name, const std::string& example, const std::string& about) const
 {
+    const auto* row = findFitOption (kind, name);
+    const auto option = "--" + name;
+    if (example.empty())
+    {
+        const auto added = command.addOption (
+            option, [target = options, row] (const std::string& text) { row->set (target->settings, wholeNumber (text).value_or (0.0)); }, about);
+        if (row->is_whole)
+            added.check (within (static_cast<int> (row->least), static_cast<int> (row->most)));
+        else
+            added.check (finiteWithin (row->least, row->most));
+        return;
+    }
     command.addOption (
         option,
-        [target = options, option, si_unit, example, take] (const std::string& text) { take (target->settings, readAmount (option, text, si_unit, example)); },
-        about);
-}
-
-void FitCommand::addSignedAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                                  const std::function<void (FitSettings&, double)>& take) const
-{
-    command.addOption (
-        option,
-        [target = options, option, si_unit, example, take] (const std::string& text) {
-            take (target->settings, readSignedAmount (option, text, si_unit, example));
+        [target = options, row, option, example] (const std::string& text) {
+            row->set (target->settings,
+                      row->least < 0.0 ? readSignedAmount (option, text, row->unit, example.c_str()) : readAmount (option, text, row->unit, example.c_str()));
         },
         about);
 }
@@ -135,7 +124,7 @@ void FitCommand::addSignedAmount (const std::string& option, const char* si_unit
 FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& about, const std::string& footer)
 {
     const auto& info = infoOf (kind);
-    const FitCommand made { fit.add (info.id, about), std::make_shared<FitCommandOptions>() };
+    const FitCommand made { kind, fit.add (info.id, about), std::make_shared<FitCommandOptions>() };
     const auto& options = made.options;
     std::string columns, roles;
     for (const auto& column : info.columns)
@@ -163,7 +152,7 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
                         "Turn the sign of a column, such as --sign \"depth=-\", or keep it: --sign \"depth=+\"; default: as the recording suggests")
             .oneValueEach();
     if (std::ranges::any_of (info.columns, [] (const FitColumn& column) { return column.role == "t"; }))
-        made.command.addOption ("--rate", options->settings.rate, "Rows per second, if the recording has no column of times").check (finiteWithin (0.01, 1e7));
+        made.add ("rate", "", "Rows per second, if the recording has no column of times");
     made.command.footer (footer);
     made.command.callback ([options, kind] { runFit (kind, *options); });
     return made;

@@ -24,16 +24,12 @@ struct FitCommandOptions
 /// A command `tactus fit KIND` under construction.
 struct FitCommand
 {
+    FitKind kind {};
     Command command;
     std::shared_ptr<FitCommandOptions> options;
 
-    /// An option with a unit, such as --load "2 N". `take` receives the value in SI.
-    void addAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                    const std::function<void (FitSettings&, double)>& take) const;
-
-    /// The same for a place or a time, which may be 0 or negative.
-    void addSignedAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
-                          const std::function<void (FitSettings&, double)>& take) const;
+    /// Adds the option with this name of the table of options (fit_options.hpp). `example`: a value with its unit, "2 N"; empty: a plain number.
+    void add (const std::string& name, const std::string& example, const std::string& about) const;
 };
 
 /// Adds a command with the recording, --out, --plot, --json, --column and --unit, which fits and reports.

@@ -13,8 +13,7 @@ void addFitFriction (const Command& fit)
                     "Examples:\n"
                     "  tactus fit friction strokes.csv -o wood.json --plot wood.png\n"
                     "  tactus fit friction strokes.txt --column \"position=Position [mm]\" --load \"2 N\" -o wood.json");
-    friction.addAmount ("--load", "N", "2 N", "Normal force, if it was not recorded; default: 1 N, so that mu is the force while sliding in N",
-                        [] (FitSettings& s, double newtons) { s.load = newtons; });
+    friction.add ("load", "2 N", "Normal force, if it was not recorded; default: 1 N, so that mu is the force while sliding in N");
 }
 
 }   // namespace tactus::host

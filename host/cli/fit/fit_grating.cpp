@@ -12,9 +12,8 @@ void addFitGrating (const Command& fit)
                     "without friction: load times slope.\n\n"
                     "Example:\n"
                     "  tactus fit grating scan.csv --load \"0.5 N\" -o ridges.json --plot ridges.png");
-    grating.addAmount ("--load", "N", "0.5 N", "Normal force of the tool in the preset; default 1 N",
-                       [] (FitSettings& s, double newtons) { s.load = newtons; });
-    grating.command.addOption ("--most", grating.options->settings.most, "Largest number of harmonics; default 8").check (within (1, 32));
+    grating.add ("load", "0.5 N", "Normal force of the tool in the preset; default 1 N");
+    grating.add ("most", "", "Largest number of harmonics; default 8");
 }
 
 }   // namespace tactus::host

@@ -14,16 +14,12 @@ void addFitModes (const Command& fit)
                     "  tactus fit modes tap.csv -o bell.json --plot bell.png\n"
                     "  tactus fit modes bell.wav -o bell.json --column \"value=channel 2\"\n"
                     "  tactus fit modes tap.csv --from \"12 ms\" --to \"200 ms\" --mass \"20 g\" --speed \"0.3 m/s\" -o bell.json");
-    modes.addSignedAmount ("--from", "s", "12 ms", "Start of the fitted part; default: after the largest value",
-                           [] (FitSettings& s, double t) { s.from = t; });
-    modes.addSignedAmount ("--to", "s", "200 ms", "End of the fitted part; default: that of the recording, without most of the silence after the ring",
-                           [] (FitSettings& s, double t) { s.to = t; });
-    modes.addSignedAmount ("--blow", "s", "10 ms",
-                           "Time of the blow, to which the amplitudes refer; default: where the half-wave with the largest value begins",
-                           [] (FitSettings& s, double t) { s.blow = t; });
-    modes.addAmount ("--mass", "kg", "20 g", "Mass of the tip, if the recording is in m/s2", [] (FitSettings& s, double kg) { s.mass = kg; });
-    modes.addAmount ("--speed", "m/s", "0.3 m/s", "Speed of the blow", [] (FitSettings& s, double speed) { s.speed = speed; });
-    modes.command.addOption ("--most", modes.options->settings.most, "Largest number of modes; default 20").check (within (1, 40));
+    modes.add ("from", "12 ms", "Start of the fitted part; default: after the largest value");
+    modes.add ("to", "200 ms", "End of the fitted part; default: that of the recording, without most of the silence after the ring");
+    modes.add ("blow", "10 ms", "Time of the blow, to which the amplitudes refer; default: where the half-wave with the largest value begins");
+    modes.add ("mass", "20 g", "Mass of the tip, if the recording is in m/s2");
+    modes.add ("speed", "0.3 m/s", "Speed of the blow");
+    modes.add ("most", "", "Largest number of modes; default 20");
 }
 
 }   // namespace tactus::host

@@ -12,9 +12,7 @@ void addFitShock (const Command& fit)
                                    "Examples:\n"
                                    "  tactus fit shock tap_on_steel.csv -o tap_on_steel.json\n"
                                    "  tactus fit shock loop.csv --mass \"30 g\" -o rubber.json --plot rubber.png");
-    shock.addAmount ("--mass", "kg", "50 g",
-                     "The mass that rebounded; required if the recording has no times. Default: impulse divided by change of speed",
-                     [] (FitSettings& s, double kg) { s.mass = kg; });
+    shock.add ("mass", "50 g", "The mass that rebounded; required if the recording has no times. Default: impulse divided by change of speed");
 }
 
 }   // namespace tactus::host

@@ -13,12 +13,9 @@ void addFitSwitch (const Command& fit)
                     "Examples:\n"
                     "  tactus fit switch key.csv -o key.json --plot key.png\n"
                     "  tactus fit switch key.csv --backlash \"20 um\" -o key.json");
-    key.addAmount ("--tolerance", "N", "10 mN", "Largest distance between the recording and the straight lines that replace it; default 10 mN",
-                   [] (FitSettings& s, double newtons) { s.tolerance = newtons; });
-    key.addAmount ("--stiffness", "N/m", "10 N/mm", "Stiffness with which the force changes when the finger reverses; default 10 N/mm",
-                   [] (FitSettings& s, double stiffness) { s.stiffness = stiffness; });
-    key.addAmount ("--backlash", "m", "20 um", "Backlash of the meter: on the way up, the key is this much deeper than recorded; default: none",
-                   [] (FitSettings& s, double metres) { s.backlash = metres; });
+    key.add ("tolerance", "10 mN", "Largest distance between the recording and the straight lines that replace it; default 10 mN");
+    key.add ("stiffness", "10 N/mm", "Stiffness with which the force changes when the finger reverses; default 10 N/mm");
+    key.add ("backlash", "20 um", "Backlash of the meter: on the way up, the key is this much deeper than recorded; default: none");
 }
 
 }   // namespace tactus::host

@@ -13,12 +13,10 @@ void addFitTexture (const Command& fit)
                     "Examples:\n"
                     "  tactus fit texture cloth.csv -o cloth.json --plot cloth.png\n"
                     "  tactus fit texture cloth.csv --speed \"0.1 m/s\" --force \"1 N\" --mass \"15 g\" -o cloth.json");
-    texture.addAmount ("--speed", "m/s", "0.1 m/s", "Speed of the tool, if it was not recorded; default 0.1 m/s",
-                       [] (FitSettings& s, double speed) { s.speed = speed; });
-    texture.addAmount ("--force", "N", "1 N", "Normal force, if it was not recorded; default 1 N", [] (FitSettings& s, double newtons) { s.force = newtons; });
-    texture.addAmount ("--mass", "kg", "15 g", "Mass of the tip, which turns acceleration into force; default 10 g, a guess",
-                       [] (FitSettings& s, double kg) { s.mass = kg; });
-    texture.command.addOption ("--most", texture.options->settings.most, "Largest number of coefficients of a model; default 20").check (within (1, 200));
+    texture.add ("speed", "0.1 m/s", "Speed of the tool, if it was not recorded; default 0.1 m/s");
+    texture.add ("force", "1 N", "Normal force, if it was not recorded; default 1 N");
+    texture.add ("mass", "15 g", "Mass of the tip, which turns acceleration into force; default 10 g, a guess");
+    texture.add ("most", "", "Largest number of coefficients of a model; default 20");
 }
 
 }   // namespace tactus::host

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 # libtactus_live: all of libtactus, and live sessions on real devices (tactus_live.h). It needs hidapi.
-set (parts tactus_nodes tactus_c tactus_no_bitcode tactus_live)   # what nothing refers to; the rest comes from the static libraries
+set (parts tactus_nodes tactus_c tactus_no_bitcode tactus_live tactus_reports)   # what nothing refers to; the rest comes from the static libraries
 list (TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
 add_library (tactus_live_shared SHARED ${parts})
 set_target_properties (tactus_live_shared PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}   # next to the programs, as they find the same files
     OUTPUT_NAME tactus_live EXPORT_NAME live VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINKER_LANGUAGE CXX)
 target_include_directories (tactus_live_shared INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
-target_link_libraries (tactus_live_shared PRIVATE tactus_live PkgConfig::hidapi Threads::Threads ${CMAKE_DL_LIBS})
+target_link_libraries (tactus_live_shared PRIVATE tactus_reports PkgConfig::hidapi Threads::Threads ${CMAKE_DL_LIBS})
 add_dependencies (tactus_live_shared force-guardian)
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports only the C API, and what fused code calls.

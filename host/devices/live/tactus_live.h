@@ -109,6 +109,39 @@ TACTUS_API tactus_result tactus_plugins_replace (const char* plugin, tactus_mess
  *  live/no_headers, live/no_node, live/foreign. [main thread] */
 TACTUS_API tactus_result tactus_plugins_compile (const char* header, const char* plugin, tactus_messages*);
 
+/* ---------------------------------------------------------------------------- What the command line finds out, as JSON */
+
+/* Each function returns what the command of the same name prints with the option --json; free it with tactus_text_free. NULL if there are errors.
+ * `options` is NULL, or a JSON object whose keys are the long options of the command, without the dashes: {"rate": 1000, "set": {"drag.mu": 0.3}}. A
+ * list or an object stands for an option that may be given more than once. They take seconds, and use all processors. Pictures and recordings that a
+ * graph names are not decoded, so such a graph is refused (library.md). Other threads may use other objects meanwhile. */
+
+/** `tactus check`. Options: devices (a list of ROLE=…), set, rate, duration, sweep, speed, alpha, beta, gamma. A broken condition is no error: see
+ *  docs/check.md for what is judged and what is not. [main thread] */
+TACTUS_API char* tactus_check (const tactus_graph*, const char* options, tactus_messages*);
+
+/** `tactus limits`. Options: devices, set, rate, duration, role, x, y, steps. With steps, also the points of the regions, as `columns` and `rows`, which
+ *  `tactus limits --out FILE.json` writes. [main thread] */
+TACTUS_API char* tactus_limits (const tactus_graph*, const char* options, tactus_messages*);
+
+/** Columns of numbers of the caller. */
+typedef struct tactus_columns
+{
+    const char* const* names; /**< as in the header of a CSV file: "t", "force [mN]" */
+    size_t count;
+    const double* values; /**< row after row: rows times count */
+    size_t rows;
+} tactus_columns;
+
+/** `tactus fit KIND`. The recording is a CSV file, or `columns`; then `recording` is only its name in messages, and may be NULL. WAV files are not read.
+ *  Options: columns, units and signs, objects by role, and those that the kind has, as SI numbers or texts with a unit. The JSON has the report of
+ *  `tactus fit --json`, and `graph`, the text of the preset, `picture`, the recorded and fitted curves, `details` and `snippets`. [main thread] */
+TACTUS_API char* tactus_fit (const char* kind, const char* recording, const tactus_columns* columns, const char* options, tactus_messages*);
+
+/** `tactus devices`: a list of HID devices, serial ports, and profiles that can only be simulated. Event devices and sound cards are in the list of the
+ *  command only. Nothing is opened. [main thread] */
+TACTUS_API char* tactus_devices (tactus_messages*);
+
 /* ---------------------------------------------------------------------------- While it plays */
 
 /** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force

@@ -5,6 +5,8 @@
 #include "surface_preset.hpp"
 
 #include <tactus/fit/curve_fit.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -268,6 +270,15 @@ RecordedPicture pictureOf (FitKind kind, const Table& table, const FitSettings& 
     const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };
     FitCurve curve { "recorded", (*recorded)[columns[0].role], (*recorded)[columns[1].role], true };
     return { { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { std::move (curve) } }, std::move (turned) };
+}
+
+Result<> checkFitted (const FittedGraph& made, const std::string& recording, Assets& assets)
+{
+    const auto compiled = compile (made.preset, catalogue(), { .assets = &assets });
+    const auto error = std::ranges::find (compiled.messages, Message::Severity::error, &Message::severity);
+    if (error == compiled.messages.end()) return {};
+    return Message::error ("fit/preset", recording, "the fitted values cannot be played: " + error->text,
+                           "the recording does not look like one of this kind: check the columns and their units");
 }
 
 }   // namespace tactus::host

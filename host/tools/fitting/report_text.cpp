@@ -118,4 +118,13 @@ Json jsonOf (const FitReport& report)
              { "notes", report.notes } };
 }
 
+Json jsonOf (const FittedGraph& made, const std::string& recording, const std::string& preset)
+{
+    auto json = jsonOf (made.report);
+    json["kind"] = infoOf (made.kind).id;
+    json["recording"] = recording;
+    json["preset"] = preset;
+    return json;
+}
+
 }   // namespace tactus::host

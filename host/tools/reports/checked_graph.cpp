@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "checked_roles.hpp"
-#include "report.hpp"
-#include "run_options.hpp"
+// SPDX-License-Identifier: MIT
+#include "checked_graph.hpp"
+#include "refusal.hpp"
 
 #include <host/devices/device_plugins/open_plugin_device.hpp>
 #include <host/devices/hid/physics.hpp>
@@ -84,15 +83,15 @@ private:
             std::vector<std::string> names;
             for (const auto& r : roles)
                 names.push_back (r.device.role);
-            fail (Message::error ("device/unknown_role", "--device " + option, "the graph has no role " + quote (name) + didYouMean (name, names),
-                                  "write ROLE=PROFILE or ROLE=FILE.json"));
+            refuse (Message::error ("device/unknown_role", "--device " + option, "the graph has no role " + quote (name) + didYouMean (name, names),
+                                    "write ROLE=PROFILE or ROLE=FILE.json"));
         }
         if (const auto profile = hid::profileNamed (profiles, what)) return take (*role, *profile);
         if (what.ends_with (".json") && takeProfileFile (*role, what)) return;
         if (what.find_first_of (":.") == what.npos && what != "sim" && ! findDriver (what)) failOnProfile (option, what);
 
         Messages notes;   // none: profiles are taken above
-        auto parsed = orFail (host::parseDeviceOption (
+        auto parsed = orRefuse (host::parseDeviceOption (
             option, graph.devices, folder, [this]() -> const hid::LoadedProfiles& { return profiles; }, notes));
         describe (*role, parsed.description, parsed.folder);
         if (const auto driver = parsed.description.value ("driver", std::string()); driver == "gesture" || driver == "trace" || driver == "sim")
@@ -104,21 +103,21 @@ private:
         std::vector<std::string> ids;
         for (const auto& p : profiles.profiles)
             ids.push_back (p->id);
-        fail (Message::error ("device/option", "--device " + option, "there is no profile " + quote (what) + didYouMean (what, ids),
-                              "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, DRIVER:PORT, or a .json file with a profile or a device"));
+        refuse (Message::error ("device/option", "--device " + option, "there is no profile " + quote (what) + didYouMean (what, ids),
+                                "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, DRIVER:PORT, or a .json file with a profile or a device"));
     }
 
     /// False if the file is not a profile; it may then be the description of a device.
     static bool takeProfileFile (CheckedRole& role, const std::string& file)
     {
         const auto text = readFile (fs::path (file));
-        if (! text) fail (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name and permissions"));
+        if (! text) refuse (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name and permissions"));
         const auto json = Json::tryParse (*text);
         if (! json || ! json->is_object() || json->contains ("driver")) return false;
         const auto loaded = hid::readProfileText (*text);
         if (! loaded.profile)
             for (const auto& m : loaded.messages)
-                if (m.severity == Message::Severity::error) fail (Message::error (m.id, file + ", " + m.where, m.text, m.remedy));
+                if (m.severity == Message::Severity::error) refuse (Message::error (m.id, file + ", " + m.where, m.text, m.remedy));
         take (role, *loaded.profile);
         return true;
     }
@@ -140,30 +139,29 @@ std::vector<check::Reach> reachesOf (const std::vector<CheckedRole>& roles)
     return reaches;
 }
 
-fs::path folderOf (const std::string& file) { return fs::path (file).parent_path(); }
 }   // namespace
 
-CheckedGraph::CheckedGraph (const std::string& f, const std::vector<std::string>& devices, const std::vector<std::string>& sets, double rate_hz)
-    : file (f), loaded (loadGraph (file)), profiles (hid::loadProfileLibrary()),
+CheckedGraph::CheckedGraph (LoadedGraph l, std::string f, Assets& assets, const Options& options)
+    : file (std::move (f)), loaded (std::move (l)), profiles (hid::loadProfileLibrary()),
       subject { loaded.graph,
                 catalogue(),
-                { .rate_hz = rate_hz, .overrides = readSets (sets), .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } } },
+                { .rate_hz = options.rate_hz, .overrides = options.overrides, .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } } },
       plan ([this] {
           refuseErrors (loaded.messages);
           auto compiled = compile (subject.graph, subject.catalogue, subject.options);
-          refuseErrors (compiled.messages);
+          refuseErrors (std::move (compiled.messages));
           return std::move (compiled.plan);
       }()),
-      roles (Choices { loaded, folderOf (file), profiles }.read (*plan, devices))
+      roles (Choices { loaded, loaded.graph.folder, profiles }.read (*plan, options.devices))
 {
 }
 
-check::HandMotion CheckedGraph::motion (double duration_s) const
+check::HandMotion CheckedGraph::motion (double duration_s)
 {
-    return bounded (check::recordMotion (subject, handsOf (roles), folderOf (file), duration_s));
+    return bounded (check::recordMotion (subject, handsOf (roles), loaded.graph.folder, duration_s));
 }
 
-check::HandMotion CheckedGraph::sweep (double duration_s) const
+check::HandMotion CheckedGraph::sweep (double duration_s)
 {
     if (duration_s <= 0.0) duration_s = 4.0;
     std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
@@ -179,16 +177,29 @@ check::HandMotion CheckedGraph::sweep (double duration_s) const
     return bounded ({ .motion = check::recordMotion (plan, hands, ticks) });
 }
 
-void CheckedGraph::refuseErrors (const Messages& messages) const
+/// Keeps the messages, with their place in the file, and refuses if one of them is an error.
+void CheckedGraph::refuseErrors (Messages messages)
 {
-    if (report (messages, loaded, file) > 0) throw Stop {};
+    for (auto& m : messages)
+    {
+        const bool in_graph = m.where.empty() || m.where.starts_with ('/');
+        if (file.empty() || ! in_graph || (! m.file.empty() && m.file != file)) continue;
+        m.file = file;
+        if (m.line > 0) continue;
+        const auto at = loaded.positionOf (m.where);
+        m.line = at.line;
+        m.column = at.column;
+    }
+    const bool is_wrong = hasErrors (messages);
+    std::ranges::move (messages, std::back_inserter (warnings));
+    if (is_wrong) throw Refusal { takeWarnings() };
 }
 
 /// The motion, if no tool runs away in it.
-check::HandMotion CheckedGraph::bounded (check::RecordedMotion recorded) const
+check::HandMotion CheckedGraph::bounded (check::RecordedMotion recorded)
 {
     std::ranges::move (check::divergence (recorded.motion, reachesOf (roles)), std::back_inserter (recorded.messages));
-    refuseErrors (recorded.messages);
+    refuseErrors (std::move (recorded.messages));
     return std::move (recorded.motion);
 }
 

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "varied.hpp"
+#include "refusal.hpp"
 
-#include <host/cli/command_run.hpp>
-#include <host/cli/report.hpp>
+#include <host/base/command_line/command.hpp>
 #include <tactus/check/stretches.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
@@ -52,8 +52,8 @@ Varied readVaried (const std::string& option, const std::string& text, const Pla
         std::vector<std::string> paths { "stiffness", "damping", "rate" };
         for (const auto& n : nodes)
             paths.push_back (n.path);
-        fail (Message::error ("limits/axis", option + " " + text, "the graph has no node " + quote (path) + didYouMean (path, paths),
-                              "name stiffness, damping, rate or NODE.PARAM of a node of the graph"));
+        refuse (Message::error ("limits/axis", option + " " + text, "the graph has no node " + quote (path) + didYouMean (path, paths),
+                                "name stiffness, damping, rate or NODE.PARAM of a node of the graph"));
     }
     const auto row = std::ranges::find (node->type->params, id, &PortSheet::id);
     if (row == node->type->params.end() || row->width != 1)
@@ -61,8 +61,8 @@ Varied readVaried (const std::string& option, const std::string& text, const Pla
         std::vector<std::string> ids;
         for (const auto& p : node->type->params)
             if (p.width == 1) ids.emplace_back (p.id);
-        fail (Message::error ("limits/axis", option + " " + text, quote (path) + " has no param " + quote (id) + " that is a number" + didYouMean (id, ids),
-                              "`tactus nodes " + std::string (node->type->info.id) + "` lists them"));
+        refuse (Message::error ("limits/axis", option + " " + text, quote (path) + " has no param " + quote (id) + " that is a number" + didYouMean (id, ids),
+                                "`tactus nodes " + std::string (node->type->info.id) + "` lists them"));
     }
     v.unit = row->unit.kind == UnitRule::Kind::fixed ? std::string (row->unit.unit.symbol) : "";
     v.now = check::valueInFile (plan, static_cast<std::size_t> (node - nodes.begin()), id, 0.0);

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "contact_at.hpp"
+#include "refusal.hpp"
 
-#include <host/cli/report.hpp>
 #include <tactus/check/factors.hpp>
 #include <tactus/check/measure.hpp>
 #include <tactus/check/sampled_loop.hpp>
@@ -84,8 +84,8 @@ check::Jacobian excessOf (const Response& r, double period_s)
 void requireNumber (const check::RoleDevice& device, const DeviceNumbers::Number& number, const std::string& name)
 {
     if (number && number->value > 0.0) return;
-    fail (Message::error ("limits/unknown", printableName (device.role) + " on " + printableName (device.name), "the " + name + " of the device is not known",
-                          "add it to \"physics\" in its profile, or name another device: --device " + device.role + "=PROFILE"));
+    refuse (Message::error ("limits/unknown", printableName (device.role) + " on " + printableName (device.name), "the " + name + " of the device is not known",
+                            "add it to \"physics\" in its profile, or name another device: --device " + device.role + "=PROFILE"));
 }
 }   // namespace
 
@@ -129,12 +129,12 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
         }
     }
     if (! is_felt)
-        fail ("limits/no_contact", "the hand feels no force that depends on its position, so there is nothing to limit",
-              "another motion of the hand: --sweep, --device ROLE=gesture:NAME or --device ROLE=trace:FILE.csv; or another --role");
+        refuse (Message::error ("limits/no_contact", "", "the hand feels no force that depends on its position, so there is nothing to limit",
+                                "another motion of the hand: --sweep, --device ROLE=gesture:NAME or --device ROLE=trace:FILE.csv; or another --role"));
     if (! is_known)
-        fail ("limits/no_loop", "the force takes more than 64 ticks to settle after a step of the tool, or does not respond in the same way on every "
-                                "tick, so its loop is not known",
-              "a filter with a higher cutoff, or a lower --rate; sections that run on every tick: leave out `every`; or choose another --role");
+        refuse (Message::error ("limits/no_loop", "", "the force takes more than 64 ticks to settle after a step of the tool, or does not respond in the same way on every "
+                                                      "tick, so its loop is not known",
+                                "a filter with a higher cutoff, or a lower --rate; sections that run on every tick: leave out `every`; or choose another --role"));
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
     way = motion;
@@ -205,9 +205,9 @@ Contact::Measured Contact::measured (double rate_hz, const std::vector<double>& 
     changed.options.overrides.insert (changed.options.overrides.end(), more.begin(), more.end());
     for (const auto& message : compile (changed.graph, changed.catalogue, changed.options).messages)
         if (message.severity == Message::Severity::error)
-            fail (Message::error (message.id,
-                                  (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
-                                  message.text, message.remedy));
+            refuse (Message::error (message.id,
+                                    (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
+                                    message.text, message.remedy));
     const bool is_base = params.empty() && more.empty();
     const Vec3 pressed = is_base || ! its_axis.empty() ? Vec3 (Vec3::Zero()) : asIs (rate_hz, {}).force;
     Measured found;

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <tactus/plan/plan.hpp>
@@ -27,8 +27,8 @@ struct Varied
     std::size_t param = 0;   // in Contact::varied
 };
 
-/// Reads WHAT=FROM:TO of an option, and adds a param to `params`; for anything but a param, the working point is filled in later. Ends the command if
-/// it is wrong.
+/// Reads WHAT=FROM:TO of an option, and adds a param to `params`; for anything but a param, the working point is filled in later. Refuses if it
+/// is wrong.
 Varied readVaried (const std::string& option, const std::string& text, const Plan&, std::vector<std::string>& params);
 
 }   // namespace tactus::host

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "limit_regions.hpp"
+#include "commands.hpp"
+#include "graph_argument.hpp"
+#include "overwriting.hpp"
+#include "progress.hpp"
+#include "render/figure_size.hpp"
+#include "report.hpp"
+#include "run_options.hpp"
 
+#include <host/base/assets/file_assets.hpp>
 #include <host/base/platform/signals.hpp>
-#include <host/cli/commands.hpp>
-#include <host/cli/graph_argument.hpp>
-#include <host/cli/overwriting.hpp>
-#include <host/cli/progress.hpp>
-#include <host/cli/render/figure_size.hpp>
-#include <host/cli/run_options.hpp>
 #include <host/tools/figures/plot.hpp>
+#include <host/tools/reports/boundary.hpp>
+#include <host/tools/reports/limits_report.hpp>
 #include <tactus/check/report.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>
-#include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -21,19 +23,17 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <utility>
 
 namespace tactus::host
 {
 
 namespace
 {
-struct LimitsOptions : FigureSize
+struct LimitsCommandOptions : LimitsOptions, FigureSize
 {
-    std::string graph, role, x, y, file;
+    std::string graph, file;
     std::vector<std::string> devices, sets;
-    double rate_hz = 0.0, duration_s = 0.0;
-    int steps = 40;
+    double rate_hz = 0.0;
     bool json = false;
 };
 
@@ -54,9 +54,12 @@ std::string describe (const std::optional<Range>& r, bool is_least)
     return most + (r->low > 0.0 && r->low > 0.01 * r->high ? ", at least " + number (r->low) : "");
 }
 
-void print (const LimitRegions& report, Contact& contact, const LimitsOptions& options, const Limits& passive, const Limits& stable)
+void print (const LimitsReport& report, const LimitsCommandOptions& options)
 {
-    const auto& here = report.workingPoint();
+    const auto& contact = report.contact;
+    const auto& passive = report.passive;
+    const auto& stable = report.stable;
+    const auto& here = report.regions.workingPoint();
     const auto& device = contact.device().device;
     const double B = contact.damping();
     std::cout << printableName (options.graph) << " at " << numberText (contact.rate()) << " Hz, " << printableName (device.role) << " on "
@@ -89,129 +92,101 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
               << number (here.stiffness * here.period_s) << " of " << number (here.damping + B) << " N*s/m)\n";
 }
 
-Json toJson (const std::optional<Range>& r)
-{
-    if (! r) return {};
-    Json range { { "from", r->low }, { "to", std::isfinite (r->high) ? Json (r->high) : Json() } };
-    if (! r->is_low_known) range["unknown_below"] = r->low;
-    if (! r->is_high_known) range["unknown_above"] = r->high;
-    return range;
-}
-
-Json toJson (const Limits& l) { return Json { { "stiffness", toJson (l.stiffness) }, { "damping", toJson (l.damping) }, { "rate", toJson (l.rate) } }; }
-
 bool isTable (const std::string& file) { return file.ends_with (".csv"); }
 bool isJson (const std::string& file) { return file.ends_with (".json"); }
 
-void run (LimitsOptions& options)
+Axes draw (LimitsReport& report, const View& view, Progress& progress, std::size_t& done)
+{
+    auto& contact = report.contact;
+    const auto& regions = report.regions;
+    const auto axis = [&] (const Varied& v) {
+        GridAxis a { .values = {}, .is_cheap = v.what == Varied::What::stiffness || v.what == Varied::What::damping };
+        for (int i = 0; i <= regions.steps; ++i)
+            a.values.push_back (v.from + (v.to - v.from) * i / regions.steps);
+        return a;
+    };
+    const auto x = axis (view.x), y = axis (view.y);
+    const auto line = [&] (std::string label, double (*f) (const Standing&, double), std::size_t colour) {
+        const auto boundary = boundaryOf (
+            [&] (double at_x, double at_y) {
+                regions.checkOn();
+                return f (contact.at (regions.conditions ({ &view.x, &view.y }, { at_x, at_y })), contact.damping());
+            },
+            x, y);
+        progress (done++);
+        return Series { .label = std::move (label), .x = boundary.x, .y = boundary.y, .colour = colourFor ("position", colour) };
+    };
+    Axes panel { .title = view.title, .x = { view.x.name, view.x.unit }, .y = { view.y.name, view.y.unit } };
+    panel.x_shown = { view.x.from, view.x.to };
+    panel.y_shown = { view.y.from, view.y.to };
+    panel.series.push_back (line (
+        "stable: the sampled loop", [] (const Standing& s, double) { return s.rests(); }, 0));
+    panel.series.push_back (line (
+        "passive: Colgate (sufficient)", [] (const Standing& s, double b) { return s.passive (b); }, 1));
+    panel.series.push_back (line (
+        "b < 2M/T + 4B/3", [] (const Standing& s, double) { return s.damperHolds(); }, 2));
+    panel.series.push_back (line (
+        "sigma T < b + B", [] (const Standing& s, double b) { return s.footnote (b); }, 3));
+    if (const auto& s = regions.workingPoint(); std::isfinite (s.stiffest_held))   // steps of the sensor, and dry friction that holds the tool
+    {
+        panel.series.push_back (line (
+            "K < 2 f_f/delta (sufficient)", [] (const Standing& at, double) { return at.isHeld(); }, 4));
+        panel.series.push_back (line (
+            "b < f_f T/delta (sufficient)", [] (const Standing& at, double) { return at.isQuiet(); }, 5));
+    }
+    panel.series.push_back ({ .label = "working point", .x = { view.x.now }, .y = { view.y.now }, .colour = Colour {}, .style = Series::Style::points });
+    return panel;
+}
+
+void run (LimitsCommandOptions& options)
 {
     if (! options.file.empty() && ! isTable (options.file) && ! isJson (options.file) && ! isFigureFile (options.file))
         throw UsageError ("--out", quotePath (options.file) + " should end in " + figure_kinds + ", in .csv or in .json");
-    if (options.x.empty() != options.y.empty()) throw UsageError ("--x and --y: give both, or none");
     options.readSize();
     refuseOverwriting ({ options.file }, { options.graph });
-    const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
-    const auto& roles = graph.roles;
-    if (! options.role.empty() && std::ranges::none_of (roles, [&] (const CheckedRole& r) { return r.device.role == options.role; }))
-    {
-        std::vector<std::string> names;
-        for (const auto& r : roles)
-            names.push_back (r.device.role);
-        fail (Message::error ("device/unknown_role", "--role", "the graph has no role " + quote (options.role) + didYouMean (options.role, names),
-                              "name one of its roles"));
-    }
-    std::vector<std::string> params;
-    std::vector<Varied> axes;
-    if (! options.x.empty()) axes = { readVaried ("--x", options.x, *graph.plan, params), readVaried ("--y", options.y, *graph.plan, params) };
-    if (axes.size() == 2 && axes[0].name == axes[1].name) throw UsageError ("--y", quote (axes[1].name) + " is already along --x");
-    watchForStop();
-
-    Contact contact { graph.subject, graph.motion (options.duration_s), roles, *graph.plan, options.role };
-    LimitRegions limits { options.steps, contact };
-    limits.vary (axes);
-    const auto passive = limits.limitsOf (LimitRegions::Rule::passive), stable = limits.limitsOf (LimitRegions::Rule::stable);
-    const auto report = [&] {
-        const auto& here = limits.workingPoint();
-        Json all { { "graph", graph.loaded.graph.name },
-                   { "role", contact.device().device.role },
-                   { "device", contact.device().device.name },
-                   { "rate_hz", contact.rate() } };
-        if (! contact.axis().empty()) all["axis"] = contact.axis();
-        all["node"] = contact.node();
-        all["t"] = contact.time();
-        all["stiffness"] = here.stiffness;
-        all["damping"] = here.damping;
-        all["stiffness_param"] = contact.stiffnessParam();
-        all["damping_param"] = contact.dampingParam();
-        all["load"] = here.load;
-        all["radius"] = here.radius ? Json (*here.radius) : Json();
-        all["largest_damper"] = here.largest_damper;
-        all["passive"] = toJson (passive);
-        all["passive"]["rule"] = "sufficient";
-        all["stable"] = toJson (stable);
-        if (std::isfinite (here.stiffest_held))
-            all["quanta"] = Json { { "rule", "sufficient" }, { "stiffness", here.stiffest_held }, { "damping", here.quietest_damper } };
-        return all;
+    options.checkOn = [] {
+        if (stopRequested()) fail ("run/interrupted", "stopped; nothing was written", "run it again, or with fewer --steps");
     };
+    watchForStop();
+    FileAssets assets;
+    CheckedGraph graph { loadGraph (options.graph), options.graph, assets, { options.devices, readSets (options.sets), options.rate_hz } };
+    LimitsReport limits { graph, options };
+    report (graph.takeWarnings());
     if (options.json)
-        std::cout << writeJson (report());
+        std::cout << writeJson (limits.json());
     else
-        print (limits, contact, options, passive, stable);
+        print (limits, options);
     if (options.file.empty()) return;
 
-    std::vector<View> views;
-    if (axes.empty())
-        views = limits.usualViews (stable);
-    else
-    {
-        for (auto& v : axes)
-        {
-            if (v.what == Varied::What::stiffness) v.now = limits.workingPoint().stiffness;
-            if (v.what == Varied::What::damping) v.now = limits.workingPoint().damping;
-            if (v.what == Varied::What::rate) v.now = contact.rate();
-        }
-        views.push_back ({ "", axes[0], axes[1] });
-    }
     if (isFigureFile (options.file))
     {
+        const auto views = limits.views();
         Figure figure { .title = graph.loaded.graph.name + ": limits of the heaviest contact",
                         .panels = {},
                         .width = options.width,
                         .height = options.height,
                         .dpi = options.dpi };
-        Progress progress { (std::isfinite (limits.workingPoint().stiffest_held) ? 6u : 4u) * views.size() };
+        Progress progress { (std::isfinite (limits.regions.workingPoint().stiffest_held) ? 6u : 4u) * views.size() };
         std::size_t done = 0;
         for (const auto& view : views)
-            figure.panels.push_back (limits.draw (view, progress, done));
+            figure.panels.push_back (draw (limits, view, progress, done));
         return orFail (writeFigure (figure, options.file));
     }
-    const auto rows = limits.rows (views);
     if (isTable (options.file))
     {
-        auto table = orFail (TableWriter::create (options.file, limits.columns()));
+        const auto rows = limits.regions.rows (limits.views());
+        auto table = orFail (TableWriter::create (options.file, limits.regions.columns()));
         for (const auto& row : rows)
             orFail (table.row (row));
         return orFail (table.commit());
     }
-    auto all = report();
-    all["columns"] = Json::array();
-    for (const auto& column : limits.columns())
-        all["columns"].push_back (column);
-    all["rows"] = Json::array();
-    for (const auto& row : rows)
-    {
-        auto entry = Json::array();
-        for (const double v : row)
-            entry.push_back (std::isfinite (v) ? Json (v) : Json());
-        all["rows"].push_back (std::move (entry));
-    }
-    orFail (writeTextFile (options.file, writeJson (all)));
+    orFail (writeTextFile (options.file, writeJson (limits.jsonWithRows())));
 }
 }   // namespace
 
 void addLimitsOf (const Command& app)
 {
-    const auto options = std::make_shared<LimitsOptions>();
+    const auto options = std::make_shared<LimitsCommandOptions>();
     const auto command =
         app.add ("limits", "Find how stiff, damped and slow the heaviest contact of a graph may be to stay passive or stable, and plot it");
     command

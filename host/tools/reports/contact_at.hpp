@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/cli/checked_roles.hpp>
+#include "checked_graph.hpp"
+
 #include <tactus/check/measure.hpp>
 
 #include <map>
@@ -51,7 +52,7 @@ struct Standing
 class Contact
 {
 public:
-    /// The command ends if there is no contact, if it has no response that repeats on every tick, or if the device's mass or damping is not known.
+    /// Refuses if there is no contact, if it has no response that repeats on every tick, or if the device's mass or damping is not known.
     Contact (check::Subject, check::HandMotion, const std::vector<CheckedRole>&, const Plan&, const std::string& role);
 
     Standing at (const Conditions&);

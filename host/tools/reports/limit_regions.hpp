@@ -1,17 +1,13 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "boundary.hpp"
 #include "contact_at.hpp"
 #include "varied.hpp"
 
-#include <host/base/platform/signals.hpp>
-#include <host/cli/progress.hpp>
-#include <host/cli/report.hpp>
-#include <host/tools/figures/plot.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,12 +37,15 @@ struct Limits
     std::optional<Range> stiffness, damping, rate;
 };
 
-/// Finds and draws the limits of a contact. [main thread]
+/// Finds the limits of a contact. [main thread]
 class LimitRegions
 {
 public:
-    /// `steps`: of each axis of a picture or a table.
-    LimitRegions (int s, Contact& c) : steps (s), contact (c), here (c.at (conditions ({}, {}))) {}
+    /// `steps`: of each axis of a picture or a table. `checkOn` is called for each point of one, and may throw.
+    LimitRegions (int s, Contact& c, std::function<void()> on) : checkOn (std::move (on)), steps (s), contact (c), here (c.at (conditions ({}, {}))) {}
+
+    const std::function<void()> checkOn;
+    const int steps;
 
     const Standing& workingPoint() const noexcept { return here; }
 
@@ -121,47 +120,6 @@ public:
         return { near, over, whole };   // neighbours with the same axis would share its range
     }
 
-    Axes draw (const View& view, Progress& progress, std::size_t& done) const
-    {
-        const auto axis = [&] (const Varied& v) {
-            GridAxis a { .values = {}, .is_cheap = v.what == Varied::What::stiffness || v.what == Varied::What::damping };
-            for (int i = 0; i <= steps; ++i)
-                a.values.push_back (v.from + (v.to - v.from) * i / steps);
-            return a;
-        };
-        const auto x = axis (view.x), y = axis (view.y);
-        const auto line = [&] (std::string label, double (*f) (const Standing&, double), std::size_t colour) {
-            const auto boundary = boundaryOf (
-                [&] (double at_x, double at_y) {
-                    if (stopRequested()) fail ("run/interrupted", "stopped; nothing was written", "run it again, or with fewer --steps");
-                    return f (contact.at (conditions ({ &view.x, &view.y }, { at_x, at_y })), contact.damping());
-                },
-                x, y);
-            progress (done++);
-            return Series { .label = std::move (label), .x = boundary.x, .y = boundary.y, .colour = colourFor ("position", colour) };
-        };
-        Axes panel { .title = view.title, .x = { view.x.name, view.x.unit }, .y = { view.y.name, view.y.unit } };
-        panel.x_shown = { view.x.from, view.x.to };
-        panel.y_shown = { view.y.from, view.y.to };
-        panel.series.push_back (line (
-            "stable: the sampled loop", [] (const Standing& s, double) { return s.rests(); }, 0));
-        panel.series.push_back (line (
-            "passive: Colgate (sufficient)", [] (const Standing& s, double b) { return s.passive (b); }, 1));
-        panel.series.push_back (line (
-            "b < 2M/T + 4B/3", [] (const Standing& s, double) { return s.damperHolds(); }, 2));
-        panel.series.push_back (line (
-            "sigma T < b + B", [] (const Standing& s, double b) { return s.footnote (b); }, 3));
-        if (const auto& s = workingPoint(); std::isfinite (s.stiffest_held))   // steps of the sensor, and dry friction that holds the tool
-        {
-            panel.series.push_back (line (
-                "K < 2 f_f/delta (sufficient)", [] (const Standing& at, double) { return at.isHeld(); }, 4));
-            panel.series.push_back (line (
-                "b < f_f T/delta (sufficient)", [] (const Standing& at, double) { return at.isQuiet(); }, 5));
-        }
-        panel.series.push_back ({ .label = "working point", .x = { view.x.now }, .y = { view.y.now }, .colour = Colour {}, .style = Series::Style::points });
-        return panel;
-    }
-
     std::vector<std::string> columns() const
     {
         std::vector<std::string> all { "rate (Hz)", "stiffness (N/m)", "damping (N*s/m)" };
@@ -183,7 +141,7 @@ public:
                     const auto c = conditions ({ &view.x, &view.y }, { view.x.from + (view.x.to - view.x.from) * i / steps,
                                                                        view.y.from + (view.y.to - view.y.from) * j / steps });
                     const auto s = contact.at (c);
-                    if (stopRequested()) fail ("run/interrupted", "stopped; nothing was written", "run it again, or with fewer --steps");
+                    checkOn();
                     auto& row = all.emplace_back (std::vector { c.rate_hz > 0.0 ? c.rate_hz : contact.rate(), s.stiffness, s.damping });
                     row.insert (row.end(), c.params.begin(), c.params.end());
                     const auto holds = [] (double v) { return std::isnan (v) ? v : v < 0.0 ? 1.0
@@ -197,7 +155,6 @@ public:
     }
 
 private:
-    int steps;
     Contact& contact;
     std::vector<double> params_now {};
     Standing here;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <host/devices/hid/profile_reader.hpp>
+#include <host/devices/hid_link/serial_ports.hpp>
+#include <host/devices/hid_link/transport.hpp>
+#include <tactus/text/json.hpp>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// A HID device of this computer.
+struct Listed
+{
+    hid::ConnectedDevice device;
+    std::vector<std::shared_ptr<const hid::Profile>> profiles;   ///< best match first
+    bool may_open = true;
+    Messages unable;   ///< why a device with force feedback cannot be driven
+};
+
+std::vector<Listed> listDevices (const hid::LoadedProfiles&);
+
+std::string hex4 (unsigned);          ///< "046d"
+std::string_view nameOf (hid::Bus);   ///< "usb"
+
+/// The degree to which a profile has been verified on a real device.
+std::string_view verifiedOf (const hid::Profile&);
+
+Json jsonOf (const Listed&);
+Json jsonOf (const hid::SerialPort&, const hid::LoadedProfiles&);
+
+/// HID devices, serial ports, and the profiles of devices that cannot be opened, as `tactus devices --json` lists them. The command adds event devices and
+/// sound cards.
+Json listedJson (const hid::LoadedProfiles&);
+
+/// The profiles of devices that Tactus knows but cannot open.
+std::vector<std::shared_ptr<const hid::Profile>> knownByNumbers (const hid::LoadedProfiles&);
+
+/// Id, name and numbers of a profile, in SI units; each number with its source.
+Json numbersJsonOf (const hid::Profile&);
+
+/// Two lines about a profile, for the list of devices.
+std::string numbersTextOf (const hid::Profile&);
+
+}   // namespace tactus::host
