@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "graph.hpp"
+#include "logs.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>
@@ -37,4 +38,5 @@ PYBIND11_MODULE (_tactus, module)
     module.def ("load_plugin", &loadPlugin);
     tactus::python::bindGraph (module);
     tactus::python::bindRun (module);
+    tactus::python::bindLogs (module);
 }

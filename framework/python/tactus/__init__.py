@@ -17,6 +17,7 @@ from ._assets import Mesh, Signal, set_limits
 from ._devices import Effort, PushedDevice
 from ._engine import Engine, Status
 from ._graph import Graph
+from ._logs import Event, Log, read_log, replay
 from ._messages import Error, Message, TactusWarning
 from ._nodes import nodes
 from ._own import Node, choice, scalar, vector
@@ -25,9 +26,12 @@ from ._plot import plot
 from ._plugins import compile_node, load_plugins
 from ._presets import presets
 from ._records import Records
+from ._reports import Check, Condition, Devices, Fit, FitValue, Interval, Limits, check, devices, fit, limits
 from ._sweep import Point, sweep
 
 __version__ = _tactus.version()
 
-__all__ = ["Effort", "Engine", "Error", "Graph", "Health", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal",
-           "Status", "TactusWarning", "choice", "compile_node", "load_plugins", "nodes", "play", "plot", "presets", "scalar", "set_limits", "sweep", "vector"]
+__all__ = ["Check", "Condition", "Devices", "Effort", "Engine", "Error", "Event", "Fit", "FitValue", "Graph", "Health", "Interval", "Limits", "Log",
+           "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal", "Status", "TactusWarning", "check", "choice",
+           "compile_node", "devices", "fit", "limits", "load_plugins", "nodes", "play", "plot", "presets", "read_log", "replay", "scalar",
+           "set_limits", "sweep", "vector"]

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: MIT
+"""What the command line finds out, as objects: check, limits, fit, devices. libtactus_live computes it, with the code of the commands."""
+
+from __future__ import annotations
+
+import ctypes
+import html
+import importlib
+import json
+import math
+import os
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _checks
+from ._checks import Array, Path
+from ._graph import Graph
+from ._library import Messages, Opened, live, texts
+from ._messages import fail
+from ._records import table_of, to_json
+from ._views import plain
+
+Amount = Union[float, str]
+
+
+class Condition(NamedTuple):
+    """A condition on a graph and a device (docs/check.md). verdict: "passive", "passive_here" (along this motion only), "stable", "unstable", "holds",
+    "near", "broken", "unknown" or "not_reached". value, limit: in `unit`; None if not known. margin: how many times the value may grow."""
+
+    id: str
+    role: str
+    node: str
+    verdict: str
+    value: Optional[float]
+    limit: Optional[float]
+    margin: Optional[float]
+    unit: str
+    law: str
+    text: str
+    remedy: str
+
+    @property
+    def is_broken(self) -> bool:
+        """True for the verdicts "unstable" and "broken"."""
+        return self.verdict in ("unstable", "broken")
+
+
+class Check:
+    """The conditions of a graph on its devices. json: all that `tactus check --json` prints. conditions: those that were judged. not_judged: what has no
+    verdict, each with `what` and `why`. scope: the motion and the places along which it was judged."""
+
+    def __init__(self, report: Dict[str, Any]):
+        self.json = report
+        self.scope = str(report["scope"])
+        self.rate_hz = float(report["rate_hz"])
+        self.not_judged: List[Dict[str, str]] = report["not_judged"]
+        self.conditions = [Condition(**{name: c.get(name, "") for name in Condition._fields}) for c in report["conditions"]]
+
+    @property
+    def is_broken(self) -> bool:
+        """True if a judged condition is broken. False is no promise: not everything can be judged."""
+        return bool(self.json["broken"])
+
+    def __repr__(self) -> str:
+        broken = [f"{c.id} of {plain(c.role)}" for c in self.conditions if c.is_broken]
+        return f"<tactus.Check: {'broken: ' + ', '.join(broken) if self.is_broken else 'no judged condition is broken'}; {plain(self.scope, 200)}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(c.role, c.node, c.id, c.verdict, _with_unit(c.value, c.unit), _with_unit(c.limit, c.unit), c.text) for c in self.conditions]
+        unjudged = "".join(f"<li>not judged: {_text(n['what'])}: {_text(n['why'])}</li>" for n in self.not_judged)
+        return f"<p>{_text(self.scope)}</p><ul>{unjudged}</ul>" + _table(("role", "node", "condition", "verdict", "value", "limit", ""), rows)
+
+
+class Interval(NamedTuple):
+    """A range of values around the present one. high: infinite if there is no limit. is_low_known, is_high_known: False: beyond it, the loop is not
+    known."""
+
+    low: float
+    high: float
+    is_low_known: bool
+    is_high_known: bool
+
+
+class Limits:
+    """How stiff, damped and slow the heaviest contact of a graph may be. json: all that `tactus limits --json` prints. stiffness (N/m), damping (N s/m),
+    rate (Hz): of the contact as it is. passive, stable: the ranges of "stiffness", "damping" and "rate", each by itself; None if there is none. The rule of
+    `passive` is sufficient, not necessary. points, columns: with steps, the points of the regions."""
+
+    def __init__(self, report: Dict[str, Any]):
+        self.json = report
+        self.role, self.node = str(report["role"]), str(report["node"])
+        self.stiffness, self.damping, self.rate = float(report["stiffness"]), float(report["damping"]), float(report["rate_hz"])
+        self.passive, self.stable = _intervals(report["passive"]), _intervals(report["stable"])
+        self.columns: List[str] = list(report.get("columns", []))
+        self.points: Array = np.array(report.get("rows", []), dtype=np.float64).reshape(-1, max(len(self.columns), 1))
+
+    def __repr__(self) -> str:
+        return f"<tactus.Limits of {plain(self.role)}: {self.stiffness:.3g} N/m and {self.damping:.3g} N s/m at {self.rate:g} Hz>"
+
+    def _repr_html_(self) -> str:
+        rows = [(f"{name} ({unit})", f"{now:.4g}", _shown(self.passive[name]), _shown(self.stable[name]))
+                for name, unit, now in (("stiffness", "N/m", self.stiffness), ("damping", "N s/m", self.damping), ("rate", "Hz", self.rate))]
+        return _table((f"{self.role}, {self.node}", "now", "passive (sufficient)", "stable"), rows)
+
+    def plot(self, x: str = "stiffness (N/m)", y: str = "damping (N*s/m)", axes: Any = None) -> Any:
+        """Draws the points that are stable, passive or neither over two of the columns, and returns the matplotlib figure. It needs `steps`."""
+        if not len(self.points):
+            fail("plot/nothing", "steps", "there are no points", "give tactus.limits a number of steps")
+        for name in (x, y):
+            if name not in self.columns:
+                fail("plot/unknown", name, f"there is no column '{plain(name)}'", f"use one of {', '.join(self.columns)}")
+        column = {name: self.points[:, i] for i, name in enumerate(self.columns)}
+        figure, ax = _axes(axes)
+        stable, passive = column["stable"] == 1.0, column["passive"] == 1.0
+        unknown = np.isnan(column["stable"]) & ~passive
+        for label, which in (("passive", passive), ("stable, not passive", stable & ~passive), ("not stable", ~stable & ~passive & ~unknown),
+                             ("unknown", unknown)):
+            ax.plot(column[x][which], column[y][which], ".", label=label)
+        ax.set(xlabel=x, ylabel=y)
+        ax.legend(frameon=False, fontsize="small")
+        return figure
+
+
+class FitValue(NamedTuple):
+    """A fitted parameter with its 95 % interval, in `unit` (SI). A bound that the recording does not determine is infinite. is_main: the verdict depends on
+    the interval."""
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    is_main: bool
+
+
+class Fit:
+    """A fit of a recording. values: the parameters by name. is_good: the verdict; lacking: what makes it poor, and which data would help. residual,
+    left_out_residual, size: root mean squares of what is left, of the same on a part that was left out, and of the recording, in residual_unit. graph: a
+    preset in which it can be felt. json: all that `tactus fit --json` prints, and the picture."""
+
+    def __init__(self, report: Dict[str, Any]):
+        self.json = report
+        self.kind, self.is_good = str(report["kind"]), report["verdict"] == "good"
+        self.values = {str(v["name"]): FitValue(str(v["name"]), str(v["unit"]), _finite(v["value"], math.nan), _finite(v["low"], -math.inf),
+                                                _finite(v["high"], math.inf), bool(v["main"])) for v in report["parameters"]}
+        self.lacking: List[str] = report["lacking"]
+        self.notes: List[str] = report["notes"]
+        left = report["residual"]
+        self.residual, self.left_out_residual, self.size = (_finite(left[k], math.nan) for k in ("rms", "left_out_rms", "recording_rms"))
+        self.residual_unit = str(left["unit"])
+        self.rows = int(report["rows"])
+
+    @property
+    def verdict(self) -> str:
+        """"good" or "poor"."""
+        return "good" if self.is_good else "poor"
+
+    @property
+    def graph(self) -> Graph:
+        """A new graph with the fitted node."""
+        return Graph.parse(self.json["graph"])
+
+    def __repr__(self) -> str:
+        return f"<tactus.Fit of {self.kind}, {self.verdict}: " + ", ".join(f"{v.name} {v.value:.4g} {v.unit}".rstrip() for v in self.values.values()) + ">"
+
+    def _repr_html_(self) -> str:
+        rows = [(v.name, _with_unit(v.value, v.unit), f"{v.low:.4g} to {v.high:.4g}") for v in self.values.values()]
+        lines = [f"verdict: {self.verdict}; residual {_with_unit(self.residual, self.residual_unit)} of {_with_unit(self.size, self.residual_unit)}",
+                 *self.lacking, *self.notes]
+        return _table((self.kind, "value", "95 % interval"), rows) + "<ul>" + "".join(f"<li>{_text(line)}</li>" for line in lines) + "</ul>"
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the recording and the fit, and returns the matplotlib figure."""
+        picture = self.json["picture"]
+        figure, ax = _axes(axes)
+        for curve in picture["curves"]:
+            x, y = (np.array(curve[k], dtype=np.float64) for k in "xy")
+            ax.plot(x, y, "." if curve["recorded"] else "-", label=curve["label"], markersize=2)
+        ax.set(xlabel=f"{picture['x']} ({picture['x_unit'] or '1'})", ylabel=f"{picture['y']} ({picture['y_unit'] or 'as recorded'})")
+        ax.legend(frameon=False, fontsize="small")
+        return figure
+
+
+class Devices(List[Dict[str, Any]]):
+    """Devices as `tactus devices --json` lists them: a dict for each."""
+
+    def _repr_html_(self) -> str:
+        return _table(("device", "profiles", "may be opened"), [(d.get("product") or d.get("port") or d.get("name", ""),
+                                                                 ", ".join(p["id"] for p in d.get("profiles", [])) or d.get("profile", ""),
+                                                                 {True: "yes", False: "no"}.get(d.get("may_open", None), "only simulated")) for d in self])
+
+
+@_checks.arguments
+def check(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = None, set: Optional[Mapping[str, Any]] = None, rate: Optional[float] = None,
+          duration: Optional[float] = None, sweep: bool = False, speed: Optional[float] = None, alpha: Optional[float] = None, beta: Optional[float] = None,
+          gamma: Optional[float] = None) -> Check:
+    """Checks whether devices can render a graph, as `tactus check` does, with the same numbers.
+
+    graph: a tactus.Graph, a file, or the name of a preset. devices: by role, the id of a profile, a file, "gesture:circle" or "trace:FILE.csv"; set: values
+    of parameters; rate: in Hz; duration: of the motion in s; sweep: the devices sweep their workspaces; speed: of strokes, in m/s; alpha, beta, gamma:
+    samples and quanta per period, as in docs/check.md. Pictures and WAV files that a graph names are not decoded: such a graph is an Error. Takes seconds;
+    other threads run meanwhile."""
+    return Check(_examined("tactus_check", graph, devices, set, {"rate": rate, "duration": duration, "sweep": _checks.truth("sweep", sweep) or None,
+                                                                 "speed": speed, "alpha": alpha, "beta": beta, "gamma": gamma}))
+
+
+@_checks.arguments
+def limits(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = None, set: Optional[Mapping[str, Any]] = None, rate: Optional[float] = None,
+           duration: Optional[float] = None, role: Optional[str] = None, x: Optional[str] = None, y: Optional[str] = None,
+           steps: Optional[int] = None) -> Limits:
+    """Finds how stiff, damped and slow the heaviest contact of a graph may be, as `tactus limits` does, with the same numbers.
+
+    graph, devices, set, rate, duration: as for tactus.check. role: whose contact. x, y: what varies, "stiffness=0:5000" (N/m), "damping=0:20" (N s/m),
+    "rate=500:8000" (Hz) or "wall.stiffness=100:5000". steps: along x and y; with it, Limits.points has the points, which takes longer."""
+    return Limits(_examined("tactus_limits", graph, devices, set, {"rate": rate, "duration": duration, "role": role, "x": x, "y": y, "steps": steps}))
+
+
+@_checks.arguments
+def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Optional[Mapping[str, str]] = None, units: Optional[Mapping[str, str]] = None,
+        signs: Optional[Mapping[str, str]] = None, options: Optional[Mapping[str, Amount]] = None) -> Fit:
+    """Fits the model of a node to a recording, as `tactus fit` does, with the same numbers.
+
+    kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV file, or arrays by the name of the column, each
+    of shape (n,); names may have units, as in "force [mN]". columns: the name of the column of a role, "" if it was not recorded; units: what 1 in it means,
+    "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them. A WAV file is not read:
+    pass its samples as {"t": …, "channel 1": …}."""
+    name = _checks.text("kind", kind, "give a kind, such as 'friction'").encode()
+    given = _options({"columns": columns, "units": units, "signs": signs, **_checks.mapping("options", options, "{'load': '2 N'}")})
+    if isinstance(recording, (str, os.PathLike)):
+        return Fit(_asked("tactus_fit", name, os.fsencode(_checks.path("recording", recording)), None, given))
+    if not hasattr(recording, "items"):
+        _checks.refuse("recording", recording, "a file or a dict of arrays", "give a path, or {'position': x, 'force': f}")
+    names, values = table_of(dict(recording.items()))
+    table = _ColumnsStruct(texts(names), len(names), values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values))
+    return Fit(_asked("tactus_fit", name, None, ctypes.byref(table), given))
+
+
+def devices() -> Devices:
+    """Lists HID devices, serial ports, and profiles of devices that can only be simulated. `tactus devices` also lists event devices and sound cards. Nothing
+    is opened."""
+    return Devices(_asked("tactus_devices"))
+
+
+class _ColumnsStruct(ctypes.Structure):
+    _fields_ = [("names", ctypes.POINTER(ctypes.c_char_p)), ("count", ctypes.c_size_t), ("values", ctypes.POINTER(ctypes.c_double)),
+                ("rows", ctypes.c_size_t)]
+
+
+def _examined(function: str, graph: Union[Graph, Path], devices: Optional[Mapping[str, str]], values: Optional[Mapping[str, Any]],
+              options: Mapping[str, Any]) -> Dict[str, Any]:
+    roles = _checks.mapping("devices", devices, "{'stylus': 'tactus_board'}")
+    given = {"devices": [f"{role}={_checks.text(f'devices[{role!r}]', what, 'give the id of a profile')}" for role, what in roles.items()],
+             "set": dict(_checks.mapping("set", values, "{'drag.mu': 0.3}")) or None, **options}
+    with Opened(graph) as handle:
+        found: Dict[str, Any] = _asked(function, handle, _options(given))
+    return found
+
+
+def _options(given: Mapping[str, Any]) -> bytes:
+    return to_json({key: dict(value) if isinstance(value, Mapping) else value for key, value in given.items() if value is not None}, "options").encode()
+
+
+def _asked(function: str, *arguments: Any) -> Any:
+    """What a function of the library returns as JSON."""
+    library = live()
+    with Messages() as messages:
+        text = getattr(library, function)(*arguments, messages.handle)
+        try:
+            found = json.loads(ctypes.string_at(text)) if text else None
+        finally:
+            library.tactus_text_free(ctypes.c_void_p(text))
+        messages.check(found is not None)
+    return found
+
+
+def _intervals(ranges: Mapping[str, Any]) -> Dict[str, Optional[Interval]]:
+    return {name: None if (r := ranges[name]) is None else Interval(r["from"], _finite(r["to"], math.inf), "unknown_below" not in r, "unknown_above" not in r)
+            for name in ("stiffness", "damping", "rate")}
+
+
+def _finite(value: Optional[float], otherwise: float) -> float:
+    return otherwise if value is None else float(value)
+
+
+def _with_unit(value: Optional[float], unit: str) -> str:
+    return "" if value is None else f"{value:.4g}{'' if unit in ('', '1') else ' ' + unit}"
+
+
+def _shown(interval: Optional[Interval]) -> str:
+    if interval is None:
+        return "nowhere"
+    return f"{interval.low:.4g}{'' if interval.is_low_known else ' (unknown below)'} to {interval.high:.4g}{'' if interval.is_high_known else ' (unknown above)'}"
+
+
+def _text(text: Any) -> str:
+    return html.escape(plain(text, 1000))
+
+
+def _table(head: Sequence[str], rows: Sequence[Tuple[Any, ...]]) -> str:
+    """A table for notebooks. Names from files never become markup."""
+    line = "<tr>{}</tr>".format
+    return "<table>" + line("".join(f"<th>{_text(h)}</th>" for h in head)) \
+        + "".join(line("".join(f"<td>{_text(cell)}</td>" for cell in row)) for row in rows) + "</table>"
+
+
+def _axes(axes: Any) -> Tuple[Any, Any]:
+    if axes is not None:
+        return axes.figure, axes
+    try:
+        pyplot: Any = importlib.import_module("matplotlib.pyplot")
+    except ImportError:
+        fail("plot/no_matplotlib", "", "matplotlib is not installed", "install it: on Debian, python3-matplotlib")
+    figure, ax = pyplot.subplots(constrained_layout=True)
+    return figure, ax

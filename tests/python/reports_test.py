@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""check, limits, fit, devices, logs and replays from Python: the same numbers as the commands, as objects with units, intervals and verdicts."""
+
+import copy
+import csv
+import json
+import math
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import tactus
+from support import PROGRAM, ROOT, TestCase
+from tactus import lab
+from tactus._library import live
+from waiting import eventually
+
+try:
+    live()
+except tactus.Error as why:
+    print(f"skipped: {why}")
+    sys.exit(77)
+if not PROGRAM:
+    print("skipped: the program is not built")
+    sys.exit(77)
+
+HOSTILE = "<script>alert(1)</script>"
+
+
+def strokes(rows=4000):
+    """A tool that sticks and slides: mu 0.3, 1 N, stretched by at most 0.2 mm. With the noise of a sensor."""
+    t = np.arange(rows) / 1000.0
+    x = 3e-3 * np.sin(2.0 * np.pi * 1.0 * t)
+    stretch, force = 0.0, []
+    for step in np.diff(x, prepend=x[0]):
+        stretch = min(max(stretch + step, -2e-4), 2e-4)
+        force.append(-0.3 * stretch / 2e-4)
+    return x, np.array(force) + 1e-3 * np.random.default_rng(1).standard_normal(rows)
+
+
+class Case(TestCase):
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+
+    def said(self, *words, status=0):
+        """What a command prints, as JSON."""
+        done = subprocess.run([PROGRAM, *map(str, words), "--json"], capture_output=True, text=True, cwd=self.folder, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads(done.stdout)
+
+
+class Reports(Case):
+    def test_a_check_is_that_of_the_command(self):
+        found = tactus.check("granite_wall")
+        self.assertEqual(found.json, self.said("check", "granite_wall"))
+        self.assertFalse(found.is_broken)
+        self.assertTrue(found.not_judged)
+        first = found.conditions[0]
+        self.assertEqual((first.role, first.unit, first.verdict), ("stylus", "N*s/m", "passive_here"))
+        self.assertIn("not judged", found._repr_html_())
+        self.assertIn("no judged condition is broken", repr(found))
+
+    def test_a_broken_condition_is_no_error_and_options_are_those_of_the_command(self):
+        options = {"devices": {"stylus": "tactus_board"}, "set": {"wall.stiffness": 1e5}, "rate": 500.0}
+        found = tactus.check(tactus.Graph("granite_wall"), **options)
+        self.assertEqual(found.json, self.said("check", "granite_wall", "--device", "stylus=tactus_board", "--set", "wall.stiffness=1e5", "--rate", 500,
+                                               status=1))
+        self.assertTrue(found.is_broken and any(c.is_broken for c in found.conditions))
+
+    def test_limits_are_those_of_the_command(self):
+        found = tactus.limits("granite_wall")
+        self.assertEqual(found.json, self.said("limits", "granite_wall"))
+        self.assertEqual((found.role, found.rate), ("stylus", 2000.0))
+        self.assertLess(found.stiffness, found.stable["stiffness"].high)
+        self.assertIn("passive (sufficient)", found._repr_html_())
+        self.fails("plot/nothing", found.plot)
+        points = tactus.limits("granite_wall", x="wall.stiffness=500:4000", y="rate=1000:4000", steps=4)
+        self.assertEqual(points.points.shape, (25, len(points.columns)))
+        subprocess.run([PROGRAM, "limits", "granite_wall", "--x", "wall.stiffness=500:4000", "--y", "rate=1000:4000", "--steps", "4", "-o", "l.csv"],
+                       cwd=self.folder, check=True, capture_output=True)
+        with open(self.folder / "l.csv", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[0], points.columns)
+        self.same_bits(np.array(rows[1:], dtype=float), points.points)
+
+    def test_a_fit_is_that_of_the_command_from_a_file_and_from_arrays(self):
+        x, force = strokes()
+        with open(self.folder / "strokes.csv", "w", encoding="utf-8") as file:
+            file.write("position,force\n" + "".join(f"{a!r},{b!r}\n" for a, b in zip(map(float, x), map(float, force))))
+        told = self.said("fit", "friction", "strokes.csv", "-o", "wood.json", "--load", "2 N")
+        fits = [tactus.fit("friction", self.folder / "strokes.csv", options={"load": "2 N"}),
+                tactus.fit("friction", {"position": x, "force": force}, options={"load": 2.0}),
+                tactus.fit("friction", {"a [mm]": 1e3 * x, "b": 1e3 * force}, columns={"position": "a [mm]", "force": "b"}, units={"force": "1 mN"},
+                           options={"load": 2.0})]
+        for fit in fits[:2]:
+            self.assertEqual({k: fit.json[k] for k in told if k not in ("recording", "preset")},
+                             {k: v for k, v in told.items() if k not in ("recording", "preset")})
+        mu = fits[0].values["mu"]
+        self.assertTrue(mu.low < 0.15 < mu.high and mu.unit in ("", "1"), mu)   # 0.3 N at 2 N
+        self.assertAlmostEqual(fits[2].values["mu"].value, mu.value, places=6)
+        self.assertEqual((fits[0].verdict, fits[0].rows), (told["verdict"], 4000))
+        written = tactus.Graph(self.folder / "wood.json")
+        self.assertEqual({n.type for n in fits[0].graph.nodes.values()}, {n.type for n in written.nodes.values()})
+        self.assertEqual(fits[0].graph.nodes["drag"].params["mu"], written.nodes["drag"].params["mu"])
+        self.assertIn("95 % interval", fits[0]._repr_html_())
+
+    def test_devices_are_those_of_the_command(self):
+        told = [d for d in self.said("devices") if d.get("driver") not in ("audio", "evdev")]
+        found = tactus.devices()
+        self.assertEqual(list(found), told)
+        self.assertIn("<table>", found._repr_html_())
+
+    def test_mistakes_have_a_place_a_cause_and_a_remedy(self):
+        x, force = strokes(200)
+        for id, call in (("fit/column", lambda: tactus.fit("friction", {"a": x, "b": force})),
+                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"lod": 1})),
+                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"load": "2 m"})),
+                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"load": -1})),
+                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, columns={"depth": "a"})),
+                         ("api/option", lambda: tactus.fit("wood", {"position": x, "force": force})),
+                         ("fit/wav", lambda: tactus.fit("modes", "bell.wav")),
+                         ("feed/shape", lambda: tactus.fit("friction", {"position": x, "force": force[1:]})),
+                         ("argument/type", lambda: tactus.fit("friction", 3)),
+                         ("device/unknown_role", lambda: tactus.check("granite_wall", devices={"pen": "tactus_board"})),
+                         ("api/option", lambda: tactus.check("granite_wall", rate=1.0)),
+                         ("port/unknown_node", lambda: tactus.check("granite_wall", set={"wal.stiffness": 1})),
+                         ("argument/unknown", lambda: tactus.check("granite_wall", sped=1)),
+                         ("api/option", lambda: tactus.limits("granite_wall", x="stiffness=0:1")),
+                         ("limits/axis", lambda: tactus.limits("granite_wall", x="none.x=0:1", y="rate=500:600")),
+                         ("file/unreadable", lambda: tactus.check("granit_wall"))):
+            with self.subTest(id=id):
+                why = self.fails(id, call)
+                self.assertTrue(why is None or why.remedy, why)
+
+    def test_text_of_files_never_becomes_markup(self):
+        report = copy.deepcopy(tactus.check("granite_wall").json)
+        report["conditions"][0]["role"] = report["not_judged"][0]["what"] = report["scope"] = HOSTILE
+        self.assertNotIn("<script", tactus.Check(report)._repr_html_())
+        fit = tactus.Fit({"kind": HOSTILE, "verdict": "poor", "parameters": [], "lacking": [HOSTILE], "notes": [HOSTILE], "rows": 0,
+                          "residual": {"rms": None, "left_out_rms": None, "recording_rms": 1, "unit": HOSTILE}})
+        self.assertNotIn("<script", fit._repr_html_())
+        self.assertNotIn("<script", tactus.Devices([{"product": HOSTILE}])._repr_html_())
+
+    def test_pictures_are_drawn(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("matplotlib is not installed")
+        matplotlib.use("Agg")
+        x, force = strokes()
+        figure = tactus.fit("friction", {"position": x, "force": force}).plot()
+        self.assertGreaterEqual(len(figure.axes[0].lines), 2)
+        figure = tactus.limits("granite_wall", steps=3).plot()
+        self.assertIn("stiffness", figure.axes[0].get_xlabel())
+
+
+class Logs(Case):
+    def played(self, name="run.jsonl"):
+        """The log of a run in real time, and what it has recorded."""
+        log = self.folder / name
+        with tactus.play("dry_wood", {"stylus": "gesture:circle"}, session="off", record=["motor.force"], log=str(log), buffer=60.0) as session:
+            session.set("drag.mu", 0.31)
+            self.assertTrue(eventually(lambda: session.status().ticks >= 3000))
+            session.stop()
+            return log, session.collect()
+
+    def test_a_log_is_read_as_arrays_and_played_again_with_the_same_bits(self):
+        for name in ("run.jsonl", "run.tlog"):
+            with self.subTest(name=name):
+                before = lab.Silent().now()
+                log, felt = self.played(name)
+                read = tactus.read_log(log)
+                after = lab.Silent().now()
+                self.assertTrue(before.monotonic <= read.monotonic <= after.monotonic)
+                self.assertAlmostEqual(read.wall - read.monotonic, after.wall - after.monotonic, delta=1.0)
+                self.assertEqual((read.units["stylus.position"], read.units["passed"], read.rate_hz), ("m", "s", 4000.0))
+                self.assertIn(("turn", "drag.mu", 0.31), [(e.kind, e.name, e.value) for e in read.events])
+                self.assertFalse(read.is_cut_off)
+                again = tactus.replay(log, record=["motor.force", "hand.position"])
+                rows = len(again["t"])
+                self.same_bits(again["hand.position"], read["stylus.position"][:rows])
+                self.same_bits(again["motor.force"], felt["motor.force"][:rows])
+                self.assertGreaterEqual(rows, 3000)
+                self.assertGreater(np.abs(felt["motor.force"]).max(), 0.1)   # it is felt
+                part = tactus.replay(log, record=["motor.force"], start=0.6, until=0.65)
+                self.same_bits(part["motor.force"], again["motor.force"][2400:2600])
+                self.same_bits(part["t"], again["t"][2400:2600])
+                some = tactus.read_log(log, start=0.6, until=0.65)
+                self.same_bits(some["stylus.position"], read["stylus.position"][2400:2600])
+                subprocess.run([PROGRAM, "render", "--replay", log, "--record", "motor.force", "--out", "r.csv"], cwd=self.folder, check=True,
+                               capture_output=True)
+                told = np.loadtxt(self.folder / "r.csv", delimiter=",", skiprows=1)
+                self.same_bits(told[:, 1:], again["motor.force"])
+                for words in (("capture", log, "--from", "0.6", "--until", "0.65", "--test", "t.jsonl"), ("test", "t.jsonl")):
+                    done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_marks_find_their_ticks(self):
+        log = tactus.read_log(self.played()[0])
+        passed = np.cumsum(log["passed"][1:])
+        self.assertAlmostEqual(log.at(log.monotonic + passed[99]), 100.0, places=6)
+        self.assertTrue(math.isnan(log.at(log.monotonic - 1.0)) and math.isnan(log.at(log.monotonic + 1e6)))
+        restored = pickle.loads(pickle.dumps(log))
+        self.assertEqual((restored.monotonic, restored.events, restored.units), (log.monotonic, log.events, log.units))
+        self.same_bits(restored["passed"], log["passed"])
+
+    def test_another_graph_plays_a_log_and_assets_and_values_are_those_given(self):
+        log = self.played()[0]
+        graph = tactus.Graph("dry_wood")
+        one, other = (tactus.replay(log, graph, record=["drag.force"], set=values) for values in (None, {"drag.d_max": "900 um"}))
+        self.assertFalse(np.array_equal(one["drag.force"], other["drag.force"]))
+
+    def test_a_packed_log_is_never_replaced(self):
+        log = self.played("run.tlog")[0]
+        whole = log.read_bytes()
+        self.fails("output/exists", self.played, "run.tlog")
+        self.assertEqual(log.read_bytes(), whole)
+        self.assertLess(len(whole), 0.5 * len(self.played("run.jsonl")[0].read_bytes()) + 20000)
+
+    def test_mistakes_are_told(self):
+        self.fails("file/unreadable", tactus.read_log, self.folder / "none.jsonl")
+        (self.folder / "odd.jsonl").write_text("{}\n")
+        self.fails("log/not_a_log", tactus.read_log, self.folder / "odd.jsonl")
+        self.fails("log/not_a_log", tactus.replay, self.folder / "odd.jsonl")
+        self.fails("argument/value", tactus.read_log, self.folder / "odd.jsonl", start=1.0, until=0.5)
+        log = self.played()[0]
+        self.fails("port/unknown_node", tactus.replay, log, record=["nothing.force"])
+        tactus.set_limits("numbers=1000")
+        self.addCleanup(tactus.set_limits, "")
+        self.fails("take/too_large", tactus.read_log, log)
+        self.fails("take/too_large", tactus.replay, log)
+
+
+if __name__ == "__main__":
+    assert ROOT
+    unittest.main()
