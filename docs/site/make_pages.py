@@ -30,13 +30,13 @@ PAGES = {"README.md": "start", "CONTRIBUTING.md": "contributing", "SECURITY.md":
          **{f"docs/decisions/{path.name}": "decisions/" + ("index" if path.stem == "README" else path.stem)
             for path in sorted((ROOT / "docs/decisions").glob("*.md"))}}
 
-NOTEBOOK = "docs/examples/python/fig4.ipynb"
+NOTEBOOKS = {"docs/examples/python/fig4.ipynb": "tutorials/notebook", "docs/tutorials/lab.ipynb": "tutorials/lab"}
 
 # The index: each section with a sentence, and its pages in the order of reading.
 SECTIONS = {
     "Start": ("What Tactus is, and a first feel: in the browser, or on your computer.", ["start", "playground", "gallery/index"]),
     "Tutorials": ("A quarter of an hour each, from nothing to something that you feel.",
-                  [*(f"tutorials/{name}" for name in ("first_graph", "first_node", "first_device", "recording_to_preset", "embed")), "tutorials/notebook"]),
+                  [*(f"tutorials/{name}" for name in ("first_graph", "first_node", "first_device", "recording_to_preset", "embed")), "tutorials/notebook", "tutorials/lab"]),
     "How to": ("One page per task: first patching and playing, then devices, then programs of your own.",
                ["host", "replay", "fit", "import", "clips", "spectra", "devices", "known_devices", "sessions", "audio", "check", "realtime",
                 "library", "steps", "states", "live", "export", "python", "lab", "plugins"]),
@@ -48,7 +48,8 @@ SECTIONS = {
     "Decisions": ("The reasons for the design, and what was measured.", ["decisions/index"]),
 }
 
-TITLES = {"start": "Install, and a first feel <start>", "tutorials/notebook": "A Python notebook <tutorials/notebook>"}
+TITLES = {"start": "Install, and a first feel <start>", "tutorials/notebook": "A Python notebook <tutorials/notebook>",
+          "tutorials/lab": "An experiment in a notebook <tutorials/lab>"}
 
 # Words of the glossary that have other meanings, too. They become links only where a page links them to the glossary, or has them in bold.
 EVERYDAY = set("binding bypass check claim clock control engine feed fused hit instance limit passive port probe rate reading record run section session setting stable "
@@ -116,8 +117,8 @@ class Site:
         file, _, anchor = target.partition("#")
         path = pathlib.PurePosixPath(os.path.normpath(pathlib.PurePosixPath(of).parent / file))
         here = pathlib.PurePosixPath(name).parent
-        if str(path) == NOTEBOOK:
-            return f"{picture}[{text}]({os.path.relpath('tutorials/notebook.ipynb', here)})"
+        if str(path) in NOTEBOOKS:
+            return f"{picture}[{text}]({os.path.relpath(NOTEBOOKS[str(path)] + '.ipynb', here)})"
         if str(path) == "docs/glossary.md" and not anchor and (term := self.term(text)):
             return term
         if str(path) in PAGES:
@@ -206,7 +207,8 @@ class Site:
             text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(named) + "\n```\n"
         self.write("index", text)
         (self.source / "tutorials").mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / NOTEBOOK, self.source / "tutorials/notebook.ipynb")
+        for notebook, page in NOTEBOOKS.items():
+            shutil.copy(ROOT / notebook, self.source / f"{page}.ipynb")
         decisions = [name for name in PAGES.values() if name.startswith("decisions/") and name != "decisions/index"]
         path = self.source / "decisions/index.md"
         path.write_text(path.read_text() + "\n```{toctree}\n:hidden:\n\n" + "\n".join(name.split("/")[1] for name in decisions) + "\n```\n")

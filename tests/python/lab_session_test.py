@@ -96,6 +96,29 @@ class Sessions(Case):
         self.fails("lab/value", self.run_session, self.made, participant="../x")
         self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
 
+    def test_a_session_goes_on_from_its_own_copy_of_a_protocol_with_relative_paths(self):
+        study = self.out / "study"
+        study.mkdir()
+        tactus.Graph("dry_wood").save(study / "own.json")
+        made = protocol(lab.Block(name="a", task="2ifc", procedure=lab.Constant(levels=(0.2, 0.4), repeats=2), varies=lab.Varies(target="roughness")),
+                        graph="own.json")
+        made.save(study / "p.json")
+
+        class Leaves(lab.Simulated):
+            def ask(self, trial, *rest):
+                if trial.number == 2:
+                    raise lab.Aborted("enough")
+                return super().ask(trial, *rest)
+        self.run_session(lab.Protocol.load(study / "p.json"), Leaves(OBSERVER), stage=lab.Silent())
+        (study / "p.json").unlink()
+        own = next(self.out.rglob("*_protocol.json"))
+        self.fails("lab/protocol", self.run_session, self.made, stage=lab.Silent(), resume=True)
+        again = lab.Protocol.load(own)
+        self.assertIsNotNone(again.graph_of(again.all_conditions()[0]))
+        self.assertTrue(self.run_session(again, stage=lab.Silent(), resume=True).is_complete)
+        self.assertTrue(lab.load(own.parent).is_complete)
+        self.assertNotIn(str(self.out), own.read_text(encoding="utf-8"))   # no path of this computer
+
     def test_a_session_that_ended_before_its_protocol_was_written_goes_on(self):
         experiment = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))
         experiment._journal.close()
@@ -207,6 +230,31 @@ class Marks(Case):
         self.assertEqual(data.events["value"][row], "left")
         self.assertEqual(data.trials["answer"][1], "second")
         self.assertFalse(lab.mark("nobody", port=1, wait=0.05))
+
+    def test_marks_come_through_the_page_of_the_participant(self):
+        """As docs/examples/lab/jspsych_marks.html sends them: text, from another origin."""
+        page = (ROOT / "docs/examples/lab/jspsych_marks.html").read_text(encoding="utf-8")
+        self.assertIn('fetch(participant + "mark", {method: "POST", mode: "no-cors", body: JSON.stringify({name, value', page)
+        browser = lab.Browser()
+        self.addCleanup(browser.end)
+
+        def send(body, status=200):
+            request = urllib.request.Request(browser.participant + "mark", data=body, headers={"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})
+            try:
+                with urllib.request.urlopen(request, timeout=60) as answer:
+                    return answer.status == status
+            except urllib.error.HTTPError as why:
+                return why.code == status
+
+        class Marked(lab.Simulated):
+            marks = browser.marks
+
+        self.assertTrue(send('{"name": "picture", "value": "hölzern"}'.encode()))
+        for wrong in (b"", b"[]", b"{}", b"\xff", b'{"value": "x"}', b"3"):
+            self.assertTrue(send(wrong, 400), wrong)
+        data = self.run_session(protocol(), Marked(OBSERVER))
+        row = list(data.events["trial_type"]).index("picture")
+        self.assertEqual((data.events["value"][row], list(data.events["trial_type"]).count("picture")), ("hölzern", 1))
 
     def test_osc_messages_read_back(self):
         self.assertEqual(_marks.read_osc(_marks.osc("/a", "text", 3, 0.5)), ("/a", ["text", 3, 0.5]))
@@ -322,7 +370,7 @@ class OnDevices(Case):
         self.assertTrue((np.diff(ticks) >= 0.0).all() and ticks[-1] > ticks[0], ticks)
         self.assertEqual(set(data.header["graphs"]), {"dry"})
         lines = [json.loads(line) for line in (self.out / "log.jsonl").read_text().splitlines()]
-        clocks = lines[1]["clocks"]
+        clocks = lines[0]["clocks"]
         events = np.stack([np.asarray(data.events[key], dtype=float)[2:] for key in ("wall", "monotonic")])
         self.assertTrue((events[0] >= clocks["wall"] - 1.0).all() and (events[1] >= clocks["monotonic"]).all())
         turned = [line["turn"] for line in lines[1:] if "turn" in line]
@@ -331,6 +379,46 @@ class OnDevices(Case):
             replayed = subprocess.run([PROGRAM, "render", "--replay", str(self.out / "log.jsonl"), "--out", str(self.out / "r.csv")],
                                       capture_output=True, text=True)
             self.assertEqual(replayed.returncode, 0, replayed.stderr)
+
+    def test_a_newcomers_experiment_is_killed_three_times_and_loses_nothing(self):
+        """The example of the page: 2 down, 1 up, keyboard, simulated hand. Killed while it waits for an answer."""
+        example = ROOT / "docs/examples/lab/keyboard.py"
+        self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 40)
+
+        def key(trial):
+            return "1\n" if trial % 3 else "2\n"   # the same answers, whoever gives them
+
+        def run(out, first, kills_at, resume):
+            """Answers from trial `first` on, each when it is asked for. Kills the program at a question; with None, waits for its end."""
+            with subprocess.Popen([sys.executable, "-B", "-u", str(example), str(out), *(["--resume"] if resume else [])], stdin=subprocess.PIPE,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+                said, trial = b"", first
+                if not resume:
+                    program.stdin.write(b"\n")   # the instructions are read
+                    program.stdin.flush()
+                while byte := program.stdout.read(1):
+                    said += byte
+                    if said.endswith(b"Which one was stronger?"):
+                        if trial == kills_at:
+                            program.kill()
+                            break
+                        program.stdin.write(key(trial).encode())
+                        program.stdin.flush()
+                        trial += 1
+                program.wait()
+                return program.returncode, said + program.stdout.read(), program.stderr.read()
+
+        out, whole = self.out / "killed", self.out / "whole"
+        for first, kills_at, resume in ((1, 4, False), (4, 5, True), (5, 17, True)):
+            self.assertEqual(run(out, first, kills_at, resume)[0], -signal.SIGKILL)
+            self.assertEqual(lab.load(out / "sub-01/ses-01/beh").trials.rows, kills_at - 1)
+        code, said, problem = run(out, 17, None, True)
+        self.assertEqual(code, 0, problem.decode())
+        self.assertRegex(said.decode(), r"24 trials, complete\nthreshold [0-9.]+ \(95 % ")
+        self.assertEqual(run(whole, 1, None, False)[0], 0)
+        killed, once = (lab.load(folder / "sub-01/ses-01/beh") for folder in (out, whole))
+        self.assertEqual(self.answers(killed), self.answers(once))
+        self.assertEqual(len(list(out.rglob("*_log.jsonl"))), 4)   # none replaces another
 
     def test_an_emergency_stop_ends_the_session_which_can_be_resumed(self):
         class Stops(lab.Simulated):

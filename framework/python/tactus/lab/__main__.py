@@ -37,7 +37,7 @@ def experiment(given: argparse.Namespace) -> int:
     receiver = None if given.osc == "off" else Receiver(int(given.osc))
     stage = Silent() if given.no_devices else None
     made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver,
-                      device=dict(words.split("=", 1) for words in given.device), devices=given.devices)
+                      device=dict(words.split("=", 1) for words in given.device), devices=given.devices, packed=given.packed_log)
     if receiver:
         print(f"OSC on 127.0.0.1:{receiver.port} (token for answers: {receiver.token})", flush=True)
     if browser:
@@ -97,6 +97,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     run.add_argument("--no-devices", action="store_true", help="play no graph: nothing is felt")
     run.add_argument("--device", action="append", default=[], help="the device of a role: ROLE=hid:auto; may be given more than once")
     run.add_argument("--devices", help="the session file that binds roles to devices, or \"off\"")
+    run.add_argument("--packed-log", action="store_true", help="pack the log of the inputs, which takes less space")
     run.add_argument("--osc", default=str(PORT), help=f"UDP port for marks and answers, 0 for any, or \"off\"; default: {PORT}")
     note = commands.add_parser("mark", help="mark a moment of the experiment that runs", description="Marks a moment of the experiment that runs.")
     note.add_argument("text", help="the name of the mark")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import pathlib
@@ -34,10 +35,11 @@ class Experiment:
 
     def __init__(self, protocol: Protocol, out: Union[str, "os.PathLike[str]"], participant: str = "01", session: str = "01", *, window: Window,
                  stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {},
-                 devices: Optional[str] = None):
+                 devices: Optional[str] = None, packed: bool = False):
         """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.
         stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC. device:
-        devices of roles, as in tactus.play; devices: the session file that binds other roles, or "off"."""
+        devices of roles, as in tactus.play; devices: the session file that binds other roles, or "off". packed: the log of the inputs is packed, which
+        takes less space (docs/replay.md)."""
         self.protocol, self.window, self.receiver = checked(protocol), window, receiver
         for name, label in (("participant", participant), ("session", session)):
             if not label.isalnum() or not label.isascii():
@@ -62,11 +64,12 @@ class Experiment:
             self._journal.add({"event": "resumed", **Silent().now()._asdict()})
         own = self.folder / f"{self.stem}_protocol.json"
         if not resume or not own.exists():   # a session may end between its first line and this file
-            own.write_text(protocol.text(), encoding="utf-8")
+            protocol.copy(own)
         self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
-        self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.jsonl"
+        self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.{'tlog' if packed else 'jsonl'}"
         self.stage = stage if stage is not None else Live(protocol, str(self.log), devices, device) if protocol.graph or protocol.conditions else Silent()
         window.stop = self.stage.stop
+        window.now = self.stage.now
         if receiver is not None:
             receiver.now = self.stage.now
         self._done = sum(event.get("event") == "trial" for event in past)
@@ -99,7 +102,7 @@ class Experiment:
         if not past:
             return
         if past[0]["protocol"] != self.protocol.hash():
-            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give the file with which it began; {self.stem}_protocol.json in this folder has its text")
+            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give the file with which it began, or {self.stem}_protocol.json in this folder")
         for event in past:
             if event.get("event") == "end":
                 fail("lab/exists", str(self.folder), "the session is complete", "choose another session")
@@ -224,11 +227,10 @@ class Experiment:
         return now
 
     def _take_marks(self) -> None:
-        while self.receiver is not None:
-            try:
-                self.mark(*self.receiver.marks.get_nowait())
-            except queue.Empty:
-                return
+        for marks in (self.receiver.marks if self.receiver else None, self.window.marks):
+            with contextlib.suppress(queue.Empty):
+                while marks is not None:
+                    self.mark(*marks.get_nowait())
 
     def _report(self, trial: Trial) -> None:
         self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": trial.block.name,

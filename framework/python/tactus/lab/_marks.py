@@ -13,7 +13,7 @@ from typing import Callable, List, Optional, Tuple, Union
 
 from .._messages import fail
 from ._protocol import Triggers
-from ._stages import Moment, Silent
+from ._stages import Marks, Moment, Silent
 
 PORT = 7771   # of experiments; 7770 is that of `tactus play`
 
@@ -76,7 +76,7 @@ class Receiver:
         self.token = secrets.token_hex(4)
         self.port: int = self._socket.getsockname()[1]
         self.now: Callable[[], Moment] = Silent().now   # the clock of the experiment
-        self.marks: "queue.Queue[Tuple[str, str, Moment]]" = queue.Queue(10000)
+        self.marks: Marks = queue.Queue(10000)
         self.answers: "queue.Queue[str]" = queue.Queue(100)
         self._thread = threading.Thread(target=self._receive, name="tactus.lab marks", daemon=True)
         self._thread.start()

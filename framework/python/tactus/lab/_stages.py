@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import math
 import os
+import queue
 import time
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
 from .._graph import Graph
 from .._messages import fail
@@ -20,6 +21,9 @@ class Moment(NamedTuple):
     tick: Optional[int]
     wall: float
     monotonic: float
+
+
+Marks = queue.Queue[Tuple[str, str, Moment]]   # name, value, when
 
 
 class Silent:

@@ -13,6 +13,7 @@ import threading
 import time
 from typing import Any, Callable, Dict, Optional, Tuple
 
+from ._stages import Marks
 from ._trials import Answer, Trial
 from ._windows import Aborted, Window, number_of
 
@@ -83,16 +84,17 @@ loop();
 
 class Browser(Window):
     """Two pages on 127.0.0.1, whose addresses hold a secret, so that other users of the computer cannot guess them. Keys of pads are called Pad0, Pad1, …,
-    those of MIDI keyboards Midi60, …"""
+    those of MIDI keyboards Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
 
     def __init__(self, port: int = 0):
         """port: TCP port; 0: any free one."""
+        self.marks: Marks = queue.Queue(10000)
         self._token = secrets.token_urlsafe(12)
         self._state: Dict[str, Any] = {"text": "Please wait."}
         self._report: Dict[str, Any] = {}
         self._given: "queue.Queue[Tuple[int, str]]" = queue.Queue(1000)
         self._id, self._stopped, self._over = 0, threading.Event(), False
-        window = self
+        window, marks = self, self.marks
 
         class Handler(http.server.BaseHTTPRequestHandler):
             protocol_version = "HTTP/1.1"
@@ -133,12 +135,15 @@ class Browser(Window):
                 if place == "stop":
                     window._stopped.set()
                     window.stop()
-                elif place == "answer":
+                elif place in ("answer", "mark"):
                     try:
                         given = json.loads(body)
-                        window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
-                    except (ValueError, TypeError, KeyError, OverflowError, RecursionError, queue.Full):
-                        self._send("text/plain", "no answer", 400)
+                        if place == "mark":
+                            marks.put_nowait((str(given["name"])[:1000], str(given.get("value", ""))[:1000], window.now()))
+                        else:
+                            window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
+                    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, queue.Full):
+                        self._send("text/plain", f"no {place}", 400)
                         return
                 else:
                     self._send("text/plain", "not here", 404)

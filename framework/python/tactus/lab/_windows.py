@@ -11,6 +11,7 @@ import time
 from typing import Any, Callable, Dict, Optional, TextIO
 
 from ._observers import Observer
+from ._stages import Marks, Moment, Silent
 from ._trials import Answer, Trial
 
 
@@ -23,6 +24,8 @@ class Window:
     experiment."""
 
     stop: Callable[[], None] = staticmethod(lambda: None)
+    now: Callable[[], Moment] = staticmethod(Silent().now)   # the clock of the experiment
+    marks: Optional[Marks] = None                            # those that come through the window, if it takes any
 
     def show(self, text: str) -> None:
         """Shows a page, and returns when the participant has read it."""
