@@ -5,11 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
 namespace tactus::host
 {
+
+/// Takes what a driver finds: the port, the name, and the state as TACTUS_DEVICE_IN_USE | ….
+using Found = std::function<void (const std::string&, const std::string&, std::uint32_t)>;
 
 /// The functions of a driver. `Device` has
 ///
@@ -19,6 +23,7 @@ namespace tactus::host
 ///     std::int32_t read (std::int32_t timeout_ms, tactus_reading&, tactus_device_stamp&, std::string& why);
 ///     std::int32_t write (const tactus_effort&, std::string& why);
 ///     std::int32_t rest (std::string& why);
+///     static std::string find (const Found&);                                       optional; empty, or why it cannot look
 ///
 /// with the meaning of tactus_device.h, and a destructor that closes it.
 template <typename Device>
@@ -61,6 +66,17 @@ struct DriverTable
 
     static void close (void* device) noexcept { delete static_cast<Device*> (device); }
 
+    static int32_t find (const tactus_device_finder* finder, const tactus_plugin_report* report) noexcept
+    {
+        return answered (report, [&] {
+            const auto wrong = Device::find ([finder] (const std::string& port, const std::string& name, std::uint32_t state) {
+                const tactus_device_found found { sizeof found, port.c_str(), name.c_str(), state };
+                finder->add (finder->context, &found);
+            });
+            return wrong.empty() ? int32_t { TACTUS_DEVICE_OK } : failed (report, wrong);
+        });
+    }
+
 private:
     template <typename F>
     static int32_t told (const tactus_plugin_report* report, F&& body) noexcept
@@ -78,8 +94,10 @@ template <typename Device, std::size_t n>
 constexpr tactus_device_driver driverTable (const char* name, const char* about, const char* const (&keys)[n])
 {
     using Functions = DriverTable<Device>;
+    int32_t (*find) (const tactus_device_finder*, const tactus_plugin_report*) noexcept = nullptr;
+    if constexpr (requires { Device::find (Found()); }) find = Functions::find;
     return { sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, name, "1.0.0", about, keys, n, Functions::check, Functions::open, Functions::read,
-             Functions::write, Functions::rest, Functions::close };
+             Functions::write, Functions::rest, Functions::close, find };
 }
 
 }   // namespace tactus::host

@@ -118,4 +118,4 @@ static void close_board (void* device)
 
 static const char* const keys[] = { "port" };
 const tactus_device_driver tactus_device_entry = { sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, "hidraw_board", "1.0.0", "The board of docs/devices.md.",
-                                                   keys, 1, NULL, open_board, read_board, write_board, rest_board, close_board };
+                                                   keys, 1, NULL, open_board, read_board, write_board, rest_board, close_board, NULL };

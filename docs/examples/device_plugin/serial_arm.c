@@ -130,4 +130,4 @@ static void close_arm (void* device) { close (((arm*)device)->port), free (devic
 
 static const char* const keys[] = { "port" };
 const tactus_device_driver tactus_device_entry = { sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, "serial_arm", "1.0.0", "An arm at a serial port.",
-                                                   keys, 1, NULL, open_arm, read_arm, write_arm, rest_arm, close_arm };
+                                                   keys, 1, NULL, open_arm, read_arm, write_arm, rest_arm, close_arm, NULL };

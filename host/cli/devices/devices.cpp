@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "capture_device.hpp"
 #include "event_devices.hpp"
+#include "found_devices.hpp"
 #include "probe_driver.hpp"
 
 #include <host/base/platform/signals.hpp>
@@ -311,7 +312,11 @@ void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& eve
 
 void run (const DevicesOptions& options)
 {
-    if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty()) throw UsageError ("--device requires --probe or --capture");
+    if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty())
+    {
+        if (listFoundDevices (options.capture.device, options.json)) return;
+        throw UsageError ("--device requires --probe or --capture, unless it names only a driver in a plugin");
+    }
     if (options.duration_s > 0.0 && ! options.probe && options.capture.file.empty()) throw UsageError ("--duration requires --probe or --capture");
     if (! options.capture.file.empty())
     {
@@ -359,6 +364,7 @@ void run (const DevicesOptions& options)
     if (! options.json)
         for (const auto& profile : known)
             std::cout << numbersTextOf (*profile);
+    if (! options.json && ! options.probe) std::cout << driversText();
     if (options.probe && (! all.empty() || ! event_devices.empty()))
     {
         if (! options.json && ! all.empty() && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
@@ -384,7 +390,7 @@ void addDevices (const Command& app)
     command.addOption ("--device", options->capture.device,
                        "What to probe or record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, haply:HOST:PORT or bhaptics:HOST:PORT; to probe, "
                        "also DRIVER:PORT of any other driver; to record, also the path of a device, which need not have a profile; default: the only HID "
-                       "device with a profile");
+                       "device with a profile. Without --probe and --capture: the name of a driver, which lists the devices that it finds");
     command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
         .check (within (300, 20000000))
         .needs (capture);
@@ -392,6 +398,7 @@ void addDevices (const Command& app)
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
                     "  tactus devices\n"
+                    "  tactus devices --device forcedimension\n"
                     "  tactus devices --probe\n"
                     "  tactus devices --probe --duration 2 --json\n"
                     "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"

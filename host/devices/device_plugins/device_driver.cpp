@@ -2,6 +2,7 @@
 #include "device_driver.hpp"
 
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/text/caught.hpp>
 #include <tactus/text/object_reader.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -202,6 +203,40 @@ std::unique_ptr<OpenedDevice> DeviceDriver::open (const Json& description, Messa
     if (is_faulty) return nullptr;
     if (! rests) return refuse ("it does not come to rest: " + why.text());
     return opened;
+}
+
+namespace
+{
+/// Takes what a driver finds. Without memory, it takes no more.
+void addFound (void* context, const tactus_device_found* found) noexcept
+{
+    constexpr std::size_t most_found = 1000;
+    auto& [driver, all] = *static_cast<std::pair<std::string, std::vector<FoundByDriver>>*> (context);
+    if (found == nullptr || found->size < sizeof *found || all.size() >= most_found) return;
+    static_cast<void> (caught ({}, [&] {
+        Json description { { "driver", driver } };
+        if (found->port != nullptr && found->port[0] != 0) description["port"] = found->port;
+        const bool is_known = std::ranges::count (all, description, &FoundByDriver::description) > 0;
+        const bool is_in_use = (found->state & TACTUS_DEVICE_IN_USE) != 0, is_seen = (found->state & TACTUS_DEVICE_UNSEEN) == 0;
+        if (! is_known) all.push_back ({ textOf (found->name), std::move (description), is_in_use, is_seen });
+    }));
+}
+}   // namespace
+
+Result<std::vector<FoundByDriver>> DeviceDriver::find() const
+{
+    const auto refuse = [&] (const std::string& why) {
+        return Message::error ("device/cannot_find", "", "the driver " + quote (called) + " cannot look for devices: " + why,
+                               "name the device yourself: --device ROLE=" + called + ":PORT");
+    };
+    if (! canFind()) return refuse ("it has no list of them");
+    const CallLock turn (*this);
+    if (! turn) return busy (called);
+    std::pair<std::string, std::vector<FoundByDriver>> found { called, {} };
+    const tactus_device_finder finder { sizeof finder, &found, addFound };
+    DriverReport why;
+    if (entry.find (&finder, why.to()) != TACTUS_DEVICE_OK) return refuse (why.text());
+    return std::move (found.second);
 }
 
 //==============================================================================

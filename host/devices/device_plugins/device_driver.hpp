@@ -26,6 +26,15 @@ class OpenedDevice;
 /// True for the drivers that are part of Tactus, such as "hid". No plugin may have such a name.
 bool isBuiltInDriver (std::string_view name) noexcept;
 
+/// A device that a driver has found, and what opens it.
+struct FoundByDriver
+{
+    std::string name;         ///< for people
+    Json description;         ///< {"driver": …, "port": …}, or without a port if the driver needs none
+    bool is_in_use = false;   ///< by another role or another program
+    bool is_seen = true;      ///< false: it is known by its name only
+};
+
 /// A driver in a plugin (tactus_device.h). Its devices keep it loaded. Functions that call the driver wait for each other: the interface promises
 /// drivers that such calls never overlap. If the driver does not return to one of them, the others give up after `patience`.
 class DeviceDriver : public std::enable_shared_from_this<DeviceDriver>
@@ -59,6 +68,11 @@ public:
     /// Opens a device, and brings it to rest. Ids: those of check() and readAbout(), device/not_opened. `where` is relative to the description.
     /// [any thread]
     std::unique_ptr<OpenedDevice> open (const Json& description, Messages&) const;
+
+    bool canFind() const noexcept { return entry.find != nullptr; }
+
+    /// Asks the driver for its devices; at most 1000. Ids: device/cannot_find, device/driver_busy. [any thread]
+    Result<std::vector<FoundByDriver>> find() const;
 
 private:
     friend class OpenedDevice;

@@ -67,6 +67,28 @@ std::vector<std::string> installedDrivers()
     return { names.begin(), names.end() };
 }
 
+Result<std::vector<FoundByDriver>> findDevices (const std::string& name)
+{
+    const auto driver = loadDriver (name);
+    if (! driver) return driver.error();
+    return (*driver)->find();
+}
+
+std::vector<FoundByDriver> findDevices (Messages& messages)
+{
+    std::vector<FoundByDriver> all;
+    for (const auto& name : installedDrivers())
+    {
+        const auto driver = loadDriver (name);
+        if (driver && ! (*driver)->canFind()) continue;
+        if (auto found = driver ? (*driver)->find() : Result<std::vector<FoundByDriver>> (driver.error()))
+            std::ranges::move (*found, std::back_inserter (all));
+        else
+            messages.push_back (std::move (found).error());
+    }
+    return all;
+}
+
 Json parsePluginDevice (std::string_view text)
 {
     const auto colon = text.find (':');

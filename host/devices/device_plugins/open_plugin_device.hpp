@@ -27,6 +27,13 @@ std::optional<std::filesystem::path> findDriver (std::string_view name);
 /// The names of all drivers in the folders of this program, sorted. Loads nothing. [main thread]
 std::vector<std::string> installedDrivers();
 
+/// Loads a driver and asks it for its devices, as a person wants. Ids: those of DeviceDriver::load and DeviceDriver::find, device/unknown_driver,
+/// plugin/quarantined. [any thread, one at a time]
+Result<std::vector<FoundByDriver>> findDevices (const std::string& driver);
+
+/// The devices of all drivers that can look for them. Loads all drivers of this computer. `messages`: of those that failed. [any thread, one at a time]
+std::vector<FoundByDriver> findDevices (Messages&);
+
 /// The description for an option NAME or NAME:PORT: {"driver": "NAME", "port": "PORT"}. Null if there is no such driver. [main thread]
 Json parsePluginDevice (std::string_view);
 

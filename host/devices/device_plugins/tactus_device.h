@@ -160,6 +160,30 @@ typedef struct tactus_device_stamp
         sizeof (tactus_device_stamp), 0, 0, 0.0, 0.0 \
     }
 
+/** How far a driver knows a device that it has found. */
+enum
+{
+    TACTUS_DEVICE_IN_USE = 1, /**< another role or another program has it open */
+    TACTUS_DEVICE_UNSEEN = 2  /**< it is known by its name only: whether it is connected shows when it is opened */
+};
+
+/** A device that a driver has found. */
+typedef struct tactus_device_found
+{
+    uint32_t size;
+    const char* port; /**< the value of "port" with which `open` opens it; "": the driver needs none */
+    const char* name; /**< for people: "omega.3, serial number 10234" */
+    uint32_t state;   /**< TACTUS_DEVICE_IN_USE | … */
+} tactus_device_found;
+
+/** Takes the devices that `find` finds. */
+typedef struct tactus_device_finder
+{
+    uint32_t size;
+    void* context;
+    void (*add) (void* context, const tactus_device_found*); /**< copies what it gets */
+} tactus_device_finder;
+
 /** The type of the exported symbol `tactus_device_entry`. `device` is what `open` returned. */
 typedef struct tactus_device_driver
 {
@@ -196,11 +220,16 @@ typedef struct tactus_device_driver
 
     /** Called once. Not called if another function of the device never returns. [opening thread] */
     void (*close) (void* device) TACTUS_PLUGIN_NOEXCEPT;
+
+    /** Optional. Finds the devices that `open` could open, each once, for lists that a person asks for. Pushes and moves nothing, and leaves devices alone
+     *  that are in use. May open others for a moment, and wait for some seconds. TACTUS_DEVICE_FAILED, with the reason, if it cannot look; finding none
+     *  is no failure. [opening thread] */
+    int32_t (*find) (const tactus_device_finder*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
 } tactus_device_driver;
 
-#define TACTUS_DEVICE_DRIVER_INIT                                                         \
-    {                                                                                     \
-        sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_DEVICE_DRIVER_INIT                                                            \
+    {                                                                                        \
+        sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
 TACTUS_PLUGIN_EXTERN TACTUS_PLUGIN_EXPORT const tactus_device_driver tactus_device_entry;

@@ -329,7 +329,8 @@ const tactus_device_driver driver { sizeof (tactus_device_driver),
                                     readPort,
                                     writePort,
                                     restPort,
-                                    closePort };
+                                    closePort,
+                                    nullptr };
 
 void setSystem (EventSystem& s) { in_use = &s; }
 

@@ -6,8 +6,7 @@
 #include "serial_port.hpp"
 
 #include <host/drivers/driver_table.hpp>
-#include <tactus/text/json_text.hpp>
-#include <tactus/text/object_reader.hpp>
+#include <host/drivers/read_keys.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -40,15 +39,7 @@ struct Wanted
 
 std::string read (const tactus_device_description& given, Wanted& wanted)
 {
-    Messages messages;
-    const auto json = readJson (given.json != nullptr && given.json[0] != 0 ? given.json : "{}").root;
-    ObjectReader in (json, "", messages);
-    in.ignore ("port");
-    wanted.firmware = in.text ("firmware");
-    in.finish();
-    if (const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity); wrong != messages.end())
-        return wrong->where + ": " + wrong->text + "; " + wrong->remedy;
-    wanted.port = given.port != nullptr ? given.port : "";
+    if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.firmware = in.text ("firmware"); }); ! wrong.empty()) return wrong;
     return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
 }
 

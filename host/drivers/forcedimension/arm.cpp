@@ -5,8 +5,8 @@
 #include "dhd_library.hpp"
 
 #include <host/drivers/driver_table.hpp>
-#include <tactus/text/json_text.hpp>
-#include <tactus/text/object_reader.hpp>
+#include <host/drivers/read_keys.hpp>
+#include <host/drivers/rotation_of.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,6 @@
 #include <charconv>
 #include <chrono>
 #include <climits>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -33,7 +32,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-
 constexpr auto period = 500us;         // of readings, and of zeros while nothing is asked for: the library compensates the weight only while forces are set
 constexpr auto between_looks = 20ms;   // at the status
 constexpr auto until_gone = 50ms;      // of failures only
@@ -52,7 +50,6 @@ struct Model
     std::vector<int> types;
 };
 constexpr int falcon = 60;
-constexpr double least_max_force = 8.0;   // of a model that is not known
 const Model models[] {
     { "falcon", 8.0, { falcon } },
     { "delta.3", 20.0, { 63, 111 } },
@@ -84,15 +81,7 @@ bool readNumber (std::string_view text, int most, int& to)
 
 std::string read (const tactus_device_description& given, Wanted& wanted)
 {
-    Messages messages;
-    const auto json = readJson (given.json != nullptr && given.json[0] != 0 ? given.json : "{}").root;
-    ObjectReader in (json, "", messages);
-    in.ignore ("port");
-    wanted.calibrate = in.flag ("calibrate");
-    in.finish();
-    if (const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity); wrong != messages.end())
-        return wrong->where + ": " + wrong->text + "; " + wrong->remedy;
-    wanted.port = given.port != nullptr ? given.port : "";
+    if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.calibrate = in.flag ("calibrate"); }); ! wrong.empty()) return wrong;
     const std::string_view port = wanted.port;
     if (port.empty() || readNumber (port, 127, wanted.index)) return {};
     wanted.index = -1;
@@ -103,6 +92,9 @@ std::string read (const tactus_device_description& given, Wanted& wanted)
     return {};
 }
 
+/// The number of arms that this program has open. Nothing says that the library would open such an arm only once.
+std::atomic<int> open_arms = 0;
+
 /// The ports whose arms went away while they were open. Such an arm is not calibrated by its motors when it comes back: the person did not ask for
 /// that motion.
 std::set<std::string>& gonePorts()
@@ -111,41 +103,14 @@ std::set<std::string>& gonePorts()
     return ports;
 }
 
-//==============================================================================
 // The library's x points towards the person, its y to the right.
-void turn (const double (&from)[3], double* to)
+void turn (const double* from, double* to)
 {
     to[0] = from[1];
     to[1] = -from[0];
     to[2] = from[2];
 }
 
-/// The rotation vector of a matrix.
-void rotationOf (const double (&m)[3][3], double (&to)[3])
-{
-    // The quaternion, by its largest part, so that no digits cancel.
-    const double traces[] { m[0][0] + m[1][1] + m[2][2], m[0][0] - m[1][1] - m[2][2], m[1][1] - m[0][0] - m[2][2], m[2][2] - m[0][0] - m[1][1] };
-    const auto largest = std::max_element (std::begin (traces), std::end (traces)) - std::begin (traces);
-    const double size = 2.0 * std::sqrt (std::max (0.0, 1.0 + traces[largest]));
-    double w = 0.25 * size, v[3] { m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1] };
-    if (largest == 0)
-        for (double& part : v)
-            part /= size;
-    else
-    {
-        const auto i = static_cast<std::size_t> (largest - 1), j = (i + 1) % 3, k = (i + 2) % 3;
-        w = v[i] / size;
-        v[i] = 0.25 * size;
-        v[j] = (m[i][j] + m[j][i]) / size;
-        v[k] = (m[i][k] + m[k][i]) / size;
-    }
-    const double sine = std::hypot (v[0], v[1], v[2]);
-    const double angle = 2.0 * std::atan2 (w < 0.0 ? -sine : sine, std::abs (w));   // the short way round
-    for (int i = 0; i < 3; ++i)
-        to[i] = v[i] * (sine > 1e-12 ? angle / sine : 2.0);
-}
-
-//==============================================================================
 class Arm
 {
 public:
@@ -169,6 +134,26 @@ public:
         return arm;
     }
 
+    /// The library tells the model and the serial number of an arm only while it is open, so each free one is opened for a moment.
+    static std::string find (const Found& found)
+    {
+        std::string why;
+        const auto library = DhdLibrary::load (why);
+        if (library == nullptr) return why;
+        const int count = library->dhdGetDeviceCount != nullptr ? library->dhdGetDeviceCount() : -1;
+        if (count < 0) return "the library, of version " + library->version() + ", does not count its arms: " + library->lastError();
+        for (int i = 0; i < count; ++i)
+        {
+            const auto number = std::to_string (i);
+            Arm arm (library, number);
+            if (const bool may_open = open_arms == 0; may_open && arm.connect ({ .port = number, .index = i }, why))
+                found (arm.serial() > 0 ? "sn=" + std::to_string (arm.serial()) : number, arm.model() + ", number " + number, 0);
+            else
+                found (number, "An arm of Force Dimension, number " + number, may_open ? TACTUS_DEVICE_IN_USE : TACTUS_DEVICE_UNSEEN);
+        }
+        return {};
+    }
+
     Arm (std::shared_ptr<const DhdLibrary> l, std::string p) : dhd (std::move (l)), port (std::move (p)) {}
     Arm (const Arm&) = delete;
     Arm& operator= (const Arm&) = delete;
@@ -182,6 +167,7 @@ public:
             std::this_thread::sleep_for (5ms);
         if (! is_gone) std::this_thread::sleep_for (until_closed);
         (is_of_drd ? dhd->drdClose : dhd->dhdClose) (id);
+        --open_arms;
     }
 
     std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
@@ -281,7 +267,9 @@ private:
             for (int i = std::max (wanted.index, 0); ! is_open && i < end; ++i)   // the first free one
                 open_index (i);
         }
-        if (! is_open)
+        if (is_open)
+            ++open_arms;
+        else
             why = what + " can be opened: " + dhd->lastError() + (count >= 0 ? ". Connected arms: " + std::to_string (count) : std::string());
         return is_open;
     }
@@ -305,11 +293,26 @@ private:
                                                                  : "With \"calibrate\": true, its motors move it; keep your hands away then";
     }
 
+    int type() const { return dhd->dhdGetSystemType != nullptr ? dhd->dhdGetSystemType (id) : -1; }
+
+    /// 0: unknown. All Falcons have the same number.
+    unsigned serial() const
+    {
+        unsigned short number = 0;
+        const bool tells = dhd->dhdOpenSerial != nullptr && type() != falcon && dhd->dhdGetSerialNumber != nullptr;
+        return tells && dhd->dhdGetSerialNumber (&number, id) >= 0 ? number : 0;
+    }
+
+    std::string model() const
+    {
+        const char* name = dhd->dhdGetSystemName != nullptr ? dhd->dhdGetSystemName (id) : nullptr;
+        return std::string (name != nullptr && name[0] != 0 ? name : "An arm") + " of Force Dimension";
+    }
+
     void describe (tactus_device_about& about, std::string& remark)
     {
         const auto has = [&] (bool (*what) (char)) { return what != nullptr && what (id); };
-        const int type = dhd->dhdGetSystemType != nullptr ? dhd->dhdGetSystemType (id) : -1;
-        const auto model = std::ranges::find_if (models, [&] (const Model& m) { return std::ranges::count (m.types, type) > 0; });
+        const auto kind = std::ranges::find_if (models, [type = type()] (const Model& m) { return std::ranges::count (m.types, type) > 0; });
         has_wrist = has (dhd->dhdHasWrist) && dhd->dhdGetOrientationFrame != nullptr;
         turns = has (dhd->dhdHasActiveWrist) && dhd->dhdSetForceAndTorque != nullptr;
         has_gripper = has (dhd->dhdHasGripper) && dhd->dhdGetGripperAngleRad != nullptr;
@@ -338,22 +341,18 @@ private:
         about.effort_count = drives && grips ? 1 : 0;
         static constexpr const char* falcon_buttons[] { "center", "left", "up", "right" };
         static constexpr const char* buttons[] { "button0", "button1", "button2", "button3", "button4", "button5", "button6", "button7" };
-        about.buttons = type == falcon ? falcon_buttons : buttons;
-        about.button_count = type == falcon ? std::size (falcon_buttons) : std::size (buttons);
+        about.buttons = type() == falcon ? falcon_buttons : buttons;
+        about.button_count = type() == falcon ? std::size (falcon_buttons) : std::size (buttons);
 
         double firmware = 0.0;
-        unsigned short serial = 0;
-        const char* name = dhd->dhdGetSystemName != nullptr ? dhd->dhdGetSystemName (id) : nullptr;
-        sentence = std::string (name != nullptr && name[0] != 0 ? name : "An arm") + " of Force Dimension";
-        if (dhd->dhdGetSerialNumber != nullptr && type != falcon && dhd->dhdGetSerialNumber (&serial, id) >= 0)
-            sentence += ", serial number " + std::to_string (serial);
+        sentence = model() + (serial() > 0 ? ", serial number " + std::to_string (serial()) : std::string());
         char text[32];
         if (dhd->dhdGetVersion != nullptr && dhd->dhdGetVersion (&firmware, id) >= 0 && std::snprintf (text, sizeof text, ", firmware %.3g", firmware) > 0)
             sentence += text;
         sentence += ", library " + dhd->version() + ".";
         about.about = sentence.c_str();
 
-        double most = model != std::end (models) ? model->max_force : least_max_force;
+        double most = kind != std::end (models) ? kind->max_force : 8.0;   // the least, for one that is not known
         const double own = dhd->dhdGetMaxForce != nullptr ? dhd->dhdGetMaxForce (id) : -1.0;
         if (own > 0.0) most = std::min (most, own);
         // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
@@ -445,10 +444,9 @@ private:
     {
         if (has_wrist)
         {
-            double frame[3][3] {}, rotation[3];
+            double frame[3][3] {};
             if (dhd->dhdGetOrientationFrame (frame, id) < 0) return false;
-            rotationOf (frame, rotation);
-            turn (rotation, to.rotation);
+            turn (rotationOf (Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> (&frame[0][0])).data(), to.rotation);
         }
         to.axes[to.axis_count++] = is_saturated ? 1.0 : 0.0;
         double angle = 0.0, gap = 0.0;
@@ -468,12 +466,10 @@ private:
     const std::string port;
     char id = -1;
     bool is_open = false, is_of_drd = false;
-
     bool has_wrist = false, turns = false, has_gripper = false, has_gap = false, grips = false, drives = false;
     double hand = 1.0;   // -1: left-handed, and the angle and the force of the gripper have the other sign
     std::string sentence, limits;
     std::vector<const char*> axes;
-
     // [reading thread]
     Clock::time_point due, look_at;
     std::optional<Clock::time_point> failing_since;

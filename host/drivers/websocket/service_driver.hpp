@@ -93,7 +93,7 @@ constexpr tactus_device_driver serviceDriver (const char* name, const char* abou
 {
     using Functions = ServiceDriver<Device, times>;
     return { sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, name, "1.0.0", about, keys, n, Functions::check, Functions::open, Functions::read,
-             Functions::write, Functions::rest, Functions::close };
+             Functions::write, Functions::rest, Functions::close, nullptr };
 }
 
 }   // namespace tactus::host

@@ -226,5 +226,5 @@ static const char* const keys[] = { "port", KEY };
 
 #ifndef BAD_NO_ENTRY
 const tactus_device_driver tactus_device_entry = { SIZE, ABI, NAME, "1", "A driver for tests.", keys, 2, check, open_device, read_device, write_device, REST,
-                                                   close_device };
+                                                   close_device, NULL };
 #endif

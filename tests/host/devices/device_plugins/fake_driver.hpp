@@ -270,7 +270,8 @@ private:
                                                 read,
                                                 write,
                                                 rest,
-                                                close };
+                                                close,
+                                                nullptr };
         return one;
     }
 

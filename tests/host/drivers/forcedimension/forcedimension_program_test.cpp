@@ -102,6 +102,29 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
     }
 }
 
+TEST_CASE ("tactus devices lists what a driver finds when it is named, and only names the others", "[forcedimension]")
+{
+    Lab lab;
+    lab.arms->count = 2;
+    lab.arm (1).type = 63;
+    const auto plain = runTactus ({ "devices" });
+    INFO (plain.out << plain.err);
+    CHECK (plain.out.find ("drivers in plugins: ") != std::string::npos);
+    CHECK (plain.out.find ("forcedimension") != std::string::npos);
+    CHECK (lab.arm().closes == 0);
+    const auto asked = runTactus ({ "devices", "--device", "forcedimension" });
+    CHECK (asked.out == "omega.3 of Force Dimension, number 0\n    --device ROLE=forcedimension:sn=10001\n"
+                        "delta.3 of Force Dimension, number 1\n    --device ROLE=forcedimension:sn=10002\n");
+    CHECK (asked.status == 0);
+    const auto json = Json::tryParse (runTactus ({ "devices", "--device", "forcedimension", "--json" }).out);
+    REQUIRE (json);
+    CHECK (json->at (1)["port"] == Json ("sn=10002"));
+    const auto cannot = runTactus ({ "devices", "--device", "haply" });
+    CHECK (cannot.status == 1);
+    CHECK (cannot.err.find ("device/cannot_find") != std::string::npos);
+    CHECK (runTactus ({ "devices", "--device", "nosuch" }).err.find ("--device requires --probe or --capture") != std::string::npos);
+}
+
 TEST_CASE ("check-plugin finds no fault in the driver of Force Dimension's arms", "[forcedimension]")
 {
     Lab lab;

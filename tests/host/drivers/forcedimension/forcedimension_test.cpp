@@ -138,6 +138,60 @@ TEST_CASE ("an arm of Force Dimension is found by number, serial number and mode
     CHECK (contains (other.said(), "no arm can be opened: no device found (error 5 of its library). Connected arms: 0"));
 }
 
+TEST_CASE ("the driver of Force Dimension's arms lists those that are free, and touches none while one is open", "[forcedimension][safety]")
+{
+    Lab lab;
+    lab.arms->count = 2;
+    lab.arm (1).type = 60;   // all Falcons have the same serial number
+    lab.arm (1).serial = 65535;
+    const auto driver = host::DeviceDriver::within (host::forcedimension::driver);
+    REQUIRE (driver);
+    const auto found = [&] {
+        auto all = (*driver)->find();
+        REQUIRE (all);
+        REQUIRE (all->size() == 2);
+        return std::move (*all);
+    };
+    auto all = found();
+    CHECK (all[0].name == "omega.3 of Force Dimension, number 0");
+    CHECK (all[0].description == Json { { "driver", "forcedimension" }, { "port", "sn=10001" } });
+    CHECK (all[1].name == "Falcon of Force Dimension, number 1");
+    CHECK (all[1].description == Json { { "driver", "forcedimension" }, { "port", "1" } });
+    for (const int i : { 0, 1 })
+    {
+        CHECK (lab.arm (i).stopped_before_close == 1);
+        CHECK (lab.arm (i).closes == 1);
+        CHECK (lab.arm (i).enables == 0);
+        CHECK (lab.arm (i).forces == 0);
+        CHECK (lab.arm (i).calibrations == 0);
+    }
+
+    lab.arm (1).is_open = 1;   // by another program
+    all = found();
+    CHECK (all[1].is_in_use);
+    CHECK (all[1].description["port"] == Json ("1"));
+    lab.arm (1).is_open = 0;
+
+    REQUIRE (lab.opens ({ { "port", "0" } }));
+    REQUIRE (lab.pushes());
+    const auto closes = lab.arm (1).closes.load();
+    all = found();
+    CHECK_FALSE (all[0].is_seen);
+    CHECK_FALSE (all[1].is_seen);
+    CHECK (lab.arm (0).is_enabled == 1);
+    CHECK (lab.arm (1).closes == closes);
+    lab.device.reset();
+
+    lab.arms->count = -1;
+    CHECK ((*driver)->find()->empty());
+    Lab old { "libfake_old_dhd.so", "libdhd.so.3.2.1" };
+    const auto none = (*driver)->find();
+    CHECK ((none ? none->size() == 1 : none.error().id == "device/cannot_find"));
+    Lab without { nullptr };
+    REQUIRE_FALSE ((*driver)->find());
+    CHECK (contains ((*driver)->find().error().text, "set FDSDK to its folder"));
+}
+
 TEST_CASE ("the wrist and the gripper of a left-handed arm turn, press and pull as those of a right-handed one", "[forcedimension]")
 {
     Lab lab;
