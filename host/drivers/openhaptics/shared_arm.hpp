@@ -18,15 +18,17 @@
 namespace tactus::host::openhaptics
 {
 
-/// The memory that a driver shares with the helper process that owns the maker's library. Only zeros are a valid beginning. Numbers are in the units and
-/// axes of the library: mm, N, mN m, x to the right, y up, z towards the person.
+/// An arm in the memory that a driver shares with the helper process that owns the maker's library. Only zeros are a valid beginning. Numbers are in the
+/// units and axes of the library: mm, N, mN m, x to the right, y up, z towards the person.
 struct SharedArm
 {
     enum State : std::uint32_t
     {
-        starting,
+        unused,
+        starting,   ///< the driver wants it
         ready,
-        failed   ///< `text` says why
+        resting,   ///< the driver does not want it any more, and it has got zeros
+        failed     ///< `text` says why
     };
 
     /// A tick of the library's servo loop.
@@ -36,7 +38,7 @@ struct SharedArm
         double position[3] {};
         double transform[16] {};    // by columns
         double temperature = 0.0;   // of the hottest motor: 0 is cold, 1 too warm; an estimate of the library
-        double delay_s = 0.0;       // for how long the servo loop waits for an answer, on average
+        double delay_s = 0.0;       // from a place to the force that answers it, in the arm, on average; 0: nothing has been answered
         std::uint32_t buttons = 0;
         std::uint32_t fault = 0;   // TACTUS_DEVICE_TOO_HOT, …
     };
@@ -45,21 +47,33 @@ struct SharedArm
     struct Push
     {
         double force[3] {}, torque[3] {};
-        std::int64_t at_ns = 0;   // of the steady clock
+        std::int64_t at_ns = 0;      // of the steady clock
+        std::uint64_t answers = 0;   // the tick that the host had read last
     };
 
     static constexpr std::size_t kept = 64;                   ///< ticks
     static constexpr std::int64_t patience_ns = 20'000'000;   ///< without a push, there is no force
 
-    std::atomic<std::uint32_t> state, ticks, pushes;   ///< both counts wake who waits for them
-    std::array<Snapshot<Tick>, kept> ring;             ///< tick n is at n % kept
+    std::atomic<std::uint32_t> state, is_wanted;
+    std::atomic<std::uint32_t> ticks, pushes;   ///< both counts wake who waits for them
+    std::array<Snapshot<Tick>, kept> ring;      ///< tick n is at n % kept
     Snapshot<Push> push;
+
+    char name[256];   ///< of the driver: which arm; "": any
 
     // Written before `ready` or `failed`.
     char text[1024], model[256];
     double max_force, max_continuous_force, rate_hz;
     std::array<double, 6> workspace;   ///< mm: the least x, y, z, then the largest
     std::int32_t input_dof, output_dof;
+};
+
+/// The memory of a driver and its helper. The library has one servo loop, which serves all arms.
+struct SharedArms
+{
+    std::array<SharedArm, 4> arms;
+    std::atomic<std::uint32_t> is_joining;   ///< the servo loop stands still, because an arm joins or leaves
+    std::atomic<std::uint32_t> is_ending;    ///< the helper takes no further arm
 };
 
 static_assert (std::atomic<std::uint32_t>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);

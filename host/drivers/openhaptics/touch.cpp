@@ -2,11 +2,11 @@
 // A device driver for the arms of 3D Systems. The maker's library runs in a helper process (helper.cpp).
 #include "touch.hpp"
 #include "shared_arm.hpp"
+#include "stored_names.hpp"
 
 #include <host/drivers/driver_table.hpp>
-#include <tactus/kit/geometry/rotation.hpp>
-#include <tactus/text/json_text.hpp>
-#include <tactus/text/object_reader.hpp>
+#include <host/drivers/read_keys.hpp>
+#include <host/drivers/rotation_of.hpp>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -43,29 +43,11 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-constexpr auto until_open = 10s, until_stuck = 1s, until_ended = 3s;
+constexpr std::chrono::milliseconds until_open = 10s, until_stuck = 1s, until_ended = 3s, until_zero = 200ms;
 constexpr std::int64_t between_looks_ns = 5'000'000;   // at whether the helper lives
 constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium with six motors, as the library tells none
 constexpr const char* program = "openhaptics-helper";
 constexpr const char* may_push = ". The arm may still push: switch it off";
-
-struct Wanted
-{
-    std::string port;
-};
-
-std::string read (const tactus_device_description& given, Wanted& wanted)
-{
-    Messages messages;
-    const auto json = readJson (given.json != nullptr && given.json[0] != 0 ? given.json : "{}").root;
-    ObjectReader in (json, "", messages);
-    in.ignore ("port");
-    in.finish();
-    if (const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity); wrong != messages.end())
-        return wrong->where + ": " + wrong->text + "; " + wrong->remedy;
-    wanted.port = given.port != nullptr ? given.port : "";
-    return {};
-}
 
 /// The helper, which is next to this driver, or where its programs keep their plugins. Empty, with the reason, if it cannot be used.
 fs::path findHelper (std::string& why)
@@ -99,17 +81,22 @@ std::vector<char*> plainEnvironment()
     return all;
 }
 
-/// A process that owns the maker's library, for one arm.
+/// The process that owns the maker's library, for all arms of this program.
 class HelperProcess
 {
 public:
-    static std::unique_ptr<HelperProcess> start (const std::string& name, std::string& why)
+    /// The one that runs, or a new one. Null, with the reason, if there is none. [opening thread]
+    static std::shared_ptr<HelperProcess> get (std::string& why)
     {
+        static std::weak_ptr<HelperProcess> running;
+        if (auto helper = running.lock(); helper != nullptr && ! helper->hasEnded (0) && helper->shared->is_ending == 0) return helper;
         const auto file = findHelper (why);
         if (file.empty()) return nullptr;
-        auto helper = std::make_unique<HelperProcess>();
-        why = helper->launch (file, name);
-        return why.empty() ? std::move (helper) : nullptr;
+        auto helper = std::make_shared<HelperProcess>();
+        why = helper->launch (file);
+        if (! why.empty()) return nullptr;
+        running = helper;
+        return helper;
     }
 
     HelperProcess() = default;
@@ -127,8 +114,33 @@ public:
         if (process > 0 && ! hasEnded (0)) ::kill (process, SIGKILL);
         if (process > 0) ::waitpid (process, nullptr, 0);
         if (life >= 0) ::close (life);
-        if (shared != nullptr) ::munmap (shared, sizeof (SharedArm));
+        if (shared != nullptr) ::munmap (shared, sizeof (SharedArms));
     }
+
+    /// A place for an arm, which the helper opens; null: all are taken.
+    SharedArm* add (const std::string& name) const
+    {
+        const auto at = std::ranges::find_if (shared->arms, [] (const SharedArm& arm) { return arm.is_wanted == 0 && arm.state == SharedArm::unused; });
+        if (at == shared->arms.end()) return nullptr;
+        put (at->name, sizeof at->name, name);
+        at->ticks = 0;
+        at->push.store ({});
+        at->state = SharedArm::starting;
+        at->is_wanted = 1;
+        return &*at;
+    }
+
+    /// Waits until an arm has got zeros. The helper closes it as soon as no run ticks another one.
+    void remove (SharedArm& arm) const
+    {
+        arm.is_wanted = 0;
+        const auto until = Clock::now() + until_zero;
+        while (arm.state == SharedArm::ready && ! hasEnded (1) && Clock::now() < until)
+        {
+        }
+    }
+
+    bool isJoining() const { return shared->is_joining != 0; }
 
     bool hasEnded (int wait_ms) const
     {
@@ -138,22 +150,20 @@ public:
 
     void kill() const { ::kill (process, SIGKILL); }
 
-    SharedArm& arm() const { return *shared; }
-
 private:
     static std::string reason (const char* what) { return std::string (what) + ": " + std::generic_category().message (errno); }
 
-    std::string launch (const fs::path& file, const std::string& name)
+    std::string launch (const fs::path& file)
     {
         const int memory = ::memfd_create ("tactus-openhaptics", MFD_CLOEXEC);
         std::array<int, 2> towards { -1, -1 }, from { -1, -1 };
         std::string why;
-        if (memory < 0 || ::ftruncate (memory, sizeof (SharedArm)) != 0 || ::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0)
+        if (memory < 0 || ::ftruncate (memory, sizeof (SharedArms)) != 0 || ::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0)
             why = reason ("no memory or pipe for the helper");
-        void* at = why.empty() ? ::mmap (nullptr, sizeof (SharedArm), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0) : MAP_FAILED;
+        void* at = why.empty() ? ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0) : MAP_FAILED;
         if (why.empty() && at == MAP_FAILED) why = reason ("no memory for the helper");
-        if (at != MAP_FAILED) shared = static_cast<SharedArm*> (at);
-        if (why.empty()) why = spawn (file, name, memory, towards[0], from[1]);
+        if (at != MAP_FAILED) shared = static_cast<SharedArms*> (at);
+        if (why.empty()) why = spawn (file, memory, towards[0], from[1]);
         to_helper = towards[1];
         life = from[0];
         for (const int each : { memory, towards[0], from[1] })
@@ -162,11 +172,11 @@ private:
     }
 
     /// In a session of its own, so that no key of the terminal reaches it.
-    std::string spawn (const fs::path& file, const std::string& name, int memory, int pipe, int alive)
+    std::string spawn (const fs::path& file, int memory, int pipe, int alive)
     {
         const int least = std::max ({ memory, pipe, alive }) + 1;   // above all files that are copied
-        std::array<std::string, 4> texts { program, std::to_string (least), std::to_string (least + 1), name };
-        std::array<char*, 5> arguments { texts[0].data(), texts[1].data(), texts[2].data(), name.empty() ? nullptr : texts[3].data(), nullptr };
+        std::array<std::string, 3> texts { program, std::to_string (least), std::to_string (least + 1) };
+        std::array<char*, 4> arguments { texts[0].data(), texts[1].data(), texts[2].data(), nullptr };
         posix_spawn_file_actions_t files;
         posix_spawnattr_t how;
         sigset_t none;
@@ -187,7 +197,7 @@ private:
         return file.string() + " cannot be started: " + std::generic_category().message (error);
     }
 
-    SharedArm* shared = nullptr;
+    SharedArms* shared = nullptr;
     int to_helper = -1, life = -1;
     pid_t process = -1;
 };
@@ -207,68 +217,75 @@ void turnBack (const double (&from)[3], double (&to)[3], double scale)
     to[2] = -scale * from[1];
 }
 
-/// The rotation vector of the library's transform, whose matrix has small errors.
-Vec3 rotationOf (const double (&transform)[16])
-{
-    Mat3 m;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            m (row, column) = transform[4 * column + row];
-    auto q = Quaternion (m).normalized();
-    if (q.w() < 0.0) q.coeffs() *= -1.0;
-    const double sine = q.vec().norm();
-    return q.vec() * (sine > 1e-12 ? 2.0 * std::atan2 (sine, q.w()) / sine : 2.0);
-}
-
 class Touch
 {
 public:
     static std::string check (const tactus_device_description& given)
     {
-        Wanted wanted;
-        return openhaptics::read (given, wanted);
+        std::string port;
+        return readKeys (given, port, [] (ObjectReader&) {});
     }
 
     static std::unique_ptr<Touch> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
     {
-        Wanted wanted;
-        said = openhaptics::read (given, wanted);
+        std::string port;
+        said = readKeys (given, port, [] (ObjectReader&) {});
         if (! said.empty()) return nullptr;
         auto touch = std::make_unique<Touch>();
-        touch->helper = HelperProcess::start (wanted.port, said);
-        if (touch->helper == nullptr || ! touch->wait (said)) return nullptr;
+        touch->helper = HelperProcess::get (said);
+        if (touch->helper == nullptr) return nullptr;
+        touch->arm = touch->helper->add (port);
+        if (touch->arm == nullptr) said = "this program has four arms open, and no place for another one";
+        if (touch->arm == nullptr || ! touch->wait (said)) return nullptr;
         touch->describe (about, said);
         return touch;
     }
 
+    /// The names that the maker's setup has stored: no arm is opened, because that takes seconds and starts the library.
+    static std::string find (const Found& found)
+    {
+        std::string why;
+        if (findHelper (why).empty()) return why;
+        for (const auto& name : storedNames())
+            found (name, "An arm of 3D Systems", TACTUS_DEVICE_UNSEEN);
+        return {};
+    }
+
     Touch() = default;
+    Touch (const Touch&) = delete;
+    Touch& operator= (const Touch&) = delete;
+    ~Touch()
+    {
+        if (arm != nullptr) helper->remove (*arm);
+    }
 
     std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
     {
-        auto& arm = helper->arm();
         const auto until = Clock::now() + std::chrono::milliseconds (timeout_ms);
         for (;;)
         {
-            const auto newest = arm.ticks.load();
+            const auto newest = arm->ticks.load();
             if (newest != static_cast<std::uint32_t> (last))
             {
                 heard = Clock::now();
                 const auto behind = newest - static_cast<std::uint32_t> (last);
                 const auto next = last + (behind < SharedArm::kept - 2 ? 1 : behind);   // what has been overwritten is lost
-                const auto tick = arm.ring[next % SharedArm::kept].load();
+                const auto tick = arm->ring[next % SharedArm::kept].load();
                 last = tick.number;
+                read_last = last;
                 fill (tick, to, stamp);
                 return TACTUS_DEVICE_OK;
             }
-            if (arm.state == SharedArm::failed) return leave (why, arm.text);
+            if (arm->state == SharedArm::failed) return leave (why, arm->text);
             if (helper->hasEnded (0)) return leave (why, std::string ("the process that owns its library has died") + may_push);
+            if (helper->isJoining()) heard = Clock::now();   // its servo loop stands still, and the helper watches the time
             if (Clock::now() - heard > until_stuck)
             {
                 helper->kill();
                 return leave (why, std::string ("its library has not moved for a second, so its process was killed") + may_push);
             }
             if (Clock::now() >= until) return TACTUS_DEVICE_NONE;
-            waitWhile (arm.ticks, newest, between_looks_ns);
+            waitWhile (arm->ticks, newest, between_looks_ns);
         }
     }
 
@@ -292,33 +309,31 @@ private:
             return TACTUS_DEVICE_FAILED;
         }
         push.at_ns = nanosecondsNow();
-        auto& arm = helper->arm();
-        arm.push.store (push);
-        ++arm.pushes;
-        wake (arm.pushes);
+        push.answers = read_last;
+        arm->push.store (push);
+        ++arm->pushes;
+        wake (arm->pushes);
         return TACTUS_DEVICE_OK;
     }
 
     bool wait (std::string& why)
     {
-        auto& arm = helper->arm();
         const auto until = Clock::now() + until_open;
-        while (arm.ticks == 0 && arm.state != SharedArm::failed && ! helper->hasEnded (1) && Clock::now() < until)
+        while (arm->ticks == 0 && arm->state != SharedArm::failed && ! helper->hasEnded (1) && Clock::now() < until)
         {
         }
         heard = Clock::now();
-        if (arm.ticks != 0) return true;
-        why = arm.state == SharedArm::failed ? arm.text : helper->hasEnded (0) ? "the process that owns its library has died while it started it"
-                                                                               : "its library does not start";
+        if (arm->ticks != 0) return true;
+        why = arm->state == SharedArm::failed ? arm->text : helper->hasEnded (0) ? "the process that owns its library has died while it started it"
+                                                                                 : "its library does not start";
         return false;
     }
 
     void describe (tactus_device_about& about, std::string& remark)
     {
-        const auto& arm = helper->arm();
-        turns = arm.output_dof >= 6;
-        const bool drives = arm.max_force > 0.0;
-        const auto first = arm.ring[1].load();
+        turns = arm->output_dof >= 6;
+        const bool drives = arm->max_force > 0.0;
+        const auto first = arm->ring[1].load();
         if (first.fault == TACTUS_DEVICE_NOT_HOMED)
             remark = "the arm does not know its position, so it has no force: put its stylus into the inkwell, if it has one, until it does";
         if (! drives) remark += std::string (remark.empty() ? "" : "; ") + "the arm has no force: its library does not tell the largest force";
@@ -329,14 +344,14 @@ private:
         about.axis_count = std::size (axes);
         about.buttons = buttons;
         about.button_count = std::size (buttons);
-        about.rate_hz = arm.rate_hz;
-        about.stamps = TACTUS_DEVICE_NUMBERS;                                          // the ticks of its servo loop
-        about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm.rate_hz;   // of the helper: it does not help if the helper dies, too
-        sentence = std::string (arm.model) + ".";
+        about.rate_hz = arm->rate_hz;
+        about.stamps = TACTUS_DEVICE_NUMBERS;                                           // the ticks of its servo loop
+        about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm->rate_hz;   // of the helper: it does not help if the helper dies, too
+        sentence = std::string (arm->model) + ".";
         about.about = sentence.c_str();
         if (! drives) return;
         // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
-        const double most = arm.max_force, lasting = arm.max_continuous_force > 0.0 ? std::min (arm.max_continuous_force, most) : 0.25 * most;
+        const double most = arm->max_force, lasting = arm->max_continuous_force > 0.0 ? std::min (arm->max_continuous_force, most) : 0.25 * most;
         char guard[640], torque[256] = "";
         if (turns)
             std::snprintf (torque, sizeof torque,
@@ -353,7 +368,7 @@ private:
     void fill (const SharedArm::Tick& tick, tactus_reading& to, tactus_device_stamp& stamp) const
     {
         turn (Vec3 (tick.position), to.position, to_m);
-        turn (rotationOf (tick.transform), to.rotation, 1.0);
+        turn (rotationOf (Eigen::Map<const Eigen::Matrix4d> (tick.transform).topLeftCorner<3, 3>()), to.rotation, 1.0);
         to.axes[to.axis_count++] = tick.temperature;
         to.axes[to.axis_count++] = tick.delay_s;
         to.buttons = tick.buttons;
@@ -368,10 +383,12 @@ private:
         return TACTUS_DEVICE_GONE;
     }
 
-    std::unique_ptr<HelperProcess> helper;
+    std::shared_ptr<HelperProcess> helper;
+    SharedArm* arm = nullptr;
     bool turns = false;
     std::string sentence, limits;
-    std::uint64_t last = 0;       // tick   [reading thread]
+    std::uint64_t last = 0;   // tick   [reading thread]
+    std::atomic<std::uint64_t> read_last = 0;
     Clock::time_point heard {};   // when it came   [reading thread]
 };
 

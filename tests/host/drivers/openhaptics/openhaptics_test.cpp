@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <thread>
 
 using namespace tactus;
 using namespace std::chrono_literals;
@@ -212,6 +214,24 @@ TEST_CASE ("a Touch is found by name, or by the names that makers have given, or
     }
 }
 
+TEST_CASE ("the driver of 3D Systems' arms lists the names that their setup has stored, and opens none", "[openhaptics]")
+{
+    TouchLab lab;
+    std::filesystem::create_directories (lab.folder / ".3dsystems/config");
+    for (const auto* name : { "Right", "Left arm" })
+        lab.folder.write (".3dsystems/config/" + std::string (name) + ".config", "");
+    lab.folder.write (".3dsystems/config/notes.txt", "");
+    const auto driver = host::DeviceDriver::within (host::openhaptics::driver);
+    REQUIRE (driver);
+    const auto all = (*driver)->find();
+    REQUIRE (all);
+    REQUIRE (all->size() == 2);
+    CHECK ((*all)[0].description == Json { { "driver", "openhaptics" }, { "port", "Left arm" } });
+    CHECK ((*all)[1].description["port"] == Json ("Right"));
+    CHECK_FALSE ((*all)[0].is_seen);
+    CHECK (lab.arms->process == 0);
+}
+
 TEST_CASE ("a Touch that does not know its position has no force until it does", "[openhaptics][safety]")
 {
     TouchLab lab;
@@ -297,9 +317,9 @@ TEST_CASE ("a library that stalls or dies costs a stop, and its death is told", 
         CHECK (lab.pushes());
         CHECK (lab.device->counts().departures == 0);
     }
-    SECTION ("for ever")
+    SECTION ("for 2 s, or for ever")
     {
-        lab.arms->stall_ms = -1;
+        lab.arms->stall_ms = GENERATE (2000, -1);
         CHECK (lab.ticksUntil ([&] { return lab.reading.age > 0.02; }, TouchLab::along (2)));
         CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }, TouchLab::along (2)));
         CHECK (contains (lab.device->trouble(), "its library has not moved for a second, so its process was killed. The arm may still push"));
@@ -338,4 +358,82 @@ TEST_CASE ("a Touch whose process was killed is opened again, with a force from 
     CHECK (lab.ticksUntil ([&] { return lab.arms->process != process && lab.reading.valid; }));
     CHECK (lab.pushes());
     CHECK (lab.device->counts().departures == 1);
+}
+
+TEST_CASE ("two arms of 3D Systems share the servo loop of their library, and one that is not ticked may join and leave", "[openhaptics][safety]")
+{
+    TouchLab lab;
+    lab.arms->count = 2;
+    REQUIRE (lab.opens ("Default Device"));
+    const auto process = lab.arms->process.load();
+    const auto driver = host::DeviceDriver::within (host::openhaptics::driver);
+    REQUIRE (driver);
+    const auto second = [&] (Messages& messages) {
+        auto there = (*driver)->open ({ { "driver", "openhaptics" }, { "port", "Second" } }, messages);
+        return there ? std::make_unique<host::PluginDevice> (std::move (there), std::nullopt, TouchLab::patient()) : nullptr;
+    };
+    Messages messages;
+    auto other = second (messages);
+    INFO (tactus::test::text (messages));
+    REQUIRE (other != nullptr);
+    other->prepare (1e-3);
+    CHECK (lab.arms->process == process);
+    CHECK (lab.arms->starts == 2);   // once more for the second arm
+
+    // Each gets its own force.
+    const auto bothPush = [&] {
+        return eventually ([&] {
+            lab.tick (TouchLab::along (2));
+            const auto reading = other->read();
+            other->write (reading.valid ? TouchLab::along (0, 0.5) : Effort {});
+            return lab.arm (0).force[1] == 1.0 && lab.arm (1).force[0] == 0.5;
+        });
+    };
+    CHECK (bothPush());
+
+    // While a run ticks one of them, the other one can neither leave the library nor join it again. It has no force.
+    other.reset();
+    CHECK (lab.arm (1).force[0] == 0.0);
+    std::atomic<bool> ends = false;
+    std::thread run ([&] {
+        while (! ends)
+        {
+            lab.tick (TouchLab::along (2));
+            std::this_thread::yield();
+        }
+    });
+    bool was_refused = false;   // a computer that is so busy that no tick comes for 20 ms lets it join
+    for (int tries = 0; tries < 1000 && ! was_refused; ++tries)
+    {
+        messages.clear();
+        was_refused = second (messages) == nullptr;
+    }
+    ends = true;
+    run.join();
+    CHECK (was_refused);
+    CHECK (contains (tactus::test::text (messages), "another arm of this program is in use"));
+    CHECK (lab.device->counts().departures == 0);
+
+    // Once no run ticks, it can.
+    messages.clear();
+    REQUIRE (eventually ([&] { return lab.arm (1).is_open == 0; }));
+    other = second (messages);
+    INFO (tactus::test::text (messages));
+    REQUIRE (other != nullptr);
+    other->prepare (1e-3);
+    CHECK (bothPush());
+
+    // Both are lost with the process, and come back.
+    lab.arm (0).is_open = lab.arm (1).is_open = 0;
+    ::kill (process, SIGKILL);
+    CHECK (eventually ([&] {
+        lab.tick();
+        static_cast<void> (other->read());
+        return lab.reading.fault == ReadingFault::unplugged || lab.device->counts().departures > 0;
+    }));
+    other.reset();
+    CHECK (lab.ticksUntil ([&] { return lab.reading.valid && lab.arms->process != process; }));
+    CHECK (lab.arms->frame_errors == 0);
+    CHECK (lab.arms->calls_after_unschedule == 0);
+    CHECK (lab.arms->gets_outside_frames == 0);
 }
