@@ -71,7 +71,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
     }
     for (const auto& d : offered)
     {
-        const auto port = d.description.at ("port").asString();
+        const auto port = d.description.value ("port", d.description.at ("driver").asString());   // a driver may need no port
         auto label = filled (d.is_sure ? TRANS ("%1 at %2") : TRANS ("%2 as %1"), d.name, port);
         if (! d.may_open) label = filled (TRANS ("%1 (this user may not open it)"), label);
         all.push_back ({ label.toStdString(), d.description });

@@ -234,6 +234,8 @@ void DevicesPanel::refresh()
 
 void DevicesPanel::update()
 {
+    if (const auto answer = setup.takeAnswer(); answer && ! complain (answer->second) && onHint)
+        onHint (filled (TRANS ("Devices that drivers have found: %1"), std::to_string (answer->first)));
     const auto connected = setup.connected(), without_profile = setup.withoutProfile();
     const auto events = setup.events();
     const auto offered = setup.offered();
@@ -316,6 +318,10 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
         [this, role] (const juce::String& text) { bindAddress (role, text); },
         TRANS ("Binds the role to a device that the list does not show: serial:PROFILE@PORT, udp:PROFILE@ADDRESS:PORT, hid:PROFILE, or DRIVER:PORT for "
                "a driver in a plugin, such as haply:localhost:10001")));
+    card->add (buttonRow (
+        TRANS ("Look for devices of drivers"), [this] { setup.askDrivers(); },
+        TRANS ("Loads the drivers in the folders of plugins, and lists the devices that they find, such as arms of Force Dimension. Arms that are free are "
+               "opened for a moment; nothing is pushed")));
     card->add (remark ([this, role] { return fitRemark (role); }));
     card->add (remark ([this, role] { return statusRemark (role); }));
     card->add (buttonRow (

@@ -12,8 +12,8 @@
 namespace tactus::host
 {
 
-DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p, ListEvents events, ListOffered offered)
-    : devices (s), known (p), list_events (events), list_offered (offered)
+DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p, ListEvents events, ListOffered offered, AskDrivers asked)
+    : devices (s), known (p), list_events (events), list_offered (offered), ask_drivers (asked)
 {
 }
 
@@ -106,8 +106,39 @@ std::vector<ConnectedEvents> DeviceSetup::events() const
 
 std::vector<OfferedDevice> DeviceSetup::offered() const
 {
-    const std::lock_guard lock (mutex);
-    return found_offered;
+    std::vector<OfferedDevice> all;
+    {
+        const std::lock_guard lock (mutex);
+        all = found_offered;
+    }
+    const std::lock_guard lock (answer->mutex);
+    all.insert (all.end(), answer->found.begin(), answer->found.end());
+    return all;
+}
+
+void DeviceSetup::askDrivers()
+{
+    const std::lock_guard lock (answer->mutex);
+    if (std::exchange (answer->is_asking, true)) return;
+    std::thread ([to = answer, ask = ask_drivers] {
+        static_cast<void> (caught ({}, [&] {
+            Messages messages;
+            auto found = caught ({}, [&] { return ask (messages); });
+            if (! found) messages.push_back (found.error());
+            const std::lock_guard done (to->mutex);
+            to->found = found ? std::move (*found) : std::vector<OfferedDevice> {};
+            to->messages = std::move (messages);
+            to->is_asking = false;
+            to->is_new = true;
+        }));
+    }).detach();
+}
+
+std::optional<std::pair<std::size_t, Messages>> DeviceSetup::takeAnswer()
+{
+    const std::lock_guard lock (answer->mutex);
+    if (! std::exchange (answer->is_new, false)) return std::nullopt;
+    return std::pair { answer->found.size(), answer->messages };
 }
 
 void DeviceSetup::scanLoop()

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -26,10 +27,11 @@ class DeviceSetup
 {
 public:
     using ListEvents = std::vector<ConnectedEvents> (*)();
+    using AskDrivers = std::vector<OfferedDevice> (*) (Messages&);
     using ListOffered = std::vector<OfferedDevice> (*) (const hid::LoadedProfiles&);
 
     explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles(), ListEvents = connectedEvents,
-                          ListOffered = offeredDevices);
+                          ListOffered = offeredDevices, AskDrivers = foundDevices);
     ~DeviceSetup();
 
     /// Reads the user's session. Before that, the session is empty and is not saved.
@@ -56,7 +58,14 @@ public:
     std::vector<hid::ConnectedDevice> connected() const;        ///< as of the last scan
     std::vector<hid::ConnectedDevice> withoutProfile() const;   ///< of these, the devices with force feedback that no profile fits
     std::vector<ConnectedEvents> events() const;                ///< event devices, as of the last scan
-    std::vector<OfferedDevice> offered() const;                 ///< devices at serial ports and of other drivers, as of the last scan
+    std::vector<OfferedDevice> offered() const;                 ///< devices at serial ports, as of the last scan, and those that drivers have found
+
+    /// Asks the drivers in plugins for their devices, as a person wants. Loads all of them, on a thread of its own, because a driver may take seconds. If one
+    /// never returns, the thread is left behind.
+    void askDrivers();
+
+    /// The number of devices that the drivers have found, and the messages of those that cannot look: once for each time they were asked.
+    std::optional<std::pair<std::size_t, Messages>> takeAnswer();
 
 private:
     using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;   // empty: there is no file
@@ -69,6 +78,18 @@ private:
     const hid::LoadedProfiles& known;
     const ListEvents list_events;
     const ListOffered list_offered;
+    const AskDrivers ask_drivers;
+
+    /// The answers of drivers. The thread that asks them shares it.
+    struct Answer
+    {
+        std::mutex mutex;
+        bool is_asking = false, is_new = false;
+        std::vector<OfferedDevice> found;
+        Messages messages;
+    };
+    const std::shared_ptr<Answer> answer = std::make_shared<Answer>();
+
     LoadedSession now;
     bool is_saved = false;
     Stamp seen;   // of the file, when it was last read or written

@@ -37,6 +37,16 @@ std::vector<OfferedDevice> devicesAt (std::span<const hid::SerialPort> ports, co
 
 std::vector<OfferedDevice> offeredDevices (const hid::LoadedProfiles& all) { return devicesAt (hid::serialPorts(), all); }
 
+std::vector<OfferedDevice> foundDevices (Messages& messages)
+{
+    std::vector<OfferedDevice> offered;
+    for (auto& device : findDevices (messages))
+        offered.push_back ({ device.name + (device.is_in_use ? ", in use" : device.is_seen ? ""
+                                                                                           : ", perhaps not connected"),
+                             std::move (device.description) });
+    return offered;
+}
+
 namespace
 {
 /// The fault of an address that names no device.

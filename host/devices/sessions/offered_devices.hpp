@@ -32,6 +32,9 @@ std::vector<OfferedDevice> devicesAt (std::span<const hid::SerialPort>, const hi
 /// The devices at the serial ports of this computer, by devicesAt(). Opens none of them. [any thread]
 std::vector<OfferedDevice> offeredDevices (const hid::LoadedProfiles&);
 
+/// The devices that the drivers in plugins find, as findDevices(): it loads all of them. `messages`: of drivers that cannot look. [any thread, one at a time]
+std::vector<OfferedDevice> foundDevices (Messages&);
+
 /// Reads the address of a device as a user types it: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS:PORT, or DRIVER:PORT for a driver in a
 /// plugin. Loads no driver. Id: device/address. [main thread]
 Result<Json> readAddress (std::string_view, const hid::LoadedProfiles&);

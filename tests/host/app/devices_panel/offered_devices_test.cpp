@@ -25,6 +25,13 @@ std::vector<OfferedDevice> listed (const hid::LoadedProfiles& profiles)
     return all;
 }
 
+/// What drivers answer when they are asked.
+std::vector<OfferedDevice> foundByDrivers (Messages& messages)
+{
+    messages.push_back (Message::error ("device/cannot_find", "", "the driver 'old' cannot look for devices", "name the device yourself"));
+    return { { "omega.3, number 0", { { "driver", "forcedimension" }, { "port", "sn=10234" } } }, { "Portless", { { "driver", "later" } } } };
+}
+
 struct Rig
 {
     Rig()
@@ -46,7 +53,7 @@ struct Rig
     }
 
     TemporaryFolder home;
-    DeviceSetup setup { hid::thisComputer(), deviceProfiles(), [] { return std::vector<ConnectedEvents> {}; }, listed };
+    DeviceSetup setup { hid::thisComputer(), deviceProfiles(), [] { return std::vector<ConnectedEvents> {}; }, listed, foundByDrivers };
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     LiveRun run { rig.document, catalogue() };
     DevicesPanel panel { rig.document, run, setup };
@@ -72,6 +79,20 @@ TEST_CASE ("devices at serial ports, and those of drivers that the window does n
     r.panel.bind ("stylus", "Later arm at 7");
     CHECK (r.bound() == Json { { "driver", "later" }, { "port", "7" } });
     CHECK_FALSE (r.run.isRunning());   // a choice starts nothing
+}
+
+TEST_CASE ("the devices that drivers find are offered once a person asks for them, and a driver that cannot look says so", "[app][sessions]")
+{
+    Rig r;
+    REQUIRE (tactus::test::eventually ([&] { return r.offers ("Later arm at 7"); }));
+    CHECK_FALSE (r.offers ("omega.3, number 0 at sn=10234"));
+    r.setup.askDrivers();
+    REQUIRE (tactus::test::eventually ([&] { return r.offers ("omega.3, number 0 at sn=10234"); }));
+    CHECK (r.offers ("Portless at later"));
+    CHECK (r.offers ("Later arm at 7"));
+    CHECK (r.hint.contains ("'old' cannot look"));
+    r.panel.bind ("stylus", "omega.3, number 0 at sn=10234");
+    CHECK (r.bound() == Json { { "driver", "forcedimension" }, { "port", "sn=10234" } });
 }
 
 TEST_CASE ("a device is added by its address, and a wrong address is refused and says why", "[app][sessions]")
