@@ -4,6 +4,7 @@
 
 #include <host/app/browser/browser.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/layers/mixer.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

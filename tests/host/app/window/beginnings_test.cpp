@@ -5,6 +5,7 @@
 
 #include <host/app/browser/browser.hpp>
 #include <host/app/node_list/node_list.hpp>
+#include <host/app/problems/unfelt.hpp>
 #include <host/app/storage/settings.hpp>
 #include <tactus/file/graph_file.hpp>
 

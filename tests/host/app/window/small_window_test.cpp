@@ -376,7 +376,7 @@ TEST_CASE ("the titles of tabs are all in the row or in its menu, whatever the w
             return count;
         };
         for (const char* name : { "Scopes", "Take", "Layers", "Devices", "Problems 12" })
-            tabs.add<juce::Component> (name);
+            tabs.add (name, std::make_unique<juce::Component>());
         for (int width = 120; width < 600; width += 13)
             for (int current = 0; current < 5; ++current)
             {
