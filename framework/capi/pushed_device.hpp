@@ -26,7 +26,7 @@ public:
 
     static double steadySeconds() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds, StepMotion rules = {}, bool simulated = false)
+    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds, const StepMotion& rules = {}, bool simulated = false)
         : has (std::move (parts)), now_s (clock), motion (rules), is_simulated (simulated)
     {
     }
