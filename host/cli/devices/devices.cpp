@@ -3,6 +3,7 @@
 #include "event_devices.hpp"
 #include "found_devices.hpp"
 #include "probe_driver.hpp"
+#include "try_device.hpp"
 
 #include <host/base/platform/signals.hpp>
 #include <host/base/platform/terminal.hpp>
@@ -42,6 +43,7 @@ using Clock = std::chrono::steady_clock;
 
 struct DevicesOptions
 {
+    std::string tried, report;
     bool probe = false, json = false;
     double duration_s = 0.0;
     DeviceCapture capture;
@@ -312,6 +314,7 @@ void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& eve
 
 void run (const DevicesOptions& options)
 {
+    if (! options.tried.empty()) return tryOnDevice (options.tried, options.report);
     if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty())
     {
         if (listFoundDevices (options.capture.device, options.json)) return;
@@ -394,6 +397,13 @@ void addDevices (const Command& app)
     command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
         .check (within (300, 20000000))
         .needs (capture);
+    const auto tried = command.addOption ("--try", options->tried,
+                                          "Lead you through ten minutes with a device, with forces of 0.3 N and walls of 1 N at most, and write a report: "
+                                          "a role of your session, or a device as for play, such as forcedimension:1")
+                           .type ("DRIVER|ROLE")
+                           .excludes (probe)
+                           .excludes (capture);
+    command.addOption ("--report", options->report, "The file of the report of --try; default: trial.json").type ("FILE").needs (tried);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
@@ -403,6 +413,7 @@ void addDevices (const Command& app)
                     "  tactus devices --probe --duration 2 --json\n"
                     "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --probe --device haply:localhost:10001\n"
+                    "  tactus devices --try forcedimension:1 --report arm.json\n"
                     "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });

@@ -7,6 +7,7 @@
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/sessions/numbers_device.hpp>
 #include <host/devices/sessions/role_fits.hpp>
+#include <host/devices/trial/trial.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -31,6 +32,7 @@ public:
 
     std::vector<CheckedRole> read (const Plan& plan, const std::vector<std::string>& options)
     {
+        rate_hz = plan.rateHz();
         for (const auto& role : plan.roles())
             roles.push_back (fromGraph (role.name));
         for (const auto& option : options)
@@ -43,6 +45,7 @@ private:
     fs::path folder;
     const hid::LoadedProfiles& profiles;
     std::vector<CheckedRole> roles {};
+    double rate_hz = 0.0;
 
     CheckedRole fromGraph (const std::string& role) const
     {
@@ -107,13 +110,20 @@ private:
                                 "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, DRIVER:PORT, or a .json file with a profile or a device"));
     }
 
-    /// False if the file is not a profile; it may then be the description of a device.
-    static bool takeProfileFile (CheckedRole& role, const std::string& file)
+    /// False if the file is neither a profile nor the report of a trial; it may then be the description of a device.
+    bool takeProfileFile (CheckedRole& role, const std::string& file) const
     {
         const auto text = readFile (fs::path (file));
         if (! text) refuse (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name and permissions"));
         const auto json = Json::tryParse (*text);
         if (! json || ! json->is_object() || json->contains ("driver")) return false;
+        if (json->value ("format", Json()) == Json ("tactus-trial"))
+        {
+            role.device.numbers = orFail (trialNumbers (*json, rate_hz));
+            role.device.name = file;
+            role.device.simulated.reset();
+            return true;
+        }
         const auto loaded = hid::readProfileText (*text);
         if (! loaded.profile)
             for (const auto& m : loaded.messages)

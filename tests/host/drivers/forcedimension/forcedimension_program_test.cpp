@@ -125,6 +125,34 @@ TEST_CASE ("tactus devices lists what a driver finds when it is named, and only 
     CHECK (runTactus ({ "devices", "--device", "nosuch" }).err.find ("--device requires --probe or --capture") != std::string::npos);
 }
 
+TEST_CASE ("a trial at the terminal ends with the answers, lets nothing push afterwards, and its numbers enter check", "[forcedimension][trial]")
+{
+    Played played;
+    const auto report = (played.lab.folder / "report.json").string();
+    const auto run = [&] (const std::string& answers, const std::string& more) {
+        const auto command = "printf '" + answers + "' | '" TACTUS_PROGRAM "' devices --try forcedimension:0 --report '" + report + "'" + more;
+        Running shell ("/bin/sh", { "-c", command });
+        return shell.finish();
+    };
+    const auto ran = run ("\\n\\n", "");
+    INFO (ran.out << ran.err);
+    CHECK (ran.out.find ("homing: as expected") != std::string::npos);
+    CHECK (ran.out.find ("end: not tried") != std::string::npos);
+    CHECK (played.lab.arm().stopped_before_close == 1);
+    CHECK (played.lab.acting() == 0.0);
+    const auto text = Json::tryParse (played.lab.folder.textOf ("report.json"));
+    REQUIRE (text);
+    CHECK ((*text)["tried"]["driver"] == Json ("forcedimension"));
+    const auto again = run ("", "");
+    CHECK (again.err.find ("output/exists") != std::string::npos);
+
+    const auto checked = runTactus ({ "check", (played.lab.folder / "wall.json").string(), "--device", "stylus=" + report });
+    INFO (checked.out << checked.err);
+    CHECK (checked.err.find ("trial/format") == std::string::npos);
+    CHECK (checked.err.find ("device/") == std::string::npos);
+    CHECK (runTactus ({ "devices", "--try", "nosuch:1" }).err.find ("device/address") != std::string::npos);
+}
+
 TEST_CASE ("check-plugin finds no fault in the driver of Force Dimension's arms", "[forcedimension]")
 {
     Lab lab;

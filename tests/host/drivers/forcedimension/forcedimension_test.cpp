@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The driver of Force Dimension's arms against a fake of their library. Both are ours; no arm has been tried.
 
+#include "../trial_person.hpp"
 #include "lab.hpp"
 #include "support/rounds.hpp"
 
@@ -503,4 +504,39 @@ TEST_CASE ("a Falcon behind Force Dimension's library has its own buttons and no
     CHECK (lab.limits.max_force == 8.0);
     CHECK (lab.device->layout().buttons == std::vector<std::string> { "center", "left", "up", "right" });
     CHECK (lab.device->about().about == "Falcon of Force Dimension, firmware 3.1, library 3.17.5.");
+}
+
+TEST_CASE ("a trial of an arm of Force Dimension finds everything as expected, with at most 0.3 N, and its capture replays", "[forcedimension][trial]")
+{
+    Lab lab;
+    auto options = Lab::patient();
+    options.silence_s = 0.05;   // the trial stops its ticks on purpose
+    REQUIRE (lab.opens (Json::object(), options));
+    REQUIRE (lab.reads());
+    test::TrialHand hand;
+    hand.move = [&] (const Vec3& to) {
+        const double by_library[] { -to.y(), to.x(), to.z() };
+        for (std::size_t i = 0; i < 3; ++i)
+            lab.arm().target[i] = by_library[i];
+        REQUIRE (eventually ([&] {
+            double off = 0.0;
+            for (std::size_t i = 0; i < 3; ++i)
+                off = std::max (off, std::abs (lab.arm().position[i] - by_library[i]));
+            return off < 1e-3;
+        }));
+    };
+    hand.force = [&] { return Vec3 { lab.arm().force[1], -lab.arm().force[0], lab.arm().force[2] }; };
+    const auto report = host::tryDevice (*lab.device, lab.limits, { .pace = 0.3 }, hand);
+    INFO (host::trialText (report));
+    for (const auto* step : test::steps_of_trial)
+    {
+        CAPTURE (step);
+        CHECK (test::verdictOf (report, step) == "as expected");
+    }
+    CHECK (test::verdictOf (report, "walls") == "not tried");   // no source gives the damping of these arms
+    CHECK (hand.largest > 0.1);
+    CHECK (hand.largest <= host::trial_push);
+    const auto replayed = host::replayTrial (report);
+    REQUIRE (replayed);
+    CHECK (*replayed == 0.0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The driver of 3D Systems' arms, with its helper process, against a fake of OpenHaptics. Both are ours; no arm has been tried.
 
+#include "../trial_person.hpp"
 #include "support/rounds.hpp"
 #include "touch_lab.hpp"
 
@@ -436,4 +437,39 @@ TEST_CASE ("two arms of 3D Systems share the servo loop of their library, and on
     CHECK (lab.arms->frame_errors == 0);
     CHECK (lab.arms->calls_after_unschedule == 0);
     CHECK (lab.arms->gets_outside_frames == 0);
+}
+
+TEST_CASE ("a trial of a Touch finds everything as expected, with at most 0.3 N, and measures its delay", "[openhaptics][trial]")
+{
+    TouchLab lab;
+    auto options = TouchLab::patient();
+    options.silence_s = 0.05;   // the trial stops its ticks on purpose
+    REQUIRE (lab.opens ({}, options));
+    REQUIRE (lab.ticksUntil ([&] { return lab.reading.valid; }));
+    tactus::test::TrialHand hand;
+    hand.move = [&] (const Vec3& to) {
+        const double by_library[] { 1e3 * to.x(), 1e3 * to.z(), -1e3 * to.y() };
+        for (std::size_t i = 0; i < 3; ++i)
+            lab.arm().target[i] = by_library[i];
+        REQUIRE (eventually ([&] {
+            double off = 0.0;
+            for (std::size_t i = 0; i < 3; ++i)
+                off = std::max (off, std::abs (lab.arm().position[i] - by_library[i]));
+            return off < 1.0;
+        }));
+    };
+    hand.force = [&] { return Vec3 { lab.arm().force[0], -lab.arm().force[2], lab.arm().force[1] }; };
+    const auto report = host::tryDevice (*lab.device, lab.limits, { .pace = 0.3 }, hand);
+    INFO (host::trialText (report));
+    for (const auto* step : tactus::test::steps_of_trial)
+    {
+        CAPTURE (step);
+        CHECK (tactus::test::verdictOf (report, step) == "as expected");
+    }
+    CHECK (hand.largest > 0.1);
+    CHECK (hand.largest <= host::trial_push);
+    CHECK (contains (host::trialText (report), "by the driver: "));
+    CHECK (report.at ("numbers").at ("delay_s").get<double>() > 0.0);
+    CHECK (host::trialNumbers (report, 1000.0)->delay->value >= 1.0);   // in ticks, rounded up
+    CHECK (*host::replayTrial (report) == 0.0);
 }
