@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "graph.hpp"
 #include "logs.hpp"
+#include "points.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>
@@ -39,4 +40,5 @@ PYBIND11_MODULE (_tactus, module)
     tactus::python::bindGraph (module);
     tactus::python::bindRun (module);
     tactus::python::bindLogs (module);
+    tactus::python::bindPoints (module);
 }
