@@ -2,6 +2,7 @@
 #include "try_device.hpp"
 
 #include <host/base/platform/home_folder.hpp>
+#include <host/base/platform/line_input.hpp>
 #include <host/base/platform/signals.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/hid_link/open_device.hpp>
@@ -16,9 +17,6 @@
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/quote.hpp>
-
-#include <poll.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -41,36 +39,15 @@ public:
     std::optional<std::string> ask (const std::string& question) override
     {
         std::cout << question << "\n> " << std::flush;
-        while (! stopRequested() && ! has_ended)
-            if (auto line = next (50)) return line;
+        while (! stopRequested() && ! lines.hasEnded())
+            if (auto line = lines.next (50)) return line;
         return std::nullopt;
     }
 
-    bool wantsStop() override { return next (0).has_value() || has_ended; }
+    bool wantsStop() override { return lines.next (0).has_value() || lines.hasEnded(); }
 
 private:
-    /// A line, if one comes within this time.
-    std::optional<std::string> next (int wait_ms)
-    {
-        pollfd input { STDIN_FILENO, POLLIN, 0 };
-        if (typed.find ('\n') == std::string::npos && ::poll (&input, 1, wait_ms) > 0)
-        {
-            char bytes[256];
-            const auto got = ::read (STDIN_FILENO, bytes, sizeof bytes);
-            if (got <= 0) has_ended = true;
-            if (got > 0) typed.append (bytes, static_cast<std::size_t> (got));
-        }
-        const auto end = typed.find ('\n');
-        if (end == std::string::npos) return std::nullopt;
-        auto line = typed.substr (0, end);
-        typed.erase (0, end + 1);
-        const auto first = line.find_first_not_of (" \t\r");
-        if (first == line.npos) return std::string();
-        return line.substr (first, line.find_last_not_of (" \t\r") - first + 1);
-    }
-
-    std::string typed;
-    bool has_ended = false;
+    LineInput lines;
 };
 
 struct Chosen
@@ -93,7 +70,11 @@ TrialSetting::Way bySignal()
     return { "the signal SIGUSR1", [] (TrialRun& run) {
                 under_signal = &run;
                 watchForEmergency ([]() noexcept { under_signal.load()->emergencyStop(); }, []() noexcept {});
+#if defined(SIGUSR1)
                 std::raise (SIGUSR1);
+#else
+                run.emergencyStop();   // a system without this signal
+#endif
                 watchForEmergency (nullptr, nullptr);
             } };
 }
