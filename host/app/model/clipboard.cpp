@@ -23,6 +23,11 @@ void copyToClipboard (const std::string& text)
     if (isThereADisplay()) juce::SystemClipboard::copyTextToClipboard (juce::String::fromUTF8 (text.c_str()));
 }
 
-std::string textFromClipboard() { return isThereADisplay() ? juce::SystemClipboard::getTextFromClipboard().toStdString() : latest(); }
+/// Where the system keeps no text, such as without a display, what was copied here is still there.
+std::string textFromClipboard()
+{
+    const auto text = isThereADisplay() ? juce::SystemClipboard::getTextFromClipboard().toStdString() : std::string();
+    return text.empty() ? latest() : text;
+}
 
 }   // namespace tactus::host

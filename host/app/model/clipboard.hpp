@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// Copies text to the system clipboard. Without a display, only this program can paste it.
+/// Copies text to the system clipboard. Without a display, or where the system keeps no text, only this program can paste it.
 void copyToClipboard (const std::string&);
 std::string textFromClipboard();
 

@@ -364,9 +364,9 @@ TEST_CASE ("several effects that reach a motor without a mixer are a problem wit
         CHECK (std::ranges::count (unfelt (loadGraph (file).graph, catalogue()), "mixer/none", &Message::id) == 0);
     }
     tactus::test::Sketch s { preset ("dry_wood") };   // a wall, a friction that it presses on, and grain that the wall opens
-    s.node ("hum", "signal.lfo");
+    s.node ("hum", "signal.lfo", { { "amplitude", "0.5 N" } }).node ("wave", "signal.lfo", { { "amplitude", 0.01 } });
     CHECK (bypassedBanks (s.graph, catalogue()).empty());
-    s.wire ("hum.out -> (+) drag.mu");   // a modulator is no effect
+    s.wire ("wave.out -> (+) drag.mu");   // a modulator is no effect
     CHECK (bypassedBanks (s.graph, catalogue()).empty());
     s.wire ("hum.out -> motor.force.x");
     const auto said = unfelt (s.graph, catalogue());
