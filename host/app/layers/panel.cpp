@@ -24,7 +24,16 @@ Panel layersPanel (Desk& desk)
         desk.toFront (*layers);
         layers->addClip (file, gain);
     };
-    return { .name = TRANS ("Layers"), .component = std::move (made), .refresh = [layers] { layers->refresh(); } };
+    const auto gains = [&desk, layers] {
+        std::vector<Panel::Action> all;
+        for (std::size_t i = 0; i < layers->layers(); ++i)
+            all.push_back ({ layers->layer (i).gainField().getTitle(), TRANS ("A layer of the mixer: type its gain"), [&desk, layers, i] {
+                                desk.toFront (*layers);
+                                if (i < layers->layers()) layers->layer (i).gainField().openEditor();
+                            } });
+        return all;
+    };
+    return { .name = TRANS ("Layers"), .component = std::move (made), .actions = gains, .refresh = [layers] { layers->refresh(); } };
 }
 
 }   // namespace tactus::host

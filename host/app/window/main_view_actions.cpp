@@ -107,11 +107,6 @@ void MainView::addTabsAndButtons (std::vector<Action>& all)
     for (auto* tabs : { &bottom, &left })
         for (int i = 0; const auto& [name, place] : tabs->titles())
             all.push_back ({ name, TRANS ("A panel"), [this, tabs, i = i++] { reveal (*tabs, *tabs->panel (i)); } });
-    for (std::size_t i = 0; i < layers.layers(); ++i)
-        all.push_back ({ layers.layer (i).gainField().getTitle(), TRANS ("A layer of the mixer: type its gain"), [this, i] {
-                            reveal (bottom, layers);
-                            if (i < layers.layers()) layers.layer (i).gainField().openEditor();
-                        } });
     forButtons (*this, nullptr, [&] (juce::Button& b, juce::Component* panel) {
         auto* tabs = panel == nullptr ? nullptr : dynamic_cast<Tabs*> (panel->getParentComponent());
         const auto act = [this, name = nameOf (b), panel, tabs] {

@@ -119,7 +119,9 @@ private:
         if (! json || ! json->is_object() || json->contains ("driver")) return false;
         if (json->value ("format", Json()) == Json ("tactus-trial"))
         {
-            role.device.numbers = orFail (trialNumbers (*json, rate_hz));
+            const auto numbers = trialNumbers (*json, rate_hz);
+            if (! numbers) refuse (numbers.error());
+            role.device.numbers = *numbers;
             role.device.name = file;
             role.device.simulated.reset();
             return true;
