@@ -33,6 +33,7 @@ void addConvert (const Command&);
 void addImportData (const Command&);
 void addExperiment (const Command&);
 void addMark (const Command&);
+void addStudy (const Command&);
 void addCapture (const Command&);
 void addTest (const Command&);
 void addReport (const Command&);

@@ -86,6 +86,7 @@ int main (int argc, char** argv)
     addImportData (app);
     addExperiment (app);
     addMark (app);
+    addStudy (app);
     addCapture (app);
     addTest (app);
     addReport (app);

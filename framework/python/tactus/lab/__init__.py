@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Experiments with graphs: protocols, procedures, sessions that survive a crash, analysis, and files that labs read. See docs/lab.md.
+"""Experiments with graphs: protocols, procedures, sessions that survive a crash, analysis, and files that labs read (docs/lab.md); and studies of many
+renders, on one computer or on a cluster (docs/studies.md).
 
     from tactus import lab
 
@@ -14,19 +15,25 @@ Levels are in the unit of what varies, times in s. Problems raise tactus.Error.
 from ._analysis import (Detection, Interval, PowerLaw, Psychometric, d_prime_of_two_intervals, detection, plot_staircase, power_law, psychometric,
                         save_plot)
 from ._experiment import Experiment
+from ._design import Factor, FromTable, Grid, Latin, Sobol
 from ._functions import probability
 from ._marks import Receiver, mark
+from ._measures import Measure
 from ._observers import Observer
+from ._parts import Results
+from ._parts import load as load_results
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
 from ._stages import Live, Moment, Silent
+from ._study import Map, Study
 from ._tables import SessionData, load
 from ._trials import Plan, Text, Trial
 from ._web import Browser
 from ._windows import Aborted, Simulated, Terminal, Window
 from ._writers import Table, table_of
 
-__all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "HandAnswer", "Interval", "Live", "Moment", "Observer", "Plan",
-           "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "SessionData", "Silent", "Simulated", "Staircase", "Table", "Terminal", "Text", "Trial",
-           "Triggers", "Varies", "Window", "d_prime_of_two_intervals", "detection", "load", "mark", "mean_of_turns", "plot_staircase", "power_law",
-           "probability", "psychometric", "save_plot", "schema", "table_of"]
+__all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "Factor", "FromTable", "Grid", "HandAnswer", "Interval",
+           "Latin", "Live", "Map", "Measure", "Moment", "Observer", "Plan", "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "Results",
+           "SessionData", "Silent", "Simulated", "Sobol", "Staircase", "Study", "Table", "Terminal", "Text", "Trial", "Triggers", "Varies", "Window",
+           "d_prime_of_two_intervals", "detection", "load", "load_results", "mark", "mean_of_turns", "plot_staircase", "power_law", "probability",
+           "psychometric", "save_plot", "schema", "table_of"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""python3 -m tactus.lab experiment|mark|tables|schema: what `tactus experiment` and `tactus mark` start."""
+"""python3 -m tactus.lab experiment|mark|study|tables|schema: what `tactus experiment`, `tactus mark` and `tactus study` start."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ import time
 from typing import List, Optional
 
 from .._messages import Error
-from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, load, mark, schema)
+from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load, mark,
+               schema)
 from ._marks import PORT
+from ._parts import DiskError
 from ._schema import read
 
 
@@ -107,23 +109,30 @@ def main(arguments: Optional[List[str]] = None) -> int:
     tables.add_argument("folder", help="the folder of the session")
     tables.add_argument("--name", default="", help="the name of the experiment, if the folder has several")
     tables.add_argument("--to", nargs="*", default=[], choices=["csv", "h5", "mat", "xdf"], help="further formats")
-    commands.add_parser("schema", help="print the JSON schema of protocol files")
+    _study_command.add(commands)
+    shape = commands.add_parser("schema", help="print the JSON schema of protocol files, or of study files")
+    shape.add_argument("of", nargs="?", default="experiment", choices=["experiment", "study"], help="the kind of file; default: experiment")
     given = parser.parse_args(arguments)
     try:
         if given.command == "experiment":
             return experiment(given)
+        if given.command == "study":
+            return _study_command.run(given)
         if given.command == "tables":
             for path in load(given.folder, given.name).write(*given.to):
                 print(path)
             return 0
         if given.command == "schema":
-            print(json.dumps(schema(), indent=2, ensure_ascii=False))
+            print(json.dumps(_study.schema() if given.of == "study" else schema(), indent=2, ensure_ascii=False))
             return 0
         if not mark(given.text, given.value, given.osc):
             print(f"error: no experiment has answered at port {given.osc}\n    start one, or name its port with --osc", file=sys.stderr)
             return 1
         return 0
     except Error as why:
+        print(f"error: {why}", file=sys.stderr)
+        return 1
+    except DiskError as why:
         print(f"error: {why}", file=sys.stderr)
         return 1
     except ValueError as why:

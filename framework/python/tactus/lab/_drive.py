@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: MIT
+"""Sends the points of a study to an executor, in chunks of about a second, and keeps what comes back."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import os
+import pickle
+import shlex
+import sys
+import time
+from concurrent.futures import BrokenExecutor, Future
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, TextIO, Tuple
+
+from .._messages import fail
+from ._design import Point
+from ._parts import Folder, Part, merge
+from ._worker import Chunk, Worker, work
+
+if TYPE_CHECKING:
+    from ._study import Prepared
+
+SECONDS = 1.0   # of a chunk
+TRIES = 3   # of executors that break, one after another, without a result in between
+
+try:
+    import fcntl
+except ImportError:   # Windows
+    fcntl = None   # type: ignore[assignment]
+
+
+class Progress:
+    """Lines about how far the study is, at most one a second."""
+
+    def __init__(self, total: int, done: int, bad: int, to: Optional[TextIO], clock: Callable[[], float] = time.monotonic):
+        self.total, self.done, self.bad, self._to, self._clock = total, done, bad, to, clock
+        self._first, self._begin, self._next = done, clock(), clock() + 1.0
+
+    def add(self, points: int, bad: int) -> None:
+        """Some points are done."""
+        self.done += points
+        self.bad += bad
+        if self._to is not None and (self._clock() >= self._next or self.done == self.total):
+            self._next = self._clock() + 1.0
+            print(self.line(), file=self._to, flush=True)
+
+    def line(self) -> str:
+        """How many points are done, how many have errors, and how long the others take."""
+        fresh = self.done - self._first
+        left = (self._clock() - self._begin) / fresh * (self.total - self.done) if fresh else 0.0
+        errors = f", {self.bad} with errors" if self.bad else ""
+        return f"{self.done} of {self.total} points{errors}" + (f", {clock_text(left)} left" if self.done < self.total and fresh else "")
+
+
+def clock_text(seconds: float) -> str:
+    """A time as h:mm:ss."""
+    whole = int(seconds + 0.5)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+
+
+class _Sizes:
+    """How many points a chunk gets, by what points have cost so far."""
+
+    def __init__(self, workers: int, left: int):
+        self.workers, self.left, self.seconds, self.points = workers, left, 0.0, 0
+
+    def next(self) -> int:
+        """The size of the next chunk."""
+        if self.points == 0:
+            size = 1
+        else:
+            size = int(SECONDS / max(self.seconds / self.points, 1e-6))
+            size = min(size, 8 * self.points)   # a few cheap points do not tell what all others cost
+        if self.workers > 1:
+            size = min(size, self.left // (2 * self.workers) + 1)   # so that all workers end at about the same time
+        size = max(1, min(size, self.left))
+        self.left -= size
+        return size
+
+    def learn(self, points: int, seconds: float) -> None:
+        """Points have cost this much."""
+        self.points += points
+        self.seconds += seconds
+
+
+def drive(prepared: "Prepared", out: Any, make: Optional[Callable[[], Any]] = None, workers: int = 1, shard: Tuple[int, int] = (0, 1),
+          resume: bool = False, mixed: bool = False, report: Optional[TextIO] = None) -> Progress:
+    """Renders the points that have no result yet.
+
+    make: gives an executor; it is called again if that one breaks. None: this process. shard: (i, n): only each n-th point, from the i-th on."""
+    folder = Folder(prepared, out, mixed, begin=True)
+    lock = _lock(folder, is_shared=shard != (0, 1))
+    try:
+        held = folder.keys()
+        if held and not resume and shard == (0, 1):
+            fail("study/exists", str(folder.path), f"the folder has the results of {len(held)} points",
+                 "go on with --resume, or choose another folder with --out")
+        wanted = range(shard[0], prepared.design.count, shard[1])
+        todo: Dict[bytes, int] = {}   # points by their key: two equal points are one
+        for i in wanted:
+            key = prepared.key(prepared.design.at(i))
+            if key not in held:
+                todo.setdefault(key, i)
+        progress = Progress(len(wanted), len(wanted) - len(todo), sum(held.values()) if shard == (0, 1) else 0, report)
+        if todo:
+            _Driver(prepared, folder, progress, todo, max(1, workers)).run(make)
+        return progress
+    finally:
+        os.close(lock)
+
+
+def _lock(folder: Folder, is_shared: bool) -> int:
+    """Two processes do not render the same points; shards are different points."""
+    lock = os.open(folder.path / "lock", os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        if fcntl is not None:
+            fcntl.flock(lock, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+    except OSError:
+        os.close(lock)
+        fail("study/busy", str(folder.path), "another process is working on this study", "wait until it ends, or end it")
+    return lock
+
+
+class _Driver:
+    def __init__(self, prepared: "Prepared", folder: Folder, progress: Progress, todo: Dict[bytes, int], workers: int):
+        self.prepared, self.folder, self.progress, self.workers = prepared, folder, progress, workers
+        self.keys, self.todo, self.at = list(todo), list(todo.values()), 0
+        self.sizes = _Sizes(workers, len(todo))
+        self.parts: Dict[Tuple[str, str], Part] = {}
+        self.told: set[str] = set()
+        self.again: List[range] = []   # chunks that were lost with a worker; a chunk is a part of the list `todo`
+        self.pickled = b""
+
+    def run(self, make: Optional[Callable[[], Any]]) -> None:
+        try:
+            if make is None:
+                worker = Worker(self.prepared, is_far=False)
+                while chunk := self._next():
+                    self._keep(chunk, worker.render(self._points(chunk)))
+                return
+            self.pickled = pickle.dumps(self.prepared, 4)
+            tries = 0
+            while True:
+                done = self.progress.done
+                try:
+                    self._with(make())
+                    return
+                except BrokenExecutor as why:
+                    tries = 1 if self.progress.done > done else tries + 1
+                    if tries >= TRIES:
+                        fail("study/workers", str(self.folder.path), f"workers were killed {TRIES} times without a result in between: {why}",
+                             "look whether memory is short or a plugin crashes; then go on with --resume")
+        finally:
+            for part in self.parts.values():
+                part.close()
+
+    def _next(self) -> range:
+        if self.again:
+            return self.again.pop()
+        size = self.sizes.next() if self.at < len(self.todo) else 0
+        self.at += size
+        return range(self.at - size, self.at)
+
+    def _points(self, chunk: range) -> List[Point]:
+        return [self.prepared.design.at(self.todo[k]) for k in chunk]
+
+    def _with(self, executor: Any) -> None:
+        """Works on an executor until nothing is left, or until it breaks."""
+        flying: Dict["Future[Optional[Chunk]]", range] = {}
+        try:
+            while True:
+                while len(flying) < 2 * self.workers and (chunk := self._next()):
+                    flying[executor.submit(work, self.prepared.context, None, self._points(chunk))] = chunk
+                if not flying:
+                    return
+                for future in concurrent.futures.wait(flying, return_when=concurrent.futures.FIRST_COMPLETED).done:
+                    result = self._result(future)
+                    if result is None:   # this worker has not got the study yet
+                        flying[executor.submit(work, self.prepared.context, self.pickled, self._points(flying[future]))] = flying[future]
+                    else:
+                        self._keep(flying[future], result)
+                    del flying[future]
+        except BaseException:
+            for future in flying:
+                future.cancel()
+            self.again += list(flying.values())
+            raise
+
+    def _result(self, future: "Future[Optional[Chunk]]") -> Optional[Chunk]:
+        try:
+            return future.result()
+        except BrokenExecutor:
+            raise
+        except concurrent.futures.CancelledError as why:
+            raise BrokenExecutor("the executor has cancelled a chunk") from why
+        except Exception as why:
+            if type(why).__name__ in ("KilledWorker", "CommClosedError", "FutureCancelledError"):   # of dask.distributed
+                raise BrokenExecutor(f"{type(why).__name__}: {why}") from why
+            raise
+
+    def _keep(self, chunk: range, made: Chunk) -> None:
+        if made.stamp not in self.parts:
+            self.folder.accept(made.stamp, made.host)
+            self.parts[made.stamp] = Part(self.folder.parts_path, self.prepared.context, made.stamp)
+        self.parts[made.stamp].add(b"".join(self.keys[chunk.start:chunk.stop]), made)
+        self.sizes.learn(len(chunk), float(made.seconds.sum()))
+        for kind, text in made.warnings.items():
+            if kind not in self.told and len(self.told) < 20:
+                self.told.add(kind)
+                print(f"warning: {text}", file=sys.stderr)
+        self.progress.add(len(chunk), len(made.problems))
+
+
+def slurm_script(words: List[str], out: str, shards: int, name: str) -> str:
+    """A job array that renders a study: one task for each shard."""
+    command = " ".join(shlex.quote(word) for word in words)
+    path = f"export PYTHONPATH={shlex.quote(os.environ['PYTHONPATH'])}\n" if os.environ.get("PYTHONPATH") else ""
+    return (f"#!/bin/sh\n#SBATCH --job-name=tactus-{name}\n#SBATCH --array=0-{shards - 1}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n"
+            f"#SBATCH --output={shlex.quote(out)}/slurm-%A_%a.log\n#SBATCH --open-mode=append\n#SBATCH --requeue\n"
+            f"{path}exec {command} --shard \"$SLURM_ARRAY_TASK_ID/{shards}\"\n")
+
+
+__all__ = ["Progress", "drive", "merge", "slurm_script"]

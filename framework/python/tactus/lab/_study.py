@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: MIT
+"""Studies: renders of one graph at the points of a design, and what is kept of each."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import json
+import math
+import os
+import pickle
+import platform
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from .. import _tactus
+from .._assets import Assets, reader
+from .._graph import Graph
+from .._messages import fail, placed
+from .._presets import graph_file
+from . import _design, _measures, _schema
+from ._design import Design, Factor, FromTable, Grid, Latin, Sobol
+from ._measures import Measure
+from ._procedures import note
+
+if TYPE_CHECKING:
+    from ._parts import Results
+
+Functions = Mapping[str, Callable[..., Any]]
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass(frozen=True)
+class Map:
+    """A heat map of the report: a measure over two factors."""
+
+    of: str = field(metadata=note("the column of a measure"))
+    x: str = field(metadata=note("a factor"))
+    y: str = field(metadata=note("another factor"))
+    limits: bool = field(default=False, metadata=note("draw the limits that `tactus limits` computes; needs that program"))
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: a graph, the factors that vary, and what to keep of each render."""
+
+    name: str = field(metadata=note("its name, letters and digits"))
+    graph: str = field(metadata=note("a graph file relative to this one, or the name of a preset"))
+    factors: List[Factor] = field(metadata=note("what varies", fewest=1))
+    measures: List[Measure] = field(default_factory=list, metadata=note("the numbers to keep"))
+    format: Literal["tactus-study"] = field(default="tactus-study", metadata=note("the format of the file"))
+    version: Literal[1] = field(default=1, metadata=note("the version of the format"))
+    about: str = field(default="", metadata=note("what it is about, and its sources"))
+    design: Union[Grid, Latin, Sobol, FromTable] = field(default_factory=Grid, metadata=note("which points of the ranges are rendered"))
+    duration: float = field(default=0.0, metadata=note("of each render, in s; 0: as long as the recording or the path of the hand", low=0.0, high=1e9))
+    rate: float = field(default=0.0, metadata=note("in Hz; 0: that of the recording or of the graph", low=0.0, high=1e9))
+    set: Dict[str, Any] = field(default_factory=dict, metadata=note("values of parameters and controls that all points share"))
+    devices: Dict[str, Any] = field(default_factory=dict, metadata=note("simulated devices of roles: gesture:NAME, trace:FILE.csv, or a description"))
+    feed: Dict[str, Any] = field(default_factory=dict, metadata=note("what drives ports while a recording runs: a column of it, or a number, as in "
+                                                                     "{\"drag.position.x\": \"x\", \"drag.normal_force\": 1}"))
+    keep: List[str] = field(default_factory=list, metadata=note("ports whose records are kept, tick by tick"))
+    maps: List[Map] = field(default_factory=list, metadata=note("the heat maps of the report; without any, one of each measure over the first two factors"))
+    worst: str = field(default="", metadata=note("the column whose largest values the report lists; -NAME: the smallest; without it, the last measure"))
+    folder: str = field(default="", compare=False, repr=False, metadata=note("of files with relative paths; the file's own, if it is left out"))
+
+    @staticmethod
+    def load(path: Path) -> "Study":
+        """Reads and checks a file. Errors name the place in it as a JSON pointer."""
+        try:
+            with open(path, encoding="utf-8") as file:
+                data = json.load(file)
+        except (OSError, ValueError, RecursionError) as why:
+            fail("study/unreadable", os.fspath(path), f"the file cannot be read: {why}", "give a JSON file")
+        if isinstance(data, dict):
+            data.setdefault("folder", os.path.dirname(os.path.abspath(path)))
+        with placed(os.fspath(path)):
+            return _schema.read(Study, data)
+
+    def text(self) -> str:
+        """The study as the text of a file."""
+        return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
+                          indent=2, ensure_ascii=False) + "\n"
+
+    @property
+    def columns(self) -> List[str]:
+        """The columns of the measures."""
+        return [name for measure in self.measures for name in measure.columns]
+
+    def prepare(self, functions: Optional[Functions] = None, source: str = "", graph: Optional[Graph] = None, assets: Optional[Assets] = None) -> "Prepared":
+        """The study with its graph and files, ready for workers. `run` says what the arguments are."""
+        return Prepared(self, dict(functions or {}), source, graph, assets)
+
+    def run(self, out: Path, executor: Any = None, workers: int = 1, functions: Optional[Functions] = None, graph: Optional[Graph] = None,
+            assets: Optional[Assets] = None, resume: bool = False, mixed: bool = False) -> "Results":
+        """Renders all points, and merges their results in the folder `out`.
+
+        executor: None: this process. Or any executor of concurrent.futures, that of dask.distributed, or that of mpi4py.futures.
+        workers: how many processes the executor has; so many chunks are on their way, twice.
+        functions: the functions in Python that measures name. They get the Records and a dict with the values of the point.
+        graph: instead of the one that the study names. assets: as for Graph.render; for workers, a dict.
+        resume: go on in a folder that has results. mixed: also with those of other versions of Tactus or other computers; they are marked."""
+        from ._drive import drive, merge   # noqa: PLC0415: they need this module
+
+        prepared = self.prepare(functions, "", graph, assets)
+        drive(prepared, out, (lambda: executor) if executor is not None else None, workers, resume=resume, mixed=mixed)
+        return merge(prepared, out, mixed=mixed)
+
+
+def schema() -> Dict[str, Any]:
+    """The JSON schema of study files, made from the dataclasses."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Study of tactus.lab", **_schema.schema(Study)}
+
+
+def bits() -> str:
+    """A mark of how this computer computes: the hash of what its mathematical functions give. Equal marks make equal results likely; different marks
+    mean that the last bits of results may differ."""
+    x = np.linspace(0.01, 3.0, 1024)
+    parts = [np.exp(x), np.sin(x * 7.0), np.cos(x * 9.0), np.log(x), np.tanh(x), np.power(x, 1.7), np.arctan2(x, 1.3), np.fft.rfft(x), x.sum(), (x * x).mean()]
+    functions: List[Callable[[float], float]] = [math.exp, math.sin, math.cos, math.log, math.tanh, math.sqrt, math.expm1]
+    plain = [f(v) for v in x.tolist() for f in functions]
+    made = hashlib.blake2b(b"".join(np.ascontiguousarray(part).tobytes() for part in [*parts, np.array(plain)]), digest_size=6)
+    return f"{platform.machine()}-{made.hexdigest()}"
+
+
+class Prepared:
+    """A study with everything that a worker needs. It is pickled once, and sent once to each worker."""
+
+    def __init__(self, study: Study, functions: Dict[str, Any], source: str, graph: Optional[Graph], assets: Optional[Assets]):
+        self.study, self.functions, self.source = study, functions, source
+        if not study.name.isalnum() or not study.name.isascii():
+            fail("study/value", "/name", f"'{study.name}' has other characters than letters and digits", "choose a name for files, such as 'wall'")
+        _measures.checked(study.measures)
+        beside = os.path.join(study.folder, study.graph)
+        self.file = "" if graph is not None else beside if os.path.isfile(beside) else graph_file(study.graph)
+        self.graph = graph if graph is not None else Graph(self.file)
+        self.assets = assets if assets is None or callable(assets) else dict(assets)
+        self.design: Design = _design.make(study.design, study.factors, study.folder)
+        self.names = self.design.names
+        self.described: Dict[str, Any] = json.loads(self.graph.text).get("devices", {})
+        self.devices = {role: simulated(role, given, f"/devices/{role}") for role, given in study.devices.items()}
+        self._check_names()
+        self.files = self._files()
+        self.recordings = self._recordings()
+        self.context = self._context()
+        self._hash = hashlib.blake2b(self.context, digest_size=16)
+
+    def _check_names(self) -> None:
+        """Refuses names that no point could use."""
+        study, names = self.study, self.names
+        if any(measure.kind == "misfit" for measure in study.measures) and (study.rate or "rate" in names):
+            fail("study/value", "/rate", "a misfit compares tick by tick, so the rate is that of the recording", "leave `rate` out")
+        if "recording" in names and not study.feed:
+            fail("study/missing", "/feed", "recordings drive no port", "add `feed`: {\"drag.position.x\": \"x\"}")
+        for measure in study.measures:
+            if measure.kind == "function" and measure.function not in self.functions and not self.source:
+                fail("study/no_function", f"/measures/{measure.name}", f"there is no function '{measure.function}'",
+                     "give the file with it: --functions FILE.py; a study does not choose code that runs here")
+        for i, name in enumerate(names):
+            kind, _, rest = name.partition(":")
+            if kind == "setting" and "." not in rest or kind not in ("setting", "device") and ":" in name or kind == "device" and not rest:
+                fail("study/value", f"/factors/{i}/vary", f"'{name}' is not a factor", "write NODE.PARAM, a control, setting:NODE.SETTING or device:ROLE/KEY")
+        for each in study.maps:
+            for name, known in ((each.of, study.columns), (each.x, names), (each.y, names)):
+                if name not in known:
+                    fail("study/value", "/maps", f"a map names '{name}', which is not there", f"one of {', '.join(known)}")
+        if study.worst and study.worst.lstrip("-") not in study.columns:
+            fail("study/value", "/worst", f"there is no column '{study.worst.lstrip('-')}'", f"one of {', '.join(study.columns)}")
+
+    def _files(self) -> Dict[str, bytes]:
+        """The files that the graph reads, and those that factors and devices name, by absolute path."""
+        asked: List[str] = []
+        given = reader(self.assets)
+
+        def find(kind: str, path: str) -> Optional[Dict[str, Any]]:
+            supplied = given(kind, path) if given else None
+            if supplied is None:
+                asked.append(path)
+            return supplied
+
+        fast = [i for i, name in enumerate(self.names) if ":" not in name and name not in ("rate", "recording", "seed")]
+        first = self.design.at(0)
+        ports = [*self.study.keep, *self.study.feed, *(port for m in self.study.measures for port in (m.port, m.position) if port)]
+        common = {name: _design.text_of(value) for name, value in self.study.set.items()}
+        nothing: Tuple[List[str], List[str], List[str]] = ([], [], [])
+        for records, names, values in ((ports, [self.names[i] for i in fast], [first[i] for i in fast]), nothing):
+            tried = _tactus.render_points(self.graph._graph, 0.0, records, common, names, [values], {}, "", None, find, 1e-9, [], False, 0)
+            for _, name, where, text in tried["errors"]:
+                if "unknown" in name and names:   # at each point; other errors may be those of single points
+                    fail(name, where, text, "correct the name in the study")
+        named = [v for factor in self.study.factors if factor.vary != "recording" for v in factor.values]
+        for value in [*named, *self.devices.values(), *self.described.values()]:
+            for text in (value if isinstance(value, str) else "", value.get("path") if isinstance(value, dict) else "",
+                         (value.get("hand") or {}).get("path") if isinstance(value, dict) and isinstance(value.get("hand"), dict) else ""):
+                if isinstance(text, str) and text:
+                    asked += [os.path.join(folder, text) for folder in (self.graph._graph.folder(), self.study.folder)]
+        found = {}
+        for path in asked:
+            if os.path.isfile(path):
+                with open(path, "rb") as file:
+                    found[os.path.abspath(path)] = file.read()
+        return found
+
+    def _recordings(self) -> Dict[str, str]:
+        """The hash of each recording. Recordings are not sent: workers read them, and compare."""
+        if "recording" not in self.names:
+            return {}
+        at = self.names.index("recording")
+        names = {json.loads(self.design.at(i)[at]) for i in range(self.design.count)} if isinstance(self.study.design, FromTable) else {
+            os.path.relpath(path, self.study.folder or os.curdir) for factor in self.study.factors if factor.vary == "recording"
+            for pattern in factor.values for path in glob.glob(os.path.join(self.study.folder, str(pattern)), recursive=True)}
+        return {name: digest_of(os.path.join(self.study.folder, name)) for name in names}
+
+    def _context(self) -> bytes:
+        """The hash of everything that the results of a point depend on, except its values, the version and the computer."""
+        s = self.study
+        code = {name: f"{getattr(f, '__module__', '')}.{getattr(f, '__qualname__', '')}:" + _code_of(f) for name, f in self.functions.items()}
+        base = os.path.dirname(self.file)
+        files = {os.path.relpath(path, base or os.curdir) if not self.file or os.path.isabs(path) else path: hashlib.sha256(data).hexdigest()
+                 for path, data in self.files.items()}
+        held = pickle.dumps(self.assets, 4) if self.assets is not None and not callable(self.assets) else b""
+        subgraphs = {path: Graph._of(file).text for path, file in self.graph._graph.files().items()}
+        parts = ["tactus-study 1", self.graph.text, subgraphs, files, s.set, self.devices, s.duration, s.rate, s.feed, s.keep, self.names,
+                 [{k: v for k, v in _schema.write(m).items() if k != "unit"} for m in s.measures], code, self.source, hashlib.sha256(held).hexdigest()]
+        return hashlib.blake2b(_design.text_of(parts).encode(), digest_size=16).digest()
+
+    def key(self, point: Tuple[str, ...]) -> bytes:
+        """The address of the result of a point, 16 bytes."""
+        text = "\x1f".join(point)
+        if self.recordings:
+            text += "\x1f" + self.recordings[json.loads(point[self.names.index("recording")])]
+        made = self._hash.copy()
+        made.update(text.encode())
+        return made.digest()
+
+    def __getstate__(self) -> Dict[str, Any]:
+        state = {key: value for key, value in self.__dict__.items() if key not in ("design", "_hash")}   # a worker gets points, and no keys
+        if self.source:
+            state["functions"] = {}
+        return state
+
+
+def _code_of(function: Any) -> str:
+    code = getattr(function, "__code__", None)
+    if code is None:
+        return ""
+    return hashlib.sha256(code.co_code + repr([c for c in code.co_consts if not hasattr(c, "co_code")]).encode()).hexdigest()
+
+
+def digest_of(path: str) -> str:
+    """The hash of a file."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.sha256(file.read()).hexdigest()
+    except OSError as why:
+        fail("study/no_recording", path, f"the file cannot be read: {why.strerror}", "check its name and permissions")
+
+
+def simulated(role: str, given: Any, where: str) -> Dict[str, Any]:
+    """The description of a simulated device. A study from a stranger never chooses a real one."""
+    if isinstance(given, str):
+        driver, _, path = given.partition(":")
+        given = {"driver": driver, "path": path} if driver in ("gesture", "trace") and path else {"driver": given}
+    if not isinstance(given, dict) or given.get("driver") not in ("sim", "gesture", "trace") or given == {"driver": "sim"}:
+        fail("study/device", where, f"'{given if not isinstance(given, dict) else given.get('driver')}' is not a simulated device for the role '{role}'",
+             "give gesture:NAME, trace:FILE.csv, or a description such as {\"driver\": \"sim\", \"mass\": \"50 g\"}")
+    return dict(given)
+
+
+__all__ = ["Factor", "FromTable", "Grid", "Latin", "Map", "Measure", "Prepared", "Sobol", "Study", "bits", "schema"]
