@@ -29,7 +29,7 @@ using Rows = PythonRun::Rows;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_ticks = 1e10;
 
-/// What all points have in common.
+/// The graph and options that all points share.
 struct Job
 {
     graph::Graph graph {};
