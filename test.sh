@@ -29,6 +29,8 @@
 #                       node; builds and loads a unit for co-simulation; runs all presets fused
 #   ./test.sh --site    builds the site with all presets, and uses its playground in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
+#   ./test.sh --windows builds for Windows with mingw-w64, and runs what it built in wine (docs/windows.md): all presets give the same bits, files with
+#                       other names and line ends
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds the libraries as part of another project, and all nodes as plugins, and examines these
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
@@ -42,8 +44,8 @@
 if [ "${1:-}" = --kept ]; then exec .ci/kept.sh "${@:2}"; fi
 mode=${1:-}
 case $mode in
-    ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--windows|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
+    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--windows|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
@@ -61,6 +63,7 @@ case $mode in --long|--site) packages+=(chromium chromium-driver python3-seleniu
 [ "$mode" = --figures ] && packages+=(valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
+[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix wine64 xauth)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
 
@@ -229,6 +232,14 @@ if [ "$mode" = --figures ]; then
     /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib
     say "Instructions per tick"
     /usr/bin/python3 tests/bench/instructions.py build/release
+    exit
+fi
+
+if [ "$mode" = --windows ]; then
+    build release tactus
+    build windows tactus tactus_shared render_dll
+    say "In wine"
+    xvfb-run -a /usr/bin/python3 -B tests/windows/run.py build/release/bin/tactus build/windows
     exit
 fi
 

@@ -8,6 +8,10 @@ set_target_properties (tactus_shared PROPERTIES
 target_compile_features (tactus_shared INTERFACE cxx_std_20)
 target_include_directories (tactus_shared INTERFACE $<INSTALL_INTERFACE:include>)
 target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads ${CMAKE_DL_LIBS})
+if (MINGW)   # libtactus.dll and libtactus.dll.a, and libtactus.def, from which MSVC's `lib /def:libtactus.def /machine:x64` makes its import library
+    target_link_options (tactus_shared PRIVATE LINKER:--output-def,${PROJECT_BINARY_DIR}/libtactus.def)
+    set_target_properties (tactus_shared PROPERTIES VERSION "" SOVERSION "")
+endif ()
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports our own symbols, but no instances of std templates, which would replace the program's.
     set (exports ${CMAKE_CURRENT_SOURCE_DIR}/framework/exports.map)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tactus in C#: the C API (tactus.h) by P/Invoke, in one file. For .NET, Mono and Unity; compile it with -unsafe (Unity: "Allow 'unsafe' code").
-// The library is libtactus.so, tactus.dll or libtactus.dll, next to the program or in a folder of the system; in Unity in Assets/Plugins.
+// The library is libtactus.so, libtactus.dll or libtactus.dylib, next to the program or in a folder of the system; in Unity in Assets/Plugins.
 //
 //     using (var graph = Graph.Load ("dry_wood.json"))
 //     using (var run = new Run (graph))
@@ -439,7 +439,7 @@ namespace Tactus
 #if UNITY_IOS && ! UNITY_EDITOR
         const string library = "__Internal";
 #else
-        const string library = "tactus";
+        const string library = "libtactus";
 #endif
         const CallingConvention c = CallingConvention.Cdecl;
 

@@ -46,7 +46,9 @@
 #endif
 
 /** Goes before each function of this interface. */
-#if defined(_WIN32)
+#if defined(_WIN32) && defined(TACTUS_BUILDS_LIBRARY)
+#define TACTUS_API TACTUS_API_C __declspec(dllexport)
+#elif defined(_WIN32)
 #define TACTUS_API TACTUS_API_C
 #else
 #define TACTUS_API TACTUS_API_C __attribute__ ((visibility ("default")))

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
+#if __has_include(<features.h>)
 #include <features.h>
+#endif
 
 #include "no_allocation.hpp"
 
 #include <cerrno>
 #include <cstddef>
 
+#if defined(__GLIBC__)
 #include <dlfcn.h>
 #include <pthread.h>
+#endif
 
 namespace
 {

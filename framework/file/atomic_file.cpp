@@ -12,6 +12,12 @@
 #include <system_error>
 #include <utility>
 
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#include <sys/stat.h>
+#endif
+
 namespace tactus
 {
 
@@ -73,10 +79,15 @@ fs::perms permissionsLike (fs::perms old, const fs::path& target)
 /// Creates an empty file, and fails if there is a file of this name.
 bool createNew (const fs::path& path)
 {
+#if defined(_WIN32)
+    const int made = _wopen (path.c_str(), _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY, _S_IREAD | _S_IWRITE);   // fopen knows no "x" there
+    return made >= 0 && _close (made) == 0;
+#else
     auto* const made = std::fopen (path.string().c_str(), "wbx");   // C++20 has no stream for this
     if (made == nullptr) return false;
     std::fclose (made);
     return true;
+#endif
 }
 
 /// The file that would be written: a rename would replace a symbolic link.

@@ -36,14 +36,16 @@ sys.exit(module.main(sys.argv[1:]))
     std::vector<std::string> words { "python3", "-c", script, module };
     words.insert (words.end(), arguments.begin(), arguments.end());
     std::cout.flush();
-#if ! defined(_WIN32)
+#if defined(_WIN32)
+    throw UsageError ("this command is written in Python, and there is no Python package of Tactus for Windows; use Linux");
+#else
     std::vector<char*> pointers;
     for (auto& word : words)
         pointers.push_back (word.data());
     pointers.push_back (nullptr);
     ::execvp (pointers[0], pointers.data());
-#endif
     throw UsageError ("python3 cannot be started; install Python 3, and the Python package tactus");
+#endif
 }
 
 struct ImportOptions

@@ -15,7 +15,7 @@ import re
 import sys
 
 MIT_PARTS = ["code", "devices", "drivers"]   # of host
-MIT_ROOMS = ["base/command_line", "base/platform", "tools/check_plugin", "tools/fitting", "tools/reports"]
+MIT_ROOMS = ["base/command_line", "base/platform", "base/windows", "tools/check_plugin", "tools/fitting", "tools/reports"]
 MIXED = ["base/assets", "base/files", "devices/osc", "tools/figures"]
 GPL_TESTS = ["app", "cli", "tools/bench"]
 CARDS = "host/devices/audio/juce_cards.cpp"

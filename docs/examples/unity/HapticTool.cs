@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plays a preset on the tool that this object follows. Put Tactus.cs, this file and the library (tactus.dll or libtactus.so, in Assets/Plugins)
+// Plays a preset on the tool that this object follows. Put Tactus.cs, this file and the library (libtactus.dll or libtactus.so, in Assets/Plugins)
 // into a Unity project, allow "unsafe" code in the player settings, and add this component to an object that the hand moves.
 //
 // Your device driver calls Force() and sends it; this component itself drives no motor. The library ticks in real time on a thread of its own.

@@ -86,13 +86,15 @@ Read readJpeg (std::string_view bytes, std::string_view name)
 {
     const std::unique_ptr<void, int (*) (tjhandle)> jpeg (tjInitDecompress(), tjDestroy);
     const auto* data = reinterpret_cast<const unsigned char*> (bytes.data());
+    const auto size = static_cast<unsigned long> (bytes.size());   // has 32 bits on Windows
+    if (size != bytes.size()) return broken (name, "it is larger than 4 GB");
     int columns = 0, rows = 0, subsampling = 0, colours = 0;
-    if (tjDecompressHeader3 (jpeg.get(), data, bytes.size(), &columns, &rows, &subsampling, &colours) != 0) return broken (name, tjGetErrorStr2 (jpeg.get()));
+    if (tjDecompressHeader3 (jpeg.get(), data, size, &columns, &rows, &subsampling, &colours) != 0) return broken (name, tjGetErrorStr2 (jpeg.get()));
 
     const auto pixels = static_cast<std::size_t> (columns) * static_cast<std::size_t> (rows);
     if (static_cast<double> (pixels) > budgets().numbers) return tooLarge (name, static_cast<std::size_t> (columns), static_cast<std::size_t> (rows));
     std::vector<unsigned char> greys (pixels);
-    if (tjDecompress2 (jpeg.get(), data, bytes.size(), greys.data(), columns, 0, rows, TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT)
+    if (tjDecompress2 (jpeg.get(), data, size, greys.data(), columns, 0, rows, TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT)
         != 0)
         return broken (name, tjGetErrorStr2 (jpeg.get()));
 

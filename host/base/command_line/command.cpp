@@ -149,7 +149,11 @@ Option Option::type (const std::string& name) const
 bool Option::isGiven() const { return option->count() > 0; }
 
 //==============================================================================
-Command::Command (const std::string& about, const std::string& name) : app (std::make_shared<CLI::App> (about, name)) { app->failure_message (usageMessage); }
+Command::Command (const std::string& about, const std::string& name) : app (std::make_shared<CLI::App> (about, name))
+{
+    app->failure_message (usageMessage);
+    app->allow_windows_style_options (false);   // options are the same on all systems, and /name is a file
+}
 
 Command Command::add (const std::string& name, const std::string& about) const
 {

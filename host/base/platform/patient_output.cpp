@@ -4,7 +4,13 @@
 
 #include <tactus/file/atomic_file.hpp>
 
-#if defined(__linux__)
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+
+#include <cstdlib>
+#elif defined(__linux__)
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -189,6 +195,23 @@ void giveUpBlockedOutputs (std::chrono::milliseconds after)
         std::cout.rdbuf (output);
     }
     if (! isFile (STDERR_FILENO)) replaceErrors();
+}
+
+#elif defined(_WIN32)
+
+/// A blocked output still blocks. Lines end as on Linux, so that the same command writes the same bytes; the console shows UTF-8 and colours.
+void giveUpBlockedOutputs (std::chrono::milliseconds)
+{
+    for (const int file : { 0, 1, 2 })
+        _setmode (file, _O_BINARY);
+    for (const DWORD handle : { STD_OUTPUT_HANDLE, STD_ERROR_HANDLE })
+    {
+        DWORD mode = 0;
+        if (auto* const console = GetStdHandle (handle); GetConsoleMode (console, &mode)) SetConsoleMode (console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+    }
+    static const UINT before = GetConsoleOutputCP();   // the console belongs to the shell, too
+    if (before == 0 || before == CP_UTF8 || ! SetConsoleOutputCP (CP_UTF8)) return;
+    std::atexit ([] { SetConsoleOutputCP (before); });
 }
 
 #else

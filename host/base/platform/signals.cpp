@@ -4,6 +4,10 @@
 #include <atomic>
 #include <csignal>
 
+#if defined(_WIN32)
+#include <windows.h>
+#endif
+
 namespace tactus::host
 {
 
@@ -36,7 +40,7 @@ using Act = void (*)() noexcept;
 std::atomic<Act> emergency { nullptr }, rearming { nullptr };
 static_assert (std::atomic<Act>::is_always_lock_free, "a signal handler reads them");
 
-void call (const std::atomic<Act>& act) noexcept
+[[maybe_unused]] void call (const std::atomic<Act>& act) noexcept
 {
     if (const auto a = act.load()) a();
 }
@@ -53,6 +57,17 @@ void unblockOthers() noexcept
     pthread_sigmask (SIG_UNBLOCK, &others, nullptr);
 #endif
 }
+
+#if defined(_WIN32)
+/// Windows calls this on a thread of its own. When it returns from a closed console, a log-off or a shutdown, the process ends at once; so it never returns
+/// from these, and the process ends when the program does, or when the system has waited long enough.
+BOOL WINAPI afterConsoleEvent (DWORD event)
+{
+    requested = true;
+    if (event == CTRL_CLOSE_EVENT || event == CTRL_LOGOFF_EVENT || event == CTRL_SHUTDOWN_EVENT) Sleep (INFINITE);
+    return TRUE;
+}
+#endif
 
 void maskEmergencySignals ([[maybe_unused]] bool blocks) noexcept
 {
@@ -90,6 +105,9 @@ void watchForStop() noexcept
     unblockOthers();
     for (const int number : stopping)
         std::signal (number, note);
+#if defined(_WIN32)
+    SetConsoleCtrlHandler (afterConsoleEvent, TRUE);   // asked before the signals, which the C library makes of the same events
+#endif
 #if defined(__unix__) || defined(__APPLE__)
     // A program in the background may write to its terminal, and its reads fail instead of suspending it. Reaching the file size
     // limit is reported as an error of that file.

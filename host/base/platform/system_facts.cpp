@@ -16,6 +16,7 @@ namespace tactus::host
 
 namespace
 {
+#if defined(__linux__)
 /// The first line of a file of the system; empty if it is not there.
 std::string lineOf (const char* file)
 {
@@ -24,6 +25,7 @@ std::string lineOf (const char* file)
     std::getline (in, line);
     return printable (line.substr (0, 100));
 }
+#endif
 
 #if ! defined(_WIN32)
 std::string limitOf (decltype (RLIMIT_NOFILE) which, rlim_t unit, const char* name)

@@ -14,6 +14,7 @@
 #include <host/cli/report.hpp>
 #include <host/code/fuse/fuser.hpp>
 #include <host/code/plugins/live_plugins.hpp>
+#include <host/devices/failsafe/failsafe.hpp>
 #include <host/devices/osc/osc_options.hpp>
 #include <host/devices/osc/token_file.hpp>
 #include <tactus/text/number_text.hpp>
@@ -38,7 +39,7 @@ namespace
 {
 struct PlayOptions : RunOptions
 {
-    bool costs = false, fuse = false;
+    bool costs = false, fuse = false, untried = false;
     std::vector<std::string> live;   ///< headers of nodes
     std::string osc = std::to_string (OscPort::usual), osc_answer;
     bool osc_asked_for = false;
@@ -324,6 +325,9 @@ void run (const PlayOptions& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw UsageError ("--record names what to record but not where: --out FILE is required");
+#if ! defined(__linux__)
+    if (options.untried) Failsafe::allowUnguarded();
+#endif
     holdEmergencySignals();   // so that only the thread of the emergency stop handles them
     const auto live = openLive (options);
     Playing { options, *live }.play();
@@ -341,6 +345,10 @@ void addPlay (const Command& app)
     command.addOption ("--live", options->live,
                        "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
         .oneValueEach();
+#if ! defined(__linux__)
+    command.addFlag ("--untried", options->untried,
+                     "Open devices with forces, although nothing brings them to rest if this program dies, and none was tried on this system (docs/windows.md)");
+#endif
     command.addFlag ("--fuse", options->fuse,
                      "Compile the graph while it plays, and switch to the compiled code, which computes the same in less time (docs/fusion.md)");
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");

@@ -6,6 +6,7 @@
 
 #include <tactus/text/caught.hpp>
 
+#include <atomic>
 #include <utility>
 
 #if defined(__linux__)
@@ -425,9 +426,19 @@ Message Failsafe::alarm()
 
 #else
 
+namespace
+{
+std::atomic<bool> is_unguarded_allowed { false };
+}
+
+void Failsafe::allowUnguarded() noexcept { is_unguarded_allowed = true; }
+
 Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vector<Report>&)
 {
-    return Message::error ("device/no_failsafe", device_file, "there is no failsafe on this system");
+    if (is_unguarded_allowed) return Message::error ("device/no_failsafe", device_file, "there is no failsafe on this system");
+    return Message::error ("device/failsafe", device_file,
+                           "Tactus has no guardian process on this system, which would bring a device with forces to rest, and no such device was tried here",
+                           "use Linux; or give `tactus play` the option --untried, and keep a hand on a switch for the supply of the motors");
 }
 
 Result<Failsafe> Failsafe::arm (int, const std::string& name, const std::vector<Report>& reports) { return arm (name, reports); }

@@ -50,11 +50,17 @@ public:
     /// While an effort is on a device, the guardian takes the device about this long after its last beat.
     static constexpr std::chrono::milliseconds patience { 100 };
 
-    /// Arms the failsafe. Writes nothing now. Ids: device/failsafe; device/no_failsafe on systems without one. [main thread, or one that opens devices]
+    /// Arms the failsafe. Writes nothing now. Ids: device/failsafe; device/no_failsafe on systems without one, after allowUnguarded().
+    /// [main thread, or one that opens devices]
     static Result<Failsafe> arm (const std::string& device_file, const std::vector<Report>&);
 
     /// The same for a device that is open already, such as a socket, whatever its name. The descriptor is duplicated; it must not block.
     static Result<Failsafe> arm (int descriptor, const std::string& name, const std::vector<Report>&);
+
+#if ! defined(__linux__)
+    /// This system has no guardian. From now on, devices with forces open without one; before, arm() refuses them. [main thread]
+    static void allowUnguarded() noexcept;
+#endif
 
     Failsafe (Failsafe&&) noexcept;
     Failsafe& operator= (Failsafe&&) noexcept;

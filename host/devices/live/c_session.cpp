@@ -88,7 +88,11 @@ public:
 
     void add (tactus_session* s)
     {
+#if defined(_WIN32)
+        static const int registered = std::atexit (stopAll);   // its C library has no at_quick_exit
+#else
         static const int registered = std::atexit (stopAll) + ::at_quick_exit (stopAll);   // once, also for the children of forks
+#endif
         static_cast<void> (registered);
         const std::lock_guard lock (mutex);
         all.push_back (s);

@@ -7,6 +7,11 @@
 #include <cstdlib>
 #include <new>
 
+// A sanitizer has its own memory, and free() of Windows takes no aligned memory.
+#if ! TACTUS_SANITIZED && ! defined(_WIN32)
+#define TACTUS_COUNTS_MEMORY 1
+#endif
+
 namespace tactus::host
 {
 
@@ -15,7 +20,11 @@ namespace
 thread_local CountedMemory* counting = nullptr;
 }
 
-const bool CountedMemory::counts = ! TACTUS_SANITIZED;
+#if defined(TACTUS_COUNTS_MEMORY)
+const bool CountedMemory::counts = true;
+#else
+const bool CountedMemory::counts = false;
+#endif
 
 CountedMemory::CountedMemory() noexcept : outer (counting)
 {
@@ -46,9 +55,11 @@ void CountedMemory::give (const void* place) noexcept
     --count;
 }
 
+#if defined(TACTUS_COUNTS_MEMORY)
+
 namespace
 {
-[[maybe_unused]] void* allocated (std::size_t size, std::size_t alignment)
+void* allocated (std::size_t size, std::size_t alignment)
 {
     const auto whole = std::max<std::size_t> (size, 1);
     for (;;)
@@ -66,16 +77,18 @@ namespace
     }
 }
 
-[[maybe_unused]] void freed (void* place) noexcept
+void freed (void* place) noexcept
 {
     if (counting != nullptr && place != nullptr) counting->give (place);
     std::free (place);
 }
 }   // namespace
 
+#endif
+
 }   // namespace tactus::host
 
-#if ! TACTUS_SANITIZED
+#if defined(TACTUS_COUNTS_MEMORY)
 
 // The forms for arrays and without exceptions call these.
 void* operator new (std::size_t size) { return tactus::host::allocated (size, 0); }
