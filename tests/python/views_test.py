@@ -202,7 +202,18 @@ class Reprs(TestCase):
         return [graph, run, engine, engine.take("stylus"), engine.status(), tactus.PushedDevice(axes=["x"]), message, tactus.TactusWarning(message),
                 tactus.Error([message]), Wall(), tactus.Signal(np.zeros((10000, 2)), 8000), tactus.Mesh(np.zeros((1000, 3)), np.zeros((1000, 3), int)),
                 tactus.Point({"drag.mu": 0.2}, run), tactus.Health("stylus", "tactus_board", True, 0.001, 0.02, 1000.0, 5, 0, 0, ""),
-                tactus.scalar("N/m", "slope"), tactus.vector("m"), tactus.choice(["a", "b"])]
+                tactus.scalar("N/m", "slope"), tactus.vector("m"), tactus.choice(["a", "b"]), *self.reports()]
+
+    def reports(self):
+        condition = dict(id="contact", role="stylus", node="wall", verdict="stable", value=1.0, limit=2.0, margin=2.0, unit="N/m", law="", text="text " * 100,
+                         remedy="remedy " * 100)
+        check = tactus.Check({"scope": "word " * 100, "rate_hz": 4000, "not_judged": [], "conditions": [condition], "broken": False})
+        limits = tactus.Limits({"role": "stylus", "node": "wall", "stiffness": 1.0, "damping": 1.0, "rate_hz": 4000.0, "passive": dict.fromkeys(("stiffness", "damping", "rate")), "stable": dict.fromkeys(("stiffness", "damping", "rate"))})
+        residual = {"rms": 0.1, "left_out_rms": 0.1, "recording_rms": 1.0, "unit": "N"}
+        value = {"name": "mu", "unit": "", "value": 0.3, "low": 0.2, "high": 0.4, "main": True}
+        fit = tactus.Fit({"kind": "friction", "verdict": "good", "parameters": [value], "lacking": [], "notes": [], "residual": residual, "rows": 10})
+        return [check, check.conditions[0], limits, tactus.Interval(0.0, 1.0, True, True), fit, fit.values["mu"], tactus.Devices([condition] * 20),
+                tactus.Event(3, "turn", "drag.mu", "text " * 100), tactus.Log({"t": np.zeros(3)}, units={}, rate_hz=4000.0)]
 
     def test_every_public_class_has_a_short_one(self):
         objects = self.objects()

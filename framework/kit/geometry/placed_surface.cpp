@@ -2,7 +2,6 @@
 #include "placed_surface.hpp"
 
 #include <array>
-#include <numeric>
 #include <utility>
 
 namespace tactus
@@ -62,7 +61,7 @@ PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, co
     laws.reserve (surface->curves.size());
     for (const auto& nodes : surface->curves)
         laws.push_back (lawsOf (nodes));
-    alike = std::ranges::all_of (laws, [] (const Laws& its) { return its.of_node.empty(); });
+    alike = std::ranges::all_of (laws, [] (const Laws& its) { return its.sets.size() == 1; });
     across.reserve (std::max (mesh_walk.mesh().points.size(), surface->frames.size()));
     if (surface->frames.empty())
         for (const auto& n : normalsOf (mesh_walk.mesh()))
@@ -81,13 +80,7 @@ PlacedSurface::Laws PlacedSurface::lawsOf (const std::vector<Surface::Curves>& c
         const auto same = std::ranges::find (laws.sets, c);
         laws.of_node.push_back (static_cast<int> (same - laws.sets.begin()));
         if (same == laws.sets.end()) laws.sets.push_back (c);
-        if (laws.sets.size() > at (most_sets))   // too many to be worth it
-        {
-            laws.sets = curves;
-            laws.of_node.resize (curves.size());
-            std::iota (laws.of_node.begin(), laws.of_node.end(), 0);
-            return laws;
-        }
+        if (laws.sets.size() > at (most_sets)) return {};   // evaluating each once would take as long
     }
     if (laws.sets.size() == 1) laws.of_node.clear();
     return laws;
@@ -153,15 +146,15 @@ Vec3 PlacedSurface::forceOf (const Foot& foot, const ContactSample& felt, const 
     std::array<double, at (most_sets)> energies {};
     const bool few = setsOf (tool) <= most_sets;
     if (few)
-        eachShape (tool, [&] (const Laws& its, int first, double) {
-            for (std::size_t k = 0; k < its.sets.size(); ++k)
-                energies[at (first) + k] = energyOf (its.sets[k], felt.d);
+        eachShape (tool, [&] (int shape, int first, double) {
+            const auto& sets = laws[at (shape)].sets;
+            for (std::size_t k = 0; k < sets.size(); ++k)
+                energies[at (first) + k] = energyOf (sets[k], felt.d);
         });
     force -= smooth_body.meanSlope (foot, motion, [&] (int node) {
         double number = turns ? twist / length * y.dot (acrossAt (node, tool)) : 0.0;
-        eachShape (tool, [&] (const Laws& its, int first, double amount) {
-            const auto set = its.of_node[at (node)];
-            number += amount * (few ? energies[at (first + set)] : energyOf (its.sets[at (set)], felt.d));
+        eachShape (tool, [&] (int shape, int first, double amount) {
+            number += amount * (few ? energies[at (first + laws[at (shape)].of_node[at (node)])] : energyOf (curvesAt (shape, node), felt.d));
         });
         return number;
     });

@@ -80,17 +80,23 @@ private:
     double radiusOf (int tool) const noexcept { return radii.empty() ? 0.0 : radii[radii.size() == 1 ? 0 : at (tool)]; }
     Vec3 acrossAt (int node, const Tool&) const noexcept;
 
-    /// The curves of a shape. Nodes often share a set of them, and then each set is evaluated once.
+    /// The different curves of a shape. Nodes often share a set of them, and then each set is evaluated once.
     struct Laws
     {
-        std::vector<Surface::Curves> sets;   // all different, if there are at most most_sets
-        std::vector<int> of_node;            // empty if there is one set
+        std::vector<Surface::Curves> sets;   // empty if there are more than most_sets
+        std::vector<int> of_node;            // empty if there are no sets, or one
     };
     static Laws lawsOf (const std::vector<Surface::Curves>& curves);
+    const Surface::Curves& curvesAt (int shape, int node) const noexcept
+    {
+        const auto& its = laws[at (shape)];
+        return its.sets.empty() ? surface->curves[at (shape)][at (node)] : its.sets[at (its.of_node[at (node)])];
+    }
+
     static constexpr int most_sets = 8;   // of the shapes of a tool; with more, the curves of each node are evaluated
     int setsOf (const Tool&) const noexcept;
 
-    /// Calls `use (laws, number of their first set, amount)` for each shape of a tool whose nodes differ.
+    /// Calls `use (shape, number of its first set, amount)` for each shape of a tool whose nodes differ.
     template <typename Use>
     void eachShape (const Tool&, const Use& use) const noexcept;
 
@@ -156,7 +162,10 @@ inline int PlacedSurface::setsOf (const Tool& tool) const noexcept
 {
     int count = 0;
     for (int i = 0; i < tool.count; ++i)
-        count += static_cast<int> (std::min (laws[at (tool.shares[at (i)].shape)].sets.size(), at (most_sets + 1)));
+    {
+        const auto& sets = laws[at (tool.shares[at (i)].shape)].sets;
+        count += sets.empty() ? most_sets + 1 : static_cast<int> (sets.size());
+    }
     return count;
 }
 
@@ -165,11 +174,13 @@ void PlacedSurface::eachShape (const Tool& tool, const Use& use) const noexcept
 {
     int first = 0;
     for (int i = 0; i < tool.count; ++i)
-        if (const auto& its = laws[at (tool.shares[at (i)].shape)]; ! its.of_node.empty())
-        {
-            use (its, first, tool.shares[at (i)].amount);
-            first += static_cast<int> (its.sets.size());
-        }
+    {
+        const auto& [shape, amount] = tool.shares[at (i)];
+        const auto sets = laws[at (shape)].sets.size();
+        if (sets == 1) continue;
+        use (shape, first, amount);
+        first += static_cast<int> (sets);
+    }
 }
 
 template <typename T, typename Of>
@@ -177,22 +188,23 @@ T PlacedSurface::meanOf (const Foot& foot, const Tool& tool, const T& zero, cons
 {
     T all = zero;
     for (int i = 0; i < tool.count; ++i)
-        if (const auto& [shape, amount] = tool.shares[at (i)]; laws[at (shape)].of_node.empty()) all += amount * of (laws[at (shape)].sets[0]);
+        if (const auto& [shape, amount] = tool.shares[at (i)]; laws[at (shape)].sets.size() == 1) all += amount * of (laws[at (shape)].sets[0]);
     if (alike) return all;
     if (const int count = setsOf (tool); count <= most_sets)
     {
-        using Amounts = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_sets, 1>;
+        using Amounts = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::DontAlign, most_sets, 1>;
         const Amounts amounts = smooth_body.mean (foot, Amounts (Amounts::Zero (count)), [&] (Amounts& sum, int node, double weight) {
-            eachShape (tool, [&] (const Laws& its, int first, double amount) { sum[first + its.of_node[at (node)]] += amount * weight; });
+            eachShape (tool, [&] (int shape, int first, double amount) { sum[first + laws[at (shape)].of_node[at (node)]] += amount * weight; });
         });
-        eachShape (tool, [&] (const Laws& its, int first, double) {
-            for (std::size_t k = 0; k < its.sets.size(); ++k)
-                if (const double amount = amounts[first + static_cast<int> (k)]; amount > 0.0) all += amount * of (its.sets[k]);
+        eachShape (tool, [&] (int shape, int first, double) {
+            const auto& sets = laws[at (shape)].sets;
+            for (std::size_t k = 0; k < sets.size(); ++k)
+                if (const double amount = amounts[first + static_cast<int> (k)]; amount > 0.0) all += amount * of (sets[k]);
         });
         return all;
     }
     all += smooth_body.mean (foot, zero, [&] (T& sum, int node, double weight) {
-        eachShape (tool, [&] (const Laws& its, int, double amount) { sum += weight * amount * of (its.sets[at (its.of_node[at (node)])]); });
+        eachShape (tool, [&] (int shape, int, double amount) { sum += weight * amount * of (curvesAt (shape, node)); });
     });
     return all;
 }

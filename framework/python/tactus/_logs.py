@@ -14,6 +14,7 @@ from ._assets import Assets, reader
 from ._checks import Array, Path
 from ._graph import Graph, checked_graph
 from ._records import Layout, Records, to_json
+from ._views import plain
 
 
 class Event(NamedTuple):
@@ -24,6 +25,9 @@ class Event(NamedTuple):
     kind: str
     name: str
     value: Any
+
+    def __repr__(self) -> str:
+        return f"<tactus.Event at tick {self.tick}: {plain(self.kind)} {plain(self.name)}>"
 
 
 class Log(Records):
@@ -53,7 +57,7 @@ class Log(Records):
 
 @_checks.arguments
 def read_log(log: Path, *, start: float = 0.0, until: Optional[float] = None) -> Log:
-    """Reads a log of `tactus play --log`, of a session or of an engine, packed or not. Nothing is played.
+    """Reads a log of `tactus play`, of a session or of an engine, packed or not. Nothing is played.
 
     start, until: the part that is read, in s of ticks; without `until`, to the end. A long log needs tactus.set_limits("numbers=1G")."""
     rows, about = _read(_tactus.read_log(_checks.path("log", log), *_part(start, until)))
@@ -69,7 +73,7 @@ def read_log(log: Path, *, start: float = 0.0, until: Optional[float] = None) ->
 @_checks.arguments
 def replay(log: Path, graph: Optional[Graph] = None, *, record: Optional[Sequence[str]] = None, set: Optional[Mapping[str, Any]] = None,
            start: float = 0.0, until: Optional[float] = None, assets: Optional[Assets] = None) -> Records:
-    """Plays a logged run again, as `tactus render --replay` does, with the same bits. No device moves.
+    """Plays a logged run again, as `tactus render` does, with the same bits. No device moves.
 
     graph: played instead of that of the log. record: ports; without any, the inputs of all sinks. set: values of parameters. start, until: the ticks that
     are returned, in s; all before them are played, too. assets: as in Graph.render."""

@@ -45,9 +45,12 @@ class Condition(NamedTuple):
         """True for the verdicts "unstable" and "broken"."""
         return self.verdict in ("unstable", "broken")
 
+    def __repr__(self) -> str:
+        return f"<tactus.Condition {plain(self.id)} of {plain(self.role)}: {plain(self.verdict)}>"
+
 
 class Check:
-    """The conditions of a graph on its devices. json: all that `tactus check --json` prints. conditions: those that were judged. not_judged: what has no
+    """The conditions of a graph on its devices. json: all that `tactus check` prints as JSON. conditions: those that were judged. not_judged: what has no
     verdict, each with `what` and `why`. scope: the motion and the places along which it was judged."""
 
     def __init__(self, report: Dict[str, Any]):
@@ -64,7 +67,7 @@ class Check:
 
     def __repr__(self) -> str:
         broken = [f"{c.id} of {plain(c.role)}" for c in self.conditions if c.is_broken]
-        return f"<tactus.Check: {'broken: ' + ', '.join(broken) if self.is_broken else 'no judged condition is broken'}; {plain(self.scope, 200)}>"
+        return f"<tactus.Check: {'broken: ' + ', '.join(broken) if self.is_broken else 'no judged condition is broken'}; {plain(self.scope, 80)}>"
 
     def _repr_html_(self) -> str:
         rows = [(c.role, c.node, c.id, c.verdict, _with_unit(c.value, c.unit), _with_unit(c.limit, c.unit), c.text) for c in self.conditions]
@@ -83,7 +86,7 @@ class Interval(NamedTuple):
 
 
 class Limits:
-    """How stiff, damped and slow the heaviest contact of a graph may be. json: all that `tactus limits --json` prints. stiffness (N/m), damping (N s/m),
+    """How stiff, damped and slow the heaviest contact of a graph may be. json: all that `tactus limits` prints as JSON. stiffness (N/m), damping (N s/m),
     rate (Hz): of the contact as it is. passive, stable: the ranges of "stiffness", "damping" and "rate", each by itself; None if there is none. The rule of
     `passive` is sufficient, not necessary. points, columns: with steps, the points of the regions."""
 
@@ -137,7 +140,7 @@ class FitValue(NamedTuple):
 class Fit:
     """A fit of a recording. values: the parameters by name. is_good: the verdict; lacking: what makes it poor, and which data would help. residual,
     left_out_residual, size: root mean squares of what is left, of the same on a part that was left out, and of the recording, in residual_unit. graph: a
-    preset in which it can be felt. json: all that `tactus fit --json` prints, and the picture."""
+    preset in which it can be felt. json: all that `tactus fit` prints as JSON, and the picture."""
 
     def __init__(self, report: Dict[str, Any]):
         self.json = report
@@ -183,7 +186,10 @@ class Fit:
 
 
 class Devices(List[Dict[str, Any]]):
-    """Devices as `tactus devices --json` lists them: a dict for each."""
+    """Devices as `tactus devices` lists them in JSON: a dict for each."""
+
+    def __repr__(self) -> str:
+        return f"<tactus.Devices: {len(self)}>"
 
     def _repr_html_(self) -> str:
         return _table(("device", "profiles", "may be opened"), [(d.get("product") or d.get("port") or d.get("name", ""),

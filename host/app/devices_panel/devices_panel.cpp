@@ -146,6 +146,7 @@ void remove (Json& binding, const std::string& pointer)
 
 DevicesPanel::DevicesPanel (Document& d, LiveRun& r, DeviceSetup& s) : document (d), run (r), setup (s)
 {
+    setTitle (TRANS ("Devices"));
     scroll.setViewedComponent (&sheet, false);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);

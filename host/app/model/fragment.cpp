@@ -95,7 +95,7 @@ graph::Graph fragmentOf (const graph::Graph& g, const std::string& patch_name, c
         if (roles.contains (role) || ! copied.graphs.empty()) copied.devices.emplace_back (role, device);   // a subgraph may have roles inside
     for (auto c : g.controls)
     {
-        std::erase_if (c.to, [&] (const auto& t) { return ! names.contains (graph::firstNameOf (t.path)); });
+        std::erase_if (c.to, [&] (const auto& t) { return ! names.contains (graph::firstNameOf (t.path.substr (0, t.path.find ('.')))); });
         if (! c.to.empty()) copied.controls.push_back (std::move (c));
     }
     return copied;

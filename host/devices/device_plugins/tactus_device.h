@@ -176,13 +176,23 @@ typedef struct tactus_device_found
     uint32_t state;   /**< TACTUS_DEVICE_IN_USE | … */
 } tactus_device_found;
 
+#define TACTUS_DEVICE_FOUND_INIT              \
+    {                                         \
+        sizeof (tactus_device_found), 0, 0, 0 \
+    }
+
 /** Takes the devices that `find` finds. */
 typedef struct tactus_device_finder
 {
     uint32_t size;
     void* context;
-    void (*add) (void* context, const tactus_device_found*); /**< copies what it gets */
+    void (*add) (void* context, const tactus_device_found*); /**< copies what it gets [opening thread] */
 } tactus_device_finder;
+
+#define TACTUS_DEVICE_FINDER_INIT           \
+    {                                       \
+        sizeof (tactus_device_finder), 0, 0 \
+    }
 
 /** The type of the exported symbol `tactus_device_entry`. `device` is what `open` returned. */
 typedef struct tactus_device_driver

@@ -208,9 +208,11 @@ TEST_CASE ("what is there but cannot be felt is a problem, and a click wires it"
     {
         auto g = graphOf (R"("nodes":{)" + ends + R"(,"ridges":{"type":"texture.grating"}},
             "wires":["hand.position -> wall.position","wall.force -> motor.force","ridges.force -> motor.force"])");
-        CHECK (idsOf (g) == std::vector<std::string> { "node/no_input" });
+        CHECK (idsOf (g) == std::vector<std::string> { "node/no_input", "mixer/none" });
         REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
         CHECK (hasWire (g, "hand.position -> ridges.position"));
+        REQUIRE (idsOf (g) == std::vector<std::string> { "mixer/none" });
+        REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
         CHECK (unfeltIn (g).empty());
     }
     SECTION ("an empty layer and a clip without a file")
