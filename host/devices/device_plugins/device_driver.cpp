@@ -211,7 +211,9 @@ namespace
 void addFound (void* context, const tactus_device_found* found) noexcept
 {
     constexpr std::size_t most_found = 1000;
-    auto& [driver, all] = *static_cast<std::pair<std::string, std::vector<FoundByDriver>>*> (context);
+    auto& of = *static_cast<std::pair<std::string, std::vector<FoundByDriver>>*> (context);
+    auto& driver = of.first;
+    auto& all = of.second;
     if (found == nullptr || found->size < sizeof *found || all.size() >= most_found) return;
     static_cast<void> (caught ({}, [&] {
         Json description { { "driver", driver } };

@@ -84,7 +84,7 @@ void read (const char* given, const std::vector<Option>& options)
     if (! json || ! json->is_object()) refuseOption ("options", "this is not a JSON object", "give an object, or NULL");
     for (const auto& [key, value] : json->items())
     {
-        const auto option = std::ranges::find_if (options, [&] (const Option& o) { return o.name == key; });
+        const auto option = std::ranges::find_if (options, [&name = key] (const Option& o) { return o.name == name; });
         if (option != options.end())
         {
             option->read (value);
