@@ -11,7 +11,6 @@
 #include <iterator>
 #include <utility>
 
-using tactus::Json;
 using tactus::Message;
 using namespace tactus::capi;
 

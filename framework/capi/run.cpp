@@ -376,8 +376,9 @@ tactus_result tactus_run_stop (tactus_run* r)
                 device->end();
         r->has_ended = true;   // before the log ends, so that a tick thread of the caller adds nothing to it
         auto ended = r->run->finish();
-        if (! ended) r->log_trouble = std::move (ended).error();
-        return ended ? TACTUS_OK : TACTUS_FAILED;
+        if (ended) return TACTUS_OK;
+        r->log_trouble = std::move (ended).error();
+        return TACTUS_FAILED;
     });
 }
 
