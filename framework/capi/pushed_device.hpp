@@ -161,7 +161,7 @@ private:
     DeviceLayout has;
     Seconds now_s;
     StepMotion motion;           // [tick thread]
-    bool is_simulated = false;   // by the program: nobody holds it
+    bool is_simulated = false;   // by the program, so no person holds it
     Snapshot<Pushed> readings;
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]

@@ -77,7 +77,7 @@ tactus_result isNull() noexcept { return misuse ("a handle or pointer is NULL");
 tactus_result notOpen() noexcept { return misuse ("the run is not open: call tactus_run_open first"); }
 tactus_result notPushed() noexcept { return misuse ("the role has no device of tactus_run_pushed_device, or the run is not open"); }
 
-/// What the device does between steps; empty if the caller's values are none of their types.
+/// The motion of a device between steps. Empty if the caller's values are none of their types.
 std::optional<tactus::StepMotion> rulesOf (const tactus_device_options& o) noexcept
 {
     using Motion = tactus::StepMotion;

@@ -10,7 +10,7 @@ using namespace tactus::capi;
 
 namespace
 {
-/// What this API adds to the state: where the controls stand, and what remains of a step.
+/// The part of a state that this API adds: where the controls stand, and the rest of a step.
 tactus::Run::MoreState moreOf (tactus_run& r)
 {
     return [&r] (tactus::StateArchive& archive) {

@@ -332,7 +332,7 @@ typedef enum tactus_between
     TACTUS_BY_VELOCITY = 2 /**< where the new reading and its velocity lead in i - 1 periods */
 } tactus_between;
 
-/** What tactus_run_take returns after a step. */
+/** The effort that tactus_run_take returns after a step. */
 typedef enum tactus_step_effort
 {
     TACTUS_LAST_TICK = 0, /**< the effort of the last tick of the step */
@@ -358,7 +358,7 @@ typedef struct tactus_device_options
     tactus_between between;
     tactus_step_effort step_effort;
 
-    int simulated; /**< 1: your program simulates the device, and nobody holds it. Only then can the run be saved and restored, because a state may step
+    int simulated; /**< 1: your program simulates the device, and no person holds it. Only then can the run be saved and restored, because a state may step
                         the effort */
 } tactus_device_options;
 

@@ -355,7 +355,7 @@ void Engine::resume() noexcept
 
 void Engine::serialize (StateArchive& archive)
 {
-    // What was set since the last tick is part of the state. If nothing has ticked yet, what is set later still applies at once.
+    // Values set since the last tick are part of the state. If nothing has ticked yet, values that are set later still apply at once.
     touched.exchange (false, std::memory_order_acquire);
     applyStops();
     running->plan->applyTurns (journal);

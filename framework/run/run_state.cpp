@@ -40,7 +40,8 @@ Message refused (std::string id, std::string why, std::string remedy) { return M
 /// Why a state with another head does not fit.
 Message otherHead (std::string_view state, std::string_view expected)
 {
-    if (! state.starts_with (magic)) return refused ("state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged");
+    if (! state.starts_with (magic))
+        return refused ("state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged");
     const auto wordOf = [] (std::string_view head, int n) {
         head.remove_prefix (magic.size());
         for (; n > 0 && head.find (' ') != std::string_view::npos; --n)
@@ -49,15 +50,18 @@ Message otherHead (std::string_view state, std::string_view expected)
     };
     for (int n = 0; n < 3; ++n)
         if (wordOf (state, n) != wordOf (expected, n))
-            return refused ("state/format", "the state was saved by another version of Tactus, " + quote (wordOf (state, 1).substr (0, 20)) + "; this is " + quote (version),
+            return refused ("state/format",
+                            "the state was saved by another version of Tactus, " + quote (wordOf (state, 1).substr (0, 20)) + "; this is " + quote (version),
                             "save it again with this version: a state is not a file format that outlives a version");
-    return refused ("state/graph", "the state is that of another graph, or of this one at another rate", "restore it into a run of the graph that it was saved from");
+    return refused ("state/graph", "the state is that of another graph, or of this one at another rate",
+                    "restore it into a run of the graph that it was saved from");
 }
 }   // namespace
 
 std::optional<Message> Run::cannotSave() const
 {
-    if (runner) return refused ("state/live", "a clock ticks the run, so it has no state at rest", "save and restore in a loop of your own, which ticks the run");
+    if (runner)
+        return refused ("state/live", "a clock ticks the run, so it has no state at rest", "save and restore in a loop of your own, which ticks the run");
     if (running == nullptr) return refused ("state/live", "nothing has been loaded", "load a graph first");
     if (&running->newest() != &running->plan())
         return refused ("state/edit", "an edit waits for the next tick, which will begin with its plan", "run a tick, then save or restore");

@@ -45,7 +45,7 @@ public:
         return ticks;
     }
 
-    /// What remains of a period belongs to the state of the loop, beside that of the run. [tick thread]
+    /// The rest of a period belongs to the state of the loop, beside that of the run. [tick thread]
     void serialize (auto& archive) { archive (remainder); }
 
 private:

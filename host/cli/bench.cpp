@@ -21,7 +21,8 @@ void addBench (const Command& app)
         if (wants_help && ! std::filesystem::exists (program, unseen))
         {
             std::cout << "Compare Tactus with hand-written code, JUCE and Faust on this machine\n\n"
-                         "The program that does this, tactus-bench, is not next to this one, so its options are not known here. Build the target tactus-bench.\n";
+                         "The program that does this, tactus-bench, is not next to this one, so its options are not known here. "
+                         "Build the target tactus-bench.\n";
             return;
         }
         const auto why = becomeProgram (program, arguments);

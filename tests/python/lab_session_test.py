@@ -386,7 +386,7 @@ class OnDevices(Case):
         self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 40)
 
         def key(trial):
-            return "1\n" if trial % 3 else "2\n"   # the same answers, whoever gives them
+            return "1\n" if trial % 3 else "2\n"   # the same answers in each run
 
         def run(out, first, kills_at, resume):
             """Answers from trial `first` on, each when it is asked for. Kills the program at a question; with None, waits for its end."""

@@ -80,12 +80,13 @@ std::vector<std::size_t> TrialStarts::places() const
         const auto& slopes = demand.roles[r].slopes;
         if (slopes.size() != demand.linked.size() || slopes.empty() || tools.owners[r].axis != -1) continue;
         const auto forceOf = [] (const Slope& s) { return s.force.norm(); };
+        const auto speedOf = [&] (const Slope& s) { return speedAt (tools.owners[r].tool, tickOf (s.t_s)).norm(); };
         pick (static_cast<std::size_t> (std::ranges::max_element (slopes, {}, forceOf) - slopes.begin()));
         std::size_t fastest = 0, lightest = slopes.size();
         const double light = 0.3 * forceOf (*std::ranges::max_element (slopes, {}, forceOf));   // a tool that is hardly pressed takes long to settle
         for (std::size_t i = 0; i < slopes.size(); ++i)
         {
-            if (speedAt (tools.owners[r].tool, tickOf (slopes[i].t_s)).norm() > speedAt (tools.owners[r].tool, tickOf (slopes[fastest].t_s)).norm()) fastest = i;
+            if (speedOf (slopes[i]) > speedOf (slopes[fastest])) fastest = i;
             if (slopes[i].force.norm() > light && (lightest == slopes.size() || forceOf (slopes[i]) < forceOf (slopes[lightest]))) lightest = i;
         }
         pick (fastest);
@@ -159,7 +160,8 @@ bool TrialStarts::isCalm (std::size_t place) const
     if (place >= demand.linked.size()) return false;
     const double most = demand.linked[place].is_smooth ? 0.5 : 0.25;
     for (std::size_t r = 0; r < demand.roles.size(); ++r)
-        if (! tools.isFree (r) || tools.owners[r].axis != -1 || place >= demand.roles[r].slopes.size() || ! isLoopKnown (r, place) || ! (loadOf (r, place) <= most))
+        if (! tools.isFree (r) || tools.owners[r].axis != -1 || place >= demand.roles[r].slopes.size() || ! isLoopKnown (r, place)
+            || ! (loadOf (r, place) <= most))
             return false;
     return true;
 }

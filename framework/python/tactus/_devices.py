@@ -27,7 +27,7 @@ class PushedDevice(NamedTuple):
     step_effort: what `take` returns after the step: "last": the effort of the last tick; "mean": the mean over the step. docs/steps.md has the delay of
     each.
 
-    simulated: True if your program simulates the device, and nobody holds it. Only then can Engine.save and Engine.restore be used, because a state may
+    simulated: True if your program simulates the device, and no person holds it. Only then can Engine.save and Engine.restore be used, because a state may
     step the effort."""
 
     axes: Sequence[str] = ()
@@ -67,7 +67,7 @@ def described(role: str, device: PushedDevice) -> Dict[str, Any]:
              for key, choices in (("between", ("hold", "linear", "by_velocity")), ("step_effort", ("last", "mean")))}
     guard = device.guard if device.guard is None else _checks.mapping(f"{at}.guard", device.guard, "{'max_force': '3 N'}")
     if not isinstance(device.simulated, bool):
-        _checks.refuse(f"{at}.simulated", device.simulated, "True or False", "give True only if nobody holds the device")
+        _checks.refuse(f"{at}.simulated", device.simulated, "True or False", "give True only if no person holds the device")
     return {**names, **counts, **rules, "simulated": device.simulated, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
 
 

@@ -43,7 +43,8 @@ std::string textOf (const ChangedReading& changed)
         if (const auto& [key, first, size] = reading_fields[i]; (changed.fields >> i & 1u) != 0)
             add (key, size == 1 ? logNumber (changed.reading.numbers[first]) : listOf (std::span (changed.reading.numbers).subspan (first, size)));
     for (std::size_t i = 0; i < channel_count; ++i)
-        if ((changed.fields >> (std::size (reading_fields) + i) & 1u) != 0) add (channel_fields[i].key, listOf (valuesOf (changed.reading.*channel_fields[i].value)));
+        if ((changed.fields >> (std::size (reading_fields) + i) & 1u) != 0)
+            add (channel_fields[i].key, listOf (valuesOf (changed.reading.*channel_fields[i].value)));
     return Json (changed.role).dump() + ":{" + text + "}";
 }
 

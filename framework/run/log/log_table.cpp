@@ -76,7 +76,7 @@ Json headJson (const RunHead& head)
     return { { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "clocks", head.clocks } };
 }
 
-/// What happened on a tick besides readings and feeds.
+/// The events of a tick besides readings and feeds.
 void note (Json& events, const RunTick& tick)
 {
     const auto add = [&] (const char* kind, const std::string& name, Json value) {

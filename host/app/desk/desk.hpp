@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// The things that the panels of a window share: what they show, what they ask the window for, and what they offer each other. A function does nothing, or returns
-/// nothing, until the window or a panel has set it, so a test sets those that its panel needs. All of it outlives the panels. [main thread]
+/// The things that the panels of a window share: what they show, what they ask the window for, and what they offer each other. A function does nothing, or
+/// returns nothing, until the window or a panel has set it, so a test sets those that its panel needs. All of it outlives the panels. [main thread]
 struct Desk
 {
     using Path = std::filesystem::path;
@@ -45,27 +45,31 @@ struct Desk
     /// Asks for a file that a setting names, beginning with a folder; empty: that of the user.
     std::function<void (const juce::String& patterns, const Path& begin, TakePath)> chooseInput = [] (const auto&, const auto&, const auto&) {};
 
-    std::function<void (const Path&)> openGraph = [] (const auto&) {};                                                                  ///< a preset that ships with Tactus is opened as a copy
+    /// Opens a graph; a preset that ships with Tactus as a copy.
+    std::function<void (const Path&)> openGraph = [] (const auto&) {};
     std::function<void (const graph::Graph&, const std::string& step, std::function<void()> then)> openMade = [] (const auto&...) {};   ///< an unsaved one
     std::function<void (const Path&)> preview = [] (const auto&) {};
     std::function<void()> endPreview = [] {};
-    std::function<void (const std::string& type)> addNode = [] (const auto&) {};                           ///< in the middle of the canvas
-    std::function<void (const std::string& patch, graph::Id)> show = [] (const auto&, graph::Id) {};       ///< selects it on the canvas, and brings it into view
-    std::function<void()> turnToCanvas = [] {};                                                            ///< in a small window, shows its page
-    std::function<void (const juce::Component& panel)> toFront = [] (const auto&) {};                      ///< brings the tab of a panel to the front
-    std::function<void (const juce::Component& panel)> reveal = [] (const auto&) {};                       ///< like toFront(), even if its tabs are folded
-    std::function<void()> leave = [] {};                                                                   ///< the keyboard goes back to the canvas
-    std::function<std::function<void()>()> useDevice = [] { return std::function<void()>(); };             ///< see HandPanel::useDevice()
-    std::function<Result<graph::Command> (const std::string& sink, const std::string& port)> layerOf {};   ///< the edit that makes a layer of a signal; must be set
+    std::function<void (const std::string& type)> addNode = [] (const auto&) {};   ///< in the middle of the canvas
+    /// Selects a node on the canvas, and brings it into view.
+    std::function<void (const std::string& patch, graph::Id)> show = [] (const auto&, graph::Id) {};
+    std::function<void()> turnToCanvas = [] {};                                                  ///< in a small window, shows its page
+    std::function<void (const juce::Component& panel)> toFront = [] (const auto&) {};            ///< brings the tab of a panel to the front
+    std::function<void (const juce::Component& panel)> reveal = [] (const auto&) {};             ///< like toFront(), even if its tabs are folded
+    std::function<void()> leave = [] {};                                                         ///< the keyboard goes back to the canvas
+    std::function<std::function<void()>()> useDevice = [] { return std::function<void()>(); };   ///< see HandPanel::useDevice()
+    /// The edit that makes a layer of a signal. Must be set.
+    std::function<Result<graph::Command> (const std::string& sink, const std::string& port)> layerOf {};
 
     // Panels set these for each other, and for the window.
     std::function<void (const Ports&)> probe = [] (const auto&) {};                        ///< shows or hides them in a scope
     std::function<Ports()> probed = [] { return Ports(); };                                ///< the ports that scopes show
     std::function<std::vector<Preset>()> presets = [] { return std::vector<Preset>(); };   ///< those that Tactus brings
     std::function<void (const Path&)> fitRecording = [] (const auto&) {};
-    std::function<void()> showProblems = [] {};                                                                        ///< brings the list of problems to the front
-    std::function<void (const Path&, std::optional<double> gain)> addClip = [] (const auto&, auto) {};                 ///< as a layer, with a gain in N
-    std::function<bool (const Path&)> recoverTake = [] (const auto&) { return false; };                                ///< copies and shows a take; false if that fails
+    std::function<void()> showProblems = [] {};                                                          ///< brings the list of problems to the front
+    std::function<void (const Path&, std::optional<double> gain)> addClip = [] (const auto&, auto) {};   ///< as a layer, with a gain in N
+    /// Copies and shows a take. False if that fails.
+    std::function<bool (const Path&)> recoverTake = [] (const auto&) { return false; };
     std::function<std::vector<scene::Reach>()> reaches = [] { return std::vector<scene::Reach>(); };                   ///< where devices can reach
     std::function<void (const std::string& role, const Vec3& origin)> moveOrigin = [] (const auto&, const auto&) {};   ///< of a workspace, in m
 

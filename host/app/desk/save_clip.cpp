@@ -51,7 +51,8 @@ void saveClipAs (const Desk& desk, const std::filesystem::path& file)
     const auto read = loadClip (file);
     if (! read) return desk.tell (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".");
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
-    desk.chooseOwnFile (file.stem().string() + other, [&desk, source = *read] (const auto& to) { static_cast<void> (saveClip (desk, source.clip, {}, {}, to, &source)); });
+    desk.chooseOwnFile (file.stem().string() + other,
+                        [&desk, source = *read] (const auto& to) { static_cast<void> (saveClip (desk, source.clip, {}, {}, to, &source)); });
 }
 
 }   // namespace tactus::host

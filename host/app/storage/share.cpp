@@ -31,7 +31,8 @@ Result<> sharePreset (const graph::Graph& g, const std::filesystem::path& file)
     auto pack = presetPack (files);
     if (! pack && pack.error().id == "pack/outside")
         return Message::error ("share/outside", file.string(), pack.error().text,
-                               TRANS ("copy that file into the folder of the graph, under a name that does not begin with a point, and choose it there").toStdString());
+                               TRANS ("copy that file into the folder of the graph, under a name that does not begin with a dot, and choose it there")
+                                   .toStdString());
     if (! pack && pack.error().id == "pack/name")
         return Message::error ("share/name", file.string(), pack.error().text, TRANS ("rename that file, and choose it again").toStdString());
     if (! pack) return Message::error (pack.error().id, file.string(), pack.error().text, pack.error().remedy);

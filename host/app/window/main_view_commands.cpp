@@ -136,7 +136,8 @@ bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
     const bool stops = playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops());
     if (stops) stopBy (key);
     if (patching.cancelDrag() || stops) return true;   // the next Esc closes what is open
-    if (! help.isOpen() || question.isOpen() || openCover() != nullptr || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0) return false;
+    const bool has_dialog = question.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0;
+    if (! help.isOpen() || openCover() != nullptr || has_dialog) return false;
     help.close();   // even while a field has the keyboard, which would keep the key
     return true;
 }

@@ -152,7 +152,8 @@ void MainView::askForRecording()
 {
     std::error_code failed;
     const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory).getFullPathName().toStdString();
-    dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", std::filesystem::is_directory (recordings, failed) ? recordings : std::filesystem::path (home_folder),
+    dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav",
+                  std::filesystem::is_directory (recordings, failed) ? recordings : std::filesystem::path (home_folder),
                   [this] (const std::filesystem::path& file) {
                       recordings = file.parent_path();
                       fitRecordingIn (file);

@@ -36,7 +36,7 @@ Files::Callbacks MainView::fileCallbacks()
     };
 }
 
-/// What panels ask the window for.
+/// Sets the functions that panels ask the window for.
 void MainView::setDesk()
 {
     desk.hint = [this] (const juce::String& text) { status.hint (text); };

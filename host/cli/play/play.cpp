@@ -347,7 +347,8 @@ void addPlay (const Command& app)
         .oneValueEach();
 #if ! defined(__linux__)
     command.addFlag ("--untried", options->untried,
-                     "Open devices with forces, although nothing brings them to rest if this program dies, and none was tried on this system (docs/windows.md)");
+                     "Open devices with forces, although nothing brings them to rest if this program dies, and none was tried on this system "
+                     "(docs/windows.md)");
 #endif
     command.addFlag ("--fuse", options->fuse,
                      "Compile the graph while it plays, and switch to the compiled code, which computes the same in less time (docs/fusion.md)");

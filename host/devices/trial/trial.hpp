@@ -66,7 +66,7 @@ Json tryDevice (Device&, const GuardLimits&, const TrialSetting&, TrialPerson&);
 /// The lines of a report for people.
 std::string trialText (const Json& report);
 
-/// What a report says about a device, for `tactus check` at this rate. The delay is in whole ticks, rounded up. Id: trial/format.
+/// The numbers of a device in a report, for `tactus check` at this rate. The delay is in whole ticks, rounded up. Id: trial/format.
 Result<DeviceNumbers> trialNumbers (const Json& report, double rate_hz);
 
 /// Computes the captured runs of a report again, without a device. The largest difference of a force, in N. Ids: trial/format, those of the graphs.

@@ -61,7 +61,10 @@ Result<> readRoles (FitSettings& to, FitKind kind, const std::string& key, const
         else if (key == "units")
         {
             const auto factor = column->unit.empty() ? std::nullopt : factorOf (text, column->unit);
-            if (! factor) return wrong ("units/" + role, quote (text) + " does not fit", column->unit.empty() ? "leave it out: the column may have any unit" : "give what 1 in the column means, such as \"1 " + column->unit + "\"");
+            if (! factor)
+                return wrong ("units/" + role, quote (text) + " does not fit",
+                              column->unit.empty() ? "leave it out: the column may have any unit"
+                                                   : "give what 1 in the column means, such as \"1 " + column->unit + "\"");
             to.columns.units[role] = *factor;
         }
         else if (text == "+" || text == "-")

@@ -101,7 +101,7 @@ std::string textOf (const FitReport&);
 /// The report as data, in SI units. An infinite bound is null.
 Json jsonOf (const FitReport&);
 
-/// What `tactus fit --json` prints about the fit of a recording, whose preset is in this file.
+/// The JSON of `tactus fit --json`, about the fit of a recording whose preset is in this file.
 Json jsonOf (const FittedGraph&, const std::string& recording, const std::string& preset);
 
 /// An error if the nodes refuse the fitted values. Id: fit/preset.

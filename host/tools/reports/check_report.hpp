@@ -28,7 +28,7 @@ public:
     CheckReport (const CheckReport&) = delete;   // `judge` points to `trials`
     CheckReport& operator= (const CheckReport&) = delete;
 
-    /// What `tactus check --json` prints.
+    /// The JSON of `tactus check --json`.
     Json json() const { return check::toJson (demand, devices, conditions, judge); }
 
     check::Demand demand;

@@ -132,9 +132,11 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
         refuse (Message::error ("limits/no_contact", "", "the hand feels no force that depends on its position, so there is nothing to limit",
                                 "another motion of the hand: --sweep, --device ROLE=gesture:NAME or --device ROLE=trace:FILE.csv; or another --role"));
     if (! is_known)
-        refuse (Message::error ("limits/no_loop", "", "the force takes more than 64 ticks to settle after a step of the tool, or does not respond in the same way on every "
-                                                      "tick, so its loop is not known",
-                                "a filter with a higher cutoff, or a lower --rate; sections that run on every tick: leave out `every`; or choose another --role"));
+        refuse (Message::error ("limits/no_loop", "",
+                                "the force takes more than 64 ticks to settle after a step of the tool, or does not respond in the same way on every "
+                                "tick, so its loop is not known",
+                                "a filter with a higher cutoff, or a lower --rate; sections that run on every tick: leave out `every`; or choose "
+                                "another --role"));
     requireNumber (role.device, role.device.numbers.mass, "mass");
     requireNumber (role.device, role.device.numbers.damping, "damping");
     way = motion;

@@ -31,7 +31,7 @@ public:
     LimitsReport (const LimitsReport&) = delete;
     LimitsReport& operator= (const LimitsReport&) = delete;
 
-    /// What `tactus limits --json` prints.
+    /// The JSON of `tactus limits --json`.
     Json json() const;
 
     /// The same, with the points of all views: `columns` and `rows`. Values that are not finite are null.

@@ -86,7 +86,7 @@ struct Stem
     std::string role {};   ///< of the motor; "" if it is not known
 };
 
-/// What stems.json says about a file.
+/// The entry of a file in stems.json.
 Json describe (const WrittenStem& s)
 {
     const auto listOf = [] (const std::vector<std::string>& texts) {

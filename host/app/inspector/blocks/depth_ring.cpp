@@ -90,7 +90,7 @@ void DepthRing::mouseUp (const juce::MouseEvent& e)
     if (! std::exchange (is_held, false)) return;
     const bool ends = has_moved && modulation.depth == 0.0;
     if (! e.source.hasMovedSignificantlySincePressed()) takeFocus (*this);
-    if (ends && onEnd) onEnd (true);   // the last call: the row may be made anew
+    if (ends && onEnd) onEnd (true);   // last, because the row and this ring may be replaced
 }
 
 bool DepthRing::keyPressed (const juce::KeyPress& key)

@@ -272,7 +272,7 @@ export class @C@ extends Graph<Inputs, Outputs, Param, Control, Hit, Role>
                      { "@C@", e.class_name } });
 }
 
-/// What npm, bundlers and Node.js read of the folder.
+/// The package.json of the folder, for npm, bundlers and Node.js.
 std::string package (const Exported& e)
 {
     const std::string stem = "./" + e.stem;
@@ -325,7 +325,8 @@ addEventListener ('pointerdown', async () => {   // browsers start sound only af
     node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module, gain: 0.3 } });
     node.connect (sound.destination);
     node.port.onmessage = ({ data: { level } }) =>
-        navigator.getGamepads?.().find (pad => pad?.vibrationActuator)?.vibrationActuator.playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, level) });
+        navigator.getGamepads?.().find (pad => pad?.vibrationActuator)?.vibrationActuator
+            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, level) });
 });
 addEventListener ('pointermove', at =>   // 0.1 mm for each pixel; a pressed pointer is 0.2 mm below z = 0
     node?.port.postMessage ({ position: [1e-4 * at.clientX, -1e-4 * at.clientY, at.buttons ? -2e-4 : 2e-4] }));

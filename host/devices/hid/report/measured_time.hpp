@@ -14,11 +14,11 @@ namespace tactus::host::hid
 ///        lag = (t - r s) - o,    o = min (o of the last reading + d T, t - r s)    T: time since the last reading, d: 1 %
 ///
 ///    r is the speed of the computer's clock divided by that of the device, measured over spans of 2 s, so the lag does not grow
-///    if the clock is always too fast or too slow. Before the end of the first span, the device counts as one without a clock. If the lag exceeds 0.1 s, the clock is wrong, and is
-///    measured again.
+///    if the clock is always too fast or too slow. Before the end of the first span, the device counts as one without a clock. If the lag
+///    exceeds 0.1 s, the clock is wrong, and is measured again.
 ///  - Otherwise, the tool is assumed to keep its speed if that is possible with a lag of at most a period, so jitter does not make it seem
-///    faster. After a silence, it cannot be known whether the reading is late or others are lost: if the tool has moved much less than its speed so far explains, the reading counts
-///    as late by up to the silence, until the motion after it shows that it was not.
+///    faster. After a silence, it cannot be known whether the reading is late or others are lost: if the tool has moved much less than its
+///    speed so far explains, the reading counts as late by up to the silence, until the motion after it shows that it was not.
 ///
 /// A tool that is slower than 5 cm/s gets no lag, as it moves little during a delay. A lag is at most the time since the last arrival plus the last lag,
 /// so measured times do not go back. The times between readings add up to the time between their arrivals, except for the lag, so a clock cannot hide a

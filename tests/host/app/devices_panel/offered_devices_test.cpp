@@ -25,7 +25,7 @@ std::vector<OfferedDevice> listed (const hid::LoadedProfiles& profiles)
     return all;
 }
 
-/// What drivers answer when they are asked.
+/// The answers of drivers that are asked.
 std::vector<OfferedDevice> foundByDrivers (Messages& messages)
 {
     messages.push_back (Message::error ("device/cannot_find", "", "the driver 'old' cannot look for devices", "name the device yourself"));

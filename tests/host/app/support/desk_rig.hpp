@@ -67,7 +67,7 @@ struct DeskRig
         return dynamic_cast<Component&> (*panel->component);
     }
 
-    /// What the window does many times a second.
+    /// Does the work that the window does many times a second.
     void refresh()
     {
         devices.follow();

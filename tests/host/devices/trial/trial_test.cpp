@@ -252,7 +252,7 @@ TEST_CASE ("a trial of a device that does not know its position asks for homing,
         CHECK (verdict (report, "homing") == "as expected");
         CHECK (contains (trialText (report), "after a person had homed it"));
     }
-    SECTION ("nobody does")
+    SECTION ("the person does not home it")
     {
         person.homes = false;
         const auto report = tryDevice (device, {}, setting(), person);
