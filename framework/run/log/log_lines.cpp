@@ -131,7 +131,7 @@ bool unpack (std::string_view from, PackedState& state, LogLine& to)
         for (std::uint64_t i = 0; i < count; ++i)
             if (! state.feed[i].take (from, (*to.feed)[i])) return false;
     }
-    return from.empty() && parts < 2 * has_feed;
+    return from.empty() && parts < std::size_t { 2 } * has_feed;
 }
 }   // namespace
 
