@@ -10,11 +10,12 @@
 namespace tactus::host
 {
 
-Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c), seen_position (d.history().position())
+Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c)
 {
     setOpaque (true);
     setWantsKeyboardFocus (true);
     setTitle (TRANS ("Canvas"));
+    text_editor.onEscape = [this] { notice ({}); };   // no longer why the text was refused
     document.add (*this);
     rebuild();
 }
@@ -26,14 +27,14 @@ void Canvas::documentChanged()
     std::map<graph::Id, juce::Point<float>> before;
     for (const auto& n : shown->nodes())
         before[n.id] = n.at;
-    if (! document.isStepping()) beginEdit();
+    if (! document.isStepping()) views.begin (viewState());
     const auto previous = shown;
     const auto patch_before = patch();
-    const auto depth_before = entered.size();
-    updateBreadcrumbs();
+    const auto depth_before = breadcrumbs().size();
+    trail.follow();
     rebuild();
     patch() == patch_before ? repaintEdit (*previous) : repaint();
-    if (entered.size() != depth_before) frameStart();   // the patch that was shown is gone
+    if (breadcrumbs().size() != depth_before) frameStart();   // the patch that was shown is gone
     if (document.isStepping()) followStep (*previous);
     // A view that the user has not moved stays fitted when a node appears outside of it or is moved there, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {

@@ -3,14 +3,14 @@
 
 #include "commands.hpp"
 #include "minimap.hpp"
+#include "navigation/trail.hpp"
+#include "navigation/view_history.hpp"
 #include "paint/backdrop.hpp"
 
-#include <host/app/look/typing_timer.hpp>
-#include <host/app/model/patch.hpp>
+#include <host/app/look/text_overlay.hpp>
 #include <host/app/palette/search.hpp>
 
 #include <filesystem>
-#include <map>
 #include <optional>
 
 namespace tactus::host
@@ -58,11 +58,11 @@ public:
     void select (Selection);
     void selectBend (const Bend&);   ///< selects a bend and its wire
 
-    /// The subgraphs entered, from the outside in: the name of each node and of its subgraph.
-    using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
-    const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
-    std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
-    SeenPatch seen() const;   ///< the patch, and the way into it
+    using Breadcrumbs = Trail::Entries;
+    using Instance = Trail::Instance;
+    const Breadcrumbs& breadcrumbs() const noexcept { return trail.entries(); }
+    std::string patch() const { return trail.patch(); }
+    SeenPatch seen() const { return trail.seen(); }
     void leaveTo (std::size_t depth);
     void enter (const SceneNode&);   ///< no effect unless the node is a subgraph of this file
 
@@ -75,17 +75,9 @@ public:
     /// The current patch as it would look in another graph.
     std::shared_ptr<const Scene> sceneOf (const graph::Graph&);
 
-    /// The full path of a port in the current patch: "grain/wave.value"; with the numbers of the chosen instances: "finger[2]/drag.force".
-    std::string address (const std::string& port) const;
-
-    /// The instance of the current subgraph whose values are shown.
-    struct Instance
-    {
-        int number = 0, count = 1;
-
-        bool operator== (const Instance&) const = default;
-    };
-    std::optional<Instance> instance() const;   ///< empty if the subgraph has no `count`
+    /// See Trail.
+    std::string address (const std::string& port) const { return trail.address (port); }
+    std::optional<Instance> instance() const { return trail.instance(); }
     void chooseInstance (int number);
 
     void placeHint (int bottom);   ///< where the hint on an empty canvas ends, in px; by default just below the middle
@@ -93,11 +85,11 @@ public:
     void frameAll();
     void frameStart();   ///< as frameAll(), but labels stay readable: of a large patch, it shows the part around the hand, or around the first node
     void toggleMap();
-    void showMenuOfSelection();                                     ///< at the first selected node, wire or note, else in the middle; with the keyboard
-    bool isFitted() const { return framed && *framed == window; }   ///< the user has not moved the view since it was fitted to the patch
+    void showMenuOfSelection();                                ///< at the first selected node, wire or note, else in the middle; with the keyboard
+    bool isFitted() const { return viewState().isFitted(); }   ///< the user has not moved the view since it was fitted to the patch
 
     /// The view as it is now belongs to the latest edit: undoing the edit brings back the view from before.
-    void endEdit();
+    void endEdit() { views.end (viewState()); }
 
     /// Opens a text editor over part of the canvas. If `done` refuses the text, by false, Return leaves it for another try. Tab ends the editor and
     /// calls `next`, Shift+Tab with -1 instead of 1.
@@ -171,16 +163,7 @@ private:
         drag.reset();   // a drag may hold a row of a datasheet, so it ends where it is
         curves.clear();
     }
-    /// The view, and whether it is fitted to the patch.
-    struct ViewState
-    {
-        std::string patch;
-        View window;
-        std::optional<View> framed;
-        juce::Rectangle<float> framed_around;
-    };
     ViewState viewState() const { return { patch(), window, framed, framed_around }; }
-    void beginEdit();   ///< call before the view follows an edit
     void followStep (const Scene& before);
     void rebuild();
     TextWidth textWidth() const;
@@ -188,8 +171,6 @@ private:
     void repaintAround (juce::Rectangle<float> area);
     void repaintAlong (const juce::Path&);
     void frameAround (juce::Rectangle<float> focus);
-    std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
-    void updateBreadcrumbs();
     void breadcrumbsChanged();
     /// The object under the pointer: its id, a description, and the cursor to show.
     struct Hover
@@ -208,7 +189,6 @@ private:
     void dropClip (const std::filesystem::path&, juce::Point<float> at);
     void paintFileOver (juce::Graphics&) const;
     void showMenu (juce::Point<float> at, const juce::PopupMenu::Options& place);   ///< of what is at a point of the canvas
-    void closeEditor (bool keep);
 
     Document& document;
     CanvasCommands edits { *this, document };
@@ -221,25 +201,15 @@ private:
     View window;
     Highlights highlights;
     Backdrop backdrop;
-    Breadcrumbs entered;
-    std::map<std::string, int> chosen_instances;   // by the path of a subgraph node, without numbers
+    Trail trail { document };
     PointedPort pointed_at;
     std::unique_ptr<Drag> drag;
     std::size_t drag_begins_at = 0;   // position in the history
-    std::unique_ptr<juce::TextEditor> editor;
-    std::optional<TypingTimer> typing;   // of an editor of several lines
-    std::function<bool (const juce::String&)> on_edited;
-    std::function<void (int step)> on_tab;
+    TextOverlay text_editor { *this };
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
-    std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
-    juce::Rectangle<float> framed_around;        // what the fitted view shows if it cannot show the whole patch readably; empty: it shows all
-    /// The view before and after each step of the history that was made with this canvas.
-    struct ViewPair
-    {
-        ViewState before, after;
-    };
-    std::vector<ViewPair> views;
-    std::size_t seen_position;         // of the history
+    std::optional<View> framed;                  // see ViewState
+    juce::Rectangle<float> framed_around;
+    ViewHistory views { document };
     juce::Rectangle<float> laid_out;   // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     std::optional<int> hint_bottom;
     bool with_map = true;

@@ -117,40 +117,16 @@ void Canvas::repaintAlong (const juce::Path& path)
     cellsAlong ({ path, window.transform() }, getLocalBounds().toFloat(), around, [this] (juce::Rectangle<int> cell) { repaint (cell); });
 }
 
-void Canvas::beginEdit()
-{
-    const auto position = document.history().position();
-    if (position == seen_position) return;   // it continues the latest step, or a file was saved
-    views.resize (position > 0 ? position - 1 : 0, { viewState(), viewState() });
-    if (position > 0) views.push_back ({ viewState(), viewState() });
-    seen_position = position;
-}
-
-void Canvas::endEdit()
-{
-    if (! document.isStepping() && seen_position > 0 && seen_position <= views.size()) views[seen_position - 1].after = viewState();
-}
-
 /// If an edit moved the view and the user has not moved it since, undoing the edit moves it back. Otherwise, the view stays where something that has
 /// changed is in view, and else goes to what has changed.
 void Canvas::followStep (const Scene& before)
 {
-    const auto from = seen_position, to = document.history().position();
-    seen_position = to;
-    const auto isHere = [this] (const ViewState& s) { return s.patch == patch() && s.window == window; };
-    const bool is_known = std::max (from, to) <= views.size() && from != to;
-    if (is_known)
+    if (const auto reached = views.step (viewState()))
     {
-        const bool undone = to < from;
-        const auto& left = undone ? views[from - 1].after : views[from].before;
-        const auto& reached = undone ? views[to].before : views[to - 1].after;
-        if (isHere (left) && reached.patch == patch() && reached.window != left.window)
-        {
-            window = reached.window;
-            framed = reached.framed;
-            framed_around = reached.framed_around;
-            return repaint();
-        }
+        window = reached->window;
+        framed = reached->framed;
+        framed_around = reached->framed_around;
+        return repaint();
     }
     std::vector<juce::Rectangle<float>> changed;
     collectChanges (*shown, before, changed);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "navigation/view.hpp"
 #include "scene.hpp"
-#include "view.hpp"
 
 #include <host/app/look/theme.hpp>
 

@@ -87,7 +87,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 
 void Canvas::mouseDown (const juce::MouseEvent& e)
 {
-    closeEditor (true);
+    text_editor.close (true);
     takeFocus (*this);
     point ({});
     drag_begins_at = document.history().position();
@@ -215,12 +215,9 @@ void Canvas::mouseMagnify (const juce::MouseEvent& e, float factor)
 
 bool Canvas::keyPressed (const juce::KeyPress& key)
 {
-    if (editor && key.isKeyCode (juce::KeyPress::tabKey))
+    if (text_editor.isOpen() && key.isKeyCode (juce::KeyPress::tabKey))
     {
-        const auto next = on_tab;
-        closeEditor (true);
-        takeFocus (*this);
-        if (next) next (key.getModifiers().isShiftDown() ? -1 : 1);
+        text_editor.tab (key.getModifiers().isShiftDown() ? -1 : 1);
         return true;
     }
     bool is_known = false;
@@ -243,50 +240,8 @@ bool Canvas::keyPressed (const juce::KeyPress& key)
 void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
                          std::function<void (int)> next)
 {
-    closeEditor (true);
-    on_edited = std::move (done);
-    on_tab = std::move (next);
-    editor = std::make_unique<juce::TextEditor>();
-    editor->setMultiLine (several_lines);
-    editor->setReturnKeyStartsNewLine (false);
-    editor->setFont (lookOf (*this).font (13.0f));
-    editor->setText (text, false);
     const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
-    editor->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
-    editor->onFocusLost = [this] { closeEditor (true); };
-    editor->onReturnKey = [this] {   // JUCE calls it later: the editor may be gone
-        if (! editor) return;
-        const auto apply = on_edited;
-        if (apply (editor->getText())) return closeEditor (false);
-        if (! editor) return;
-        editor->setColour (juce::TextEditor::focusedOutlineColourId, themeOf (*this).stop);
-        editor->selectAll();
-    };
-    editor->onEscapeKey = [this, several_lines] {
-        closeEditor (several_lines);   // of a note, much may have been typed; undo discards it
-        notice ({});                   // no longer why the text was refused
-    };
-    if (several_lines)
-        typing.emplace (*editor, [this] {
-            const auto apply = on_edited;
-            apply (editor->getText());
-        });
-    addAndMakeVisible (*editor);
-    takeFocus (*editor);
-    editor->selectAll();
-}
-
-void Canvas::closeEditor (bool keep)
-{
-    const std::shared_ptr<juce::TextEditor> ended = std::move (editor);
-    if (! ended) return;
-    typing.reset();
-    ended->onTextChange = nullptr;
-    ended->onFocusLost = nullptr;
-    removeChildComponent (ended.get());
-    juce::MessageManager::callAsync ([ended] {});   // deletes the editor after the current event, which may come from the editor itself
-    const auto done = std::exchange (on_edited, nullptr);
-    if (keep) done (ended->getText());
+    text_editor.open (box, text, several_lines, std::move (done), std::move (next));
 }
 
 }   // namespace tactus::host

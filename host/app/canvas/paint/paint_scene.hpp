@@ -3,7 +3,7 @@
 
 #include "highlights.hpp"
 
-#include <host/app/canvas/view.hpp>
+#include <host/app/canvas/navigation/view.hpp>
 #include <host/app/look/look.hpp>
 
 namespace tactus::host
