@@ -14,9 +14,10 @@ Panel devicesPanel (Desk& desk)
 {
     auto made = std::make_unique<DevicesPanel> (desk.document, desk.playback.run(), desk.devices);
     auto* devices = made.get();
-    devices->onHint = [&desk] (const juce::String& text) { desk.hint (text); };
+    auto& bindings = devices->bindings();
+    bindings.onHint = [&desk] (const juce::String& text) { desk.hint (text); };
     devices->onTry = [&desk] (const std::string& role) { return desk.playback.tryDevice (role); };
-    devices->onBind = [&desk] (const std::string& role) -> std::function<void()> {
+    bindings.onBind = [&desk] (const std::string& role) -> std::function<void()> {
         if (! desk.playback.run().isMovedOtherwise (role)) return {};
         auto exchange = desk.useDevice();
         desk.notify (filled (TRANS ("The device of %1 moves its tool from now on. Press and drag on the surface of the hand, and the mouse does."), role));
@@ -29,16 +30,16 @@ Panel devicesPanel (Desk& desk)
                                          : TRANS ("Another program has changed your devices: %1."),
                              what));
     };
-    desk.moveOrigin = [devices] (const std::string& role, const Vec3& origin) { devices->moveOrigin (role, origin); };
+    desk.moveOrigin = [&bindings] (const std::string& role, const Vec3& origin) { bindings.moveOrigin (role, origin); };
     desk.reaches = [&desk, of_devices = Reaches (desk.devices)]() mutable {
         return desk.playback.isPreviewing() ? std::vector<scene::Reach>() : of_devices.of (desk.playback.run());
     };
-    const auto actions = [devices] {
+    const auto actions = [&bindings] {
         std::vector<Panel::Action> all;
-        for (const auto& [role, labels] : devices->choices())
+        for (const auto& [role, labels] : bindings.choices())
             for (const auto& label : labels)
                 all.push_back ({ filled (TRANS ("Device of %1: %2"), role, label), TRANS ("The device for this role, in every graph"),
-                                 [devices, of = role, to = label] { devices->bind (of, to); } });
+                                 [&bindings, of = role, to = label] { bindings.bind (of, to); } });
         return all;
     };
     return { .name = TRANS ("Devices"), .component = std::move (made), .actions = actions, .refresh = [devices] { devices->refresh(); } };

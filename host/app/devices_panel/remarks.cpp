@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the cards of the devices panel say about fit and status.
-#include "devices_panel.hpp"
+#include "remarks.hpp"
 #include "sound_text.hpp"
 
 #include <host/app/look/fitted_text.hpp>
@@ -14,23 +13,22 @@
 namespace tactus::host
 {
 
-/// The remark about what the role needs and its device lacks.
-Remark DevicesPanel::fitRemark (const std::string& role) const
+Remark DeviceRemarks::fit (const std::string& role) const
 {
-    const auto* fit = fitOf (role);
-    if (fit == nullptr) return {};
-    Remark r { filled (TRANS ("Needs %1."), fromUtf8 (describe (fit->needs))), false };
+    const auto* fits = bindings.fitOf (role);
+    if (fits == nullptr) return {};
+    Remark r { filled (TRANS ("Needs %1."), fromUtf8 (describe (fits->needs))), false };
     const auto addLine = [&] (const juce::String& what) { r.text << "\n" + what; };
     const auto addProblem = [&] (const juce::String& what) {
         addLine (what);
         r.is_problem = true;
     };
-    for (const auto& m : fit->messages)
+    for (const auto& m : fits->messages)
         addProblem (fromUtf8 (m.text));
-    if (! fit->lacking.empty()) addProblem (TRANS ("The device does not fit:"));
-    for (const auto& l : fit->lacking)
+    if (! fits->lacking.empty()) addProblem (TRANS ("The device does not fit:"));
+    for (const auto& l : fits->lacking)
         addProblem (fromUtf8 (l));
-    if (const auto* choice = choiceNow (role); choice != nullptr && ! choice->numbers.empty())
+    if (const auto* choice = bindings.choiceNow (role); choice != nullptr && ! choice->numbers.empty())
         if (const auto profile = hid::profileNamed (setup.profiles(), choice->numbers))
         {
             addLine (filled (TRANS ("Only simulated: Tactus has no driver for %1, but knows its numbers."), profile->name));
@@ -43,27 +41,26 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
         addLine (TRANS ("To use this device, choose one here, or Its own device in the panel Hand."));
         return r;
     }
-    if (fit->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), fromUtf8 (nameOf (fit->description))));
-    if (fit->from == RoleFit::From::none) addLine (TRANS ("No device is set. A simulated tool at rest is used."));
+    if (fits->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), fromUtf8 (nameOf (fits->description))));
+    if (fits->from == RoleFit::From::none) addLine (TRANS ("No device is set. A simulated tool at rest is used."));
     return r;
 }
 
-/// Says whether the device of a role is connected and works, and whether its guard has stopped it.
-Remark DevicesPanel::statusRemark (const std::string& role) const
+Remark DeviceRemarks::status (const std::string& role) const
 {
     Remark r;
-    const auto* fit = fitOf (role);
+    const auto* fits = bindings.fitOf (role);
     const auto health = std::ranges::find (run.health(), role, &DeviceHealth::role);
     if (health != run.health().end())
     {
         r.text = fromUtf8 (describe (*health));
         r.is_problem = ! health->connected;
     }
-    else if (fit != nullptr && fit->connected && ! run.isRunning())
-        r = *fit->connected ? Remark { TRANS ("Connected."), false }
-                            : Remark { TRANS ("Not connected. A run waits for the device and applies no force until then."), true };
-    else if (fit != nullptr && ! run.isRunning() && fit->description.value ("driver", Json()) == Json (event_driver))
-        r = eventRemark (fit->description);
+    else if (fits != nullptr && fits->connected && ! run.isRunning())
+        r = *fits->connected ? Remark { TRANS ("Connected."), false }
+                             : Remark { TRANS ("Not connected. A run waits for the device and applies no force until then."), true };
+    else if (fits != nullptr && ! run.isRunning() && fits->description.value ("driver", Json()) == Json (event_driver))
+        r = ofEvents (fits->description);
     const auto status = run.status();
     if (! status || ! run.isRunning()) return r;
     for (const auto& now : status->shown())
@@ -76,7 +73,7 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
 }
 
 /// The remark about whether an event device is there, and may be opened. The driver finds it by its path, its name, or a part of that.
-Remark DevicesPanel::eventRemark (const Json& description) const
+Remark DeviceRemarks::ofEvents (const Json& description) const
 {
     const auto named = description.value ("port", Json());
     const auto port = named.is_string() ? named.asString() : std::string();
@@ -88,10 +85,9 @@ Remark DevicesPanel::eventRemark (const Json& description) const
     return { TRANS ("Connected. While it runs, this line says how many new forces per second reach it."), false };
 }
 
-/// The remark about what ticks the run, and what the system refuses to a run that drives a device.
-Remark DevicesPanel::clockRemark() const
+Remark DeviceRemarks::clock() const
 {
-    auto r = tickRemark();
+    auto r = tick();
     if (run.isRunning() && run.drivesDevice())
         for (const auto& refusal : run.refusals())
         {
@@ -101,7 +97,7 @@ Remark DevicesPanel::clockRemark() const
     return r;
 }
 
-Remark DevicesPanel::tickRemark() const
+Remark DeviceRemarks::tick() const
 {
     const auto status = run.status();
     if (! status || ! run.isRunning()) return { TRANS ("Not running."), false };
@@ -119,15 +115,15 @@ Remark DevicesPanel::tickRemark() const
     if (! role.empty()) return { filled (TRANS ("Ticked by %1, at %2 Hz."), role, rate), false };
     if (wanted.empty() || wanted == "timer") return { filled (TRANS ("Ticked by a timer, at %1 Hz."), rate), false };
     if (wanted == "audio") return { filled (TRANS ("Ticked by a timer, at %1 Hz: the sound card is missing."), rate), true };
-    const auto why = fitOf (wanted) == nullptr ? TRANS ("Ticked by a timer, at %1 Hz: this graph has no role %2.")
-                                               : TRANS ("Ticked by a timer, at %1 Hz: the device of %2 cannot tick the run at the moment.");
+    const auto why = bindings.fitOf (wanted) == nullptr ? TRANS ("Ticked by a timer, at %1 Hz: this graph has no role %2.")
+                                                        : TRANS ("Ticked by a timer, at %1 Hz: the device of %2 cannot tick the run at the moment.");
     return { filled (why, rate, wanted), false };
 }
 
-Remark DevicesPanel::soundRemark() const
+Remark DeviceRemarks::sound() const
 {
     const auto now = run.isRunning() ? run.audioStatus() : std::nullopt;
-    if (! now) return { routes().empty() ? TRANS ("No routes. Add one, such as mix.out=1@4 N.") : TRANS ("Not running."), false };
+    if (! now) return { bindings.routes().empty() ? TRANS ("No routes. Add one, such as mix.out=1@4 N.") : TRANS ("Not running."), false };
     if (now->card.type.empty()) return { now->trouble.empty() ? TRANS ("No sound card.") : fromUtf8 (now->trouble), true };
     const auto sound = fromUtf8 (audio::statusOf (*now)).trim();
     if (! now->is_open) return { sound + (now->trouble.empty() ? juce::String() : ": " + fromUtf8 (now->trouble)), true };

@@ -2,6 +2,7 @@
 #include "device_setup.hpp"
 
 #include <host/devices/hid_link/force_feedback.hpp>
+#include <host/devices/sessions/audio_settings.hpp>
 #include <tactus/text/caught.hpp>
 
 #include <algorithm>
@@ -32,6 +33,12 @@ void DeviceSetup::open (const std::filesystem::path& home)
     is_saved = ! home.empty();
     seen = stampOfFile();
     if (onChange) onChange();
+}
+
+bool DeviceSetup::movesTool (const std::string& role) const
+{
+    const auto* bound = now.session.binding (role);
+    return bound != nullptr && ! audio::isAudio (*bound);
 }
 
 Result<> DeviceSetup::edit (const std::function<void (DeviceSession&)>& change)

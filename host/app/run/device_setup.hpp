@@ -38,6 +38,7 @@ public:
     void open (const std::filesystem::path& home);
 
     const LoadedSession& session() const noexcept { return now; }
+    bool movesTool (const std::string& role) const;   ///< true if the session binds the role to a device, and not only to a sound card
     hid::HidSystem& system() const noexcept { return devices; }
     const hid::LoadedProfiles& profiles() const noexcept { return known; }
 

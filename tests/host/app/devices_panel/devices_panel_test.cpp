@@ -25,7 +25,7 @@ struct Rig
         setup.open (home.path());
         run.use (setup);
         setup.onChange = [this] { run.setupChanged(); };
-        panel.onHint = [this] (const juce::String& text) { hint = text; };
+        panel.bindings().onHint = [this] (const juce::String& text) { hint = text; };
         panel.setSize (1000, 300);
         panel.setVisible (true);
     }
@@ -72,15 +72,15 @@ TEST_CASE ("binding a role in the window is saved immediately, and does not edit
     const auto before = r.rig.text();
     REQUIRE (r.until ([&] { return ! r.setup.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
     REQUIRE (r.until ([&] {
-        r.panel.bind ("stylus", "Board");
+        r.panel.bindings().bind ("stylus", "Board");
         return ! r.bound().is_null();
     }));
     CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
     CHECK (r.saved()["roles"]["stylus"] == r.bound());
 
-    r.panel.setPart ("stylus", "/workspace/scale", "2");
-    r.panel.setPart ("stylus", "/workspace/offset", "[0, 0, \"1 cm\"]");
-    r.panel.setPart ("stylus", "/guard/max_force", "2 N");
+    r.panel.bindings().setPart ("stylus", "/workspace/scale", "2");
+    r.panel.bindings().setPart ("stylus", "/workspace/offset", "[0, 0, \"1 cm\"]");
+    r.panel.bindings().setPart ("stylus", "/guard/max_force", "2 N");
     CHECK (r.hint.isEmpty());
     const Json workspace { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } }, guard { { "max_force", "2 N" } };
     CHECK (r.saved()["roles"]["stylus"] == Json { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace }, { "guard", guard } });
@@ -92,16 +92,16 @@ TEST_CASE ("binding a role in the window is saved immediately, and does not edit
         { "/guard/max_force", "2 mm" },
     }));
     const auto good = r.home.textOf ("session.json");
-    r.panel.setPart ("stylus", pointer, text);
+    r.panel.bindings().setPart ("stylus", pointer, text);
     CHECK (r.hint.isNotEmpty());
     CHECK (r.home.textOf ("session.json") == good);
 
     for (const auto* part : { "/workspace/scale", "/workspace/offset", "/guard/max_force" })
-        r.panel.setPart ("stylus", part, "");
+        r.panel.bindings().setPart ("stylus", part, "");
     CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
-    r.panel.bind ("stylus", "gesture tap");
+    r.panel.bindings().bind ("stylus", "gesture tap");
     CHECK (r.bound() == Json { { "driver", "gesture" }, { "path", "tap" } });
-    r.panel.bind ("stylus", "as in the graph");
+    r.panel.bindings().bind ("stylus", "as in the graph");
     CHECK (r.bound().is_null());
     CHECK (r.rig.text() == before);
     CHECK (r.rig.document.history().position() == 7);   // three devices, and the edits of the workspace
@@ -177,13 +177,13 @@ TEST_CASE ("a joystick without a profile is chosen and calibrated in the window,
     Rig r;
     const auto before = r.rig.text();
     REQUIRE (r.setup.edit ([&] (DeviceSession& s) { s.bind ("stylus", chosen); }));
-    r.panel.setPart ("stylus", "/calibration/full_force", "4 N");
-    r.panel.setPart ("stylus", "/calibration/travel", "{\"x\": \"12 cm\"}");
-    r.panel.setPart ("stylus", "/calibration/reversed", "true");
+    r.panel.bindings().setPart ("stylus", "/calibration/full_force", "4 N");
+    r.panel.bindings().setPart ("stylus", "/calibration/travel", "{\"x\": \"12 cm\"}");
+    r.panel.bindings().setPart ("stylus", "/calibration/reversed", "true");
     const Json calibration { { "full_force", "4 N" }, { "travel", { { "x", "12 cm" } } }, { "reversed", true } };
     CHECK (r.saved()["roles"]["stylus"]["calibration"] == calibration);
     CHECK (r.hint.isEmpty());
-    r.panel.setPart ("stylus", "/calibration/full_force", "4 mm");
+    r.panel.bindings().setPart ("stylus", "/calibration/full_force", "4 mm");
     CHECK (r.hint.isNotEmpty());
     CHECK (r.bound()["calibration"] == calibration);
     CHECK (deviceOfBinding (r.bound()) == chosen);   // so that the panel shows the choice
@@ -231,17 +231,17 @@ TEST_CASE ("a device that is known only by its numbers can be simulated, keeps t
     Rig r;
     r.profiles.profiles.push_back (hid::profileNamed (deviceProfiles(), "phantom_1_0"));
     r.panel.visibilityChanged();
-    r.panel.bind ("stylus", "simulated tool");
-    r.panel.setPart ("stylus", "/guard/max_force", "1 N");
-    r.panel.setPart ("stylus", "/guard/max_speed", "1 m/s");
-    r.panel.bind ("stylus", "simulated PHANTOM 1.0");
+    r.panel.bindings().bind ("stylus", "simulated tool");
+    r.panel.bindings().setPart ("stylus", "/guard/max_force", "1 N");
+    r.panel.bindings().setPart ("stylus", "/guard/max_speed", "1 m/s");
+    r.panel.bindings().bind ("stylus", "simulated PHANTOM 1.0");
     CHECK (r.bound()["driver"] == "sim");
     CHECK (r.bound()["mass"].get<double>() == Approx (0.075));
     CHECK (r.bound()["guard"] == Json { { "max_force", "1 N" }, { "max_speed", "1 m/s" } });   // stricter than the device's own 8.5 N
 
-    r.panel.setPart ("stylus", "/guard/max_force", "");
-    r.panel.bind ("stylus", "simulated tool");
-    r.panel.bind ("stylus", "simulated PHANTOM 1.0");
+    r.panel.bindings().setPart ("stylus", "/guard/max_force", "");
+    r.panel.bindings().bind ("stylus", "simulated tool");
+    r.panel.bindings().bind ("stylus", "simulated PHANTOM 1.0");
     CHECK (r.bound()["guard"]["max_force"].get<double>() == Approx (8.5));
     CHECK (bindingChoices (r.setup.session().session.binding ("stylus"), {}, r.profiles).size() == bindingChoices (nullptr, {}, r.profiles).size());
     r.run.start ({});

@@ -34,7 +34,7 @@ struct Bench
         run.use (setup);
         setup.onChange = [this] { run.setupChanged(); };
         panel = std::make_unique<DevicesPanel> (document, run, setup);
-        panel->onHint = [this] (const juce::String& text) { hint = text; };
+        panel->bindings().onHint = [this] (const juce::String& text) { hint = text; };
         stage = std::make_unique<Stage> (1200, 900);
         stage->fill (*panel);
     }

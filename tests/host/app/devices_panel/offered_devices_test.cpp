@@ -38,12 +38,12 @@ struct Rig
     {
         setup.open (home.path());
         run.use (setup);
-        panel.onHint = [this] (const juce::String& text) { hint = text; };
+        panel.bindings().onHint = [this] (const juce::String& text) { hint = text; };
         panel.setSize (1000, 300);
         panel.setVisible (true);
     }
 
-    std::vector<std::string> labels() { return panel.choices().front().second; }
+    std::vector<std::string> labels() { return panel.bindings().choices().front().second; }
     bool offers (const std::string& label) { return std::ranges::count (labels(), label) == 1; }
 
     Json bound() const
@@ -74,9 +74,9 @@ TEST_CASE ("devices at serial ports, and those of drivers that the window does n
     CHECK (std::ranges::count_if (r.labels(), [] (const auto& l) { return l.ends_with (" at /dev/ttyACM0"); }) == 1);
     CHECK (std::ranges::count_if (r.labels(), [] (const auto& l) { return l.starts_with ("/dev/ttyS0 as "); }) == 3);
 
-    r.panel.bind ("stylus", board + " at /dev/ttyACM0");
+    r.panel.bindings().bind ("stylus", board + " at /dev/ttyACM0");
     CHECK (r.bound() == serial ("tactus_board", "/dev/ttyACM0"));
-    r.panel.bind ("stylus", "Later arm at 7");
+    r.panel.bindings().bind ("stylus", "Later arm at 7");
     CHECK (r.bound() == Json { { "driver", "later" }, { "port", "7" } });
     CHECK_FALSE (r.run.isRunning());   // a choice starts nothing
 }
@@ -91,16 +91,16 @@ TEST_CASE ("the devices that drivers find are offered once a person asks for the
     CHECK (r.offers ("Portless at later"));
     CHECK (r.offers ("Later arm at 7"));
     CHECK (r.hint.contains ("'old' cannot look"));
-    r.panel.bind ("stylus", "omega.3, number 0 at sn=10234");
+    r.panel.bindings().bind ("stylus", "omega.3, number 0 at sn=10234");
     CHECK (r.bound() == Json { { "driver", "forcedimension" }, { "port", "sn=10234" } });
 }
 
 TEST_CASE ("a device is added by its address, and a wrong address is refused and says why", "[app][sessions]")
 {
     Rig r;
-    r.panel.bindAddress ("stylus", " udp:tactus_board@192.168.4.1:9750 ");
+    r.panel.bindings().bindAddress ("stylus", " udp:tactus_board@192.168.4.1:9750 ");
     CHECK (r.bound() == Json { { "driver", "udp" }, { "profile", "tactus_board" }, { "port", "192.168.4.1:9750" } });
-    r.panel.bindAddress ("stylus", "serial:tactus_board@/dev/ttyACM7");
+    r.panel.bindings().bindAddress ("stylus", "serial:tactus_board@/dev/ttyACM7");
     CHECK (r.bound() == serial ("tactus_board", "/dev/ttyACM7"));
     CHECK (r.hint.isEmpty());
     r.rig.document.undo();
@@ -118,7 +118,7 @@ TEST_CASE ("a device is added by its address, and a wrong address is refused and
         { "a=b", "not the address of a device" },
     }));
     const auto before = r.home.textOf ("session.json");
-    r.panel.bindAddress ("stylus", address);
+    r.panel.bindings().bindAddress ("stylus", address);
     INFO (r.hint);
     CHECK (r.hint.contains (part));
     CHECK_FALSE (r.hint.contains ("--"));   // the window has no options

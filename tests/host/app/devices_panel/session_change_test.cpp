@@ -78,7 +78,7 @@ TEST_CASE ("a change of the clock does not bind what another program has bound s
 {
     Rig r;
     r.otherwise ([] (DeviceSession& s) { s.bind ("stylus", board); });
-    r.panel_of_devices.chooseClock ("timer");   // before the window has looked at the file
+    r.panel_of_devices.bindings().chooseClock ("timer");   // before the window has looked at the file
     CHECK_FALSE (r.run().isWanted());
     CHECK (r.said.contains ("stylus: hid tactus_board"));
     const auto saved = loadDefaultSession (r.home.path());
@@ -108,7 +108,7 @@ TEST_CASE ("a sound card that is missing cannot be the clock", "[app][sessions]"
     Rig r;
     const auto cards = audio::soundCards().list();
     const bool has_one = std::ranges::any_of (cards, [] (const auto& c) { return c.trouble.empty() && ! c.outputs.empty(); });
-    r.panel_of_devices.chooseClock ("sound card");
+    r.panel_of_devices.bindings().chooseClock ("audio");
     CHECK ((loadDefaultSession (r.home.path()).session.clock() == "audio") == has_one);
     CHECK (r.said.contains ("cannot be the clock") == ! has_one);
 }

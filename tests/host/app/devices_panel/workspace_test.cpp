@@ -33,7 +33,7 @@ struct Bench : WindowRig
     explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
     {
         click ("Devices");
-        panel().bind (role, "simulated PHANTOM 1.0");
+        panel().bindings().bind (role, "simulated PHANTOM 1.0");
         set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
         set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
         REQUIRE (binding().contains ("hand"));
@@ -48,7 +48,7 @@ struct Bench : WindowRig
 
     DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
     SceneView& scene() { return *partIn<SceneView> (*view); }
-    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
+    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
     Json binding() const { return saved()["roles"][role]; }
@@ -236,7 +236,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
 
     // Back to the device of the graph, which has its own limits; undo brings back the device with the limit that it had.
     w.click ("Devices");
-    w.panel().bind ("stylus", "as in the graph");
+    w.panel().bindings().bind ("stylus", "as in the graph");
     CHECK_FALSE (w.saved()["roles"].contains ("stylus"));
     w.view->canvas().grabKeyboardFocus();
     w.key ("ctrl + z");
@@ -248,7 +248,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
 
     // The same device again is no step.
     const auto position = document.history().position();
-    w.panel().bind ("stylus", target.toStdString());
+    w.panel().bindings().bind ("stylus", target.toStdString());
     CHECK (document.history().position() == position);
     for (int i = 0; i < 2; ++i)
         w.key ("ctrl + z");
@@ -355,7 +355,7 @@ TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves 
 TEST_CASE ("a device whose box is not known has handles at its origin", "[app][scene][sessions]")
 {
     Bench w;
-    w.panel().bind ("stylus", "gesture circle");
+    w.panel().bindings().bind ("stylus", "gesture circle");
     REQUIRE (w.until ([&] { return ! w.scene().reaches().empty() && ! w.scene().reaches().front().hasBox(); }));
     const auto handle = scene::Overlay::handle (w.scene().camera(), w.scene().getLocalBounds().toFloat(), w.scene().reaches().front(), 0);
     REQUIRE (handle);
@@ -426,7 +426,7 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
     }
     SECTION ("but not without a device of the session")
     {
-        w.panel().bind ("stylus", "as in the graph");
+        w.panel().bindings().bind ("stylus", "as in the graph");
         REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
         w.view->canvas().grabKeyboardFocus();
         w.stage->key ("s");
@@ -450,9 +450,9 @@ TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
     WindowRig w ("dry_wood.json");
     w.view->canvas().grabKeyboardFocus();
     w.key ("F1");
-    REQUIRE (w.view->helpPanel().isOpen());
+    REQUIRE (w.view->part<HelpPanel>().isOpen());
     bool is_listed = false;
-    for (const auto& seen : host::test::readTexts (w.view->helpPanel()))
+    for (const auto& seen : host::test::readTexts (w.view->part<HelpPanel>()))
         is_listed = is_listed || seen.text.contains ("S, held");
     CHECK (is_listed);
 }
