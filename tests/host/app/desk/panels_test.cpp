@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels with a desk, and without the window.
 #include "host/app/support/desk_rig.hpp"
+#include "wires_panel.hpp"
 
 #include <host/app/browser/browser.hpp>
 #include <host/app/node_list/node_list.hpp>
@@ -178,4 +179,20 @@ TEST_CASE ("the fit of a recording covers the window until Esc closes it", "[app
     CHECK (component.isVisible());
     r.panel->escape();
     CHECK_FALSE (component.isVisible());
+}
+
+TEST_CASE ("the panel of the page follows the graph", "[app][desk]")
+{
+    DeskRig r ("dry_wood.json");
+    auto& wires = r.make<juce::Component> (wiresPanel);
+    const auto pixels = [&] {
+        r.refresh();
+        juce::MemoryOutputStream png;
+        juce::PNGImageFormat().writeImageToStream (wires.createComponentSnapshot (wires.getLocalBounds()), png);
+        return png.getMemoryBlock();
+    };
+    const auto before = pixels();
+    CHECK (pixels() == before);
+    REQUIRE (r.document.perform (nodeOf ("extra", "signal.lfo")));
+    CHECK (pixels() != before);
 }
