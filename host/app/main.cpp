@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/window/frame_room.hpp>
 #include <host/app/window/main_view.hpp>
@@ -91,7 +93,7 @@ public:
     void unhandledException (const std::exception*, const juce::String&, int) override
     {
         const auto why = exceptionAt ({});
-        window != nullptr ? window->view().report (why) : giveUp (why);
+        window != nullptr ? window->view().desk().notify (fromUtf8 (messageText (why))) : giveUp (why);
     }
 
     void shutdown() override
@@ -122,7 +124,7 @@ private:
         watchForStop();
         giveUpBlockedOutputs();
         window->view().onRefresh = [this] { refresh(); };
-        window->view().onQuit = [this] { systemRequestedQuit(); };
+        window->view().allowQuit ([this] { systemRequestedQuit(); });
     }
 
     void giveUp (const Message& why)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "node_palette.hpp"
+#include "add_graph.hpp"
 
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
@@ -37,20 +38,31 @@ std::vector<PaletteEntry> withName (std::vector<PaletteEntry> entries, const std
     std::erase_if (entries, [&] (const PaletteEntry& e) { return ! juce::String (e.name).startsWithIgnoreCase (juce::String (query).trim()); });
     return entries;
 }
-}   // namespace
-
-const Preset* templateOf (const std::string& entry, const std::vector<Preset>& of)
+/// The template or preset of a list that an entry of the palette stands for; null if it is a node.
+const Preset* presetOf (const std::string& entry, const std::vector<Preset>& of)
 {
     const auto found = std::ranges::find (of, entry, idOf);
     return found == of.end() ? nullptr : &*found;
 }
+}   // namespace
 
-void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
-                      const std::vector<Preset>& templates, const std::vector<Preset>& presets,
-                      std::function<void (const std::string&)> chosen)
+void addNode (const Desk& desk, const std::string& type, const NodeRequest& request)
 {
+    desk.canvas.commands().addNodeAt (type, request);
+    if (desk.types.find (type) != nullptr)   // else a subgraph, which other graphs do not have
+    {
+        desk.settings.noteType (type);
+        desk.settingsChanged();
+    }
+    takeFocus (desk.canvas);
+}
+
+void openNodePalette (const Desk& desk, Palette& palette, const std::vector<Preset>& templates, const NodeRequest& request)
+{
+    auto& canvas = desk.canvas;
+    const auto presets = desk.presets();
     std::vector<PaletteEntry> beginnings, layers;
-    const bool is_empty = canvas.edited().graph().root.nodes.empty() && canvas.patch().empty();
+    const bool begins = canvas.edited().graph().root.nodes.empty(), is_empty = begins && canvas.patch().empty();
     for (const auto& t : is_empty ? templates : std::vector<Preset> {})
         beginnings.push_back ({ idOf (t), t.name, t.about });
     if (! is_empty && ! request.start && request.wire == 0)
@@ -62,7 +74,7 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     else if (request.start)
         purpose = filled (request.start->role == Role::output ? TRANS ("Connect %1 to") : TRANS ("Connect %1 from"), request.start->port);
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
-    const auto search = [&canvas, &catalogue, recent, request, beginnings, layers] (const std::string& query) {
+    const auto search = [&canvas, &catalogue = desk.types, recent = desk.settings.recent_types, request, beginnings, layers] (const std::string& query) {
         auto found = searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
         if (found.empty() && (request.start || request.wire != 0))
             if (const auto all = searchPalette (query, canvas.edited().graph(), catalogue, {}, {}, canvas.patch()); ! all.empty())
@@ -83,9 +95,11 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
         all.insert (all.end(), found.begin(), found.end());
         return all;
     };
-    palette.open (at, search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
-        takeFocus (canvas);   // first: what is chosen may open the palette again
-        chosen (type);
+    palette.open (at, search, purpose, [&desk, templates, presets, request, begins] (const std::string& chosen) {
+        takeFocus (desk.canvas);   // first: what is chosen may open the palette again
+        const auto* preset = presetOf (chosen, begins ? templates : presets);
+        if (preset == nullptr) return addNode (desk, chosen, request);
+        begins ? desk.feel (preset->file, false) : addGraph (desk, preset->file, {}, request.at);
     });
 }
 

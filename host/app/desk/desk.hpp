@@ -47,7 +47,9 @@ struct Desk
 
     /// Opens a graph; a preset that ships with Tactus as a copy.
     std::function<void (const Path&)> openGraph = [] (const auto&) {};
-    std::function<void (const graph::Graph&, const std::string& step, std::function<void()> then)> openMade = [] (const auto&...) {};   ///< an unsaved one
+    /// Opens a graph that has no file. One that is work of the user, such as a fit, is an unsaved change.
+    std::function<void (const graph::Graph&, const std::string& step, bool is_work, std::function<void()> then)> openMade = [] (const auto&...) {};
+    std::function<void (const Path& preset, bool by_pointer)> feel = [] (const auto&, bool) {};   ///< opens it as a copy, and shows the hand
     std::function<void (const Path&)> preview = [] (const auto&) {};
     std::function<void()> endPreview = [] {};
     std::function<void (const std::string& type)> addNode = [] (const auto&) {};   ///< in the middle of the canvas

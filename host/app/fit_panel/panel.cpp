@@ -36,7 +36,7 @@ Panel fitPanel (Desk& desk)
     auto made = std::make_unique<FitPanel>();
     auto* fit = made.get();
     fit->onOpenGraph = [&desk, fit] (const FittedGraph& g) {
-        desk.openMade (g.preset, filled (TRANS ("fit %1"), g.preset.name).toStdString(), [fit] { fit->close(); });
+        desk.openMade (g.preset, filled (TRANS ("fit %1"), g.preset.name).toStdString(), true, [fit] { fit->close(); });
     };
     fit->onInsert = [&desk] (const FittedGraph& g) { insert (desk, g); };
     desk.fitRecording = [fit] (const std::filesystem::path& file) { fit->open (file); };

@@ -1,45 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "main_view.hpp"
 #include "appearance.hpp"
-#include "panels.hpp"
 
-#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/base/files/clip_io.hpp>
+#include <host/base/files/preset_pack.hpp>
 #include <host/base/juce/native_window.hpp>
 
-#include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
 
 namespace
 {
+namespace fs = std::filesystem;
+
 constexpr int refreshes_per_second = 30;
 constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;   // at rest, only devices and other threads can change anything
 constexpr int repaints_for_caret = 20;                            // at rest; it blinks every 380 ms
+
+bool isRecording (const fs::path& file)
+{
+    const auto extension = extensionOf (file);
+    return extension == ".csv" || extension == ".tsv" || extension == ".txt";
+}
 }   // namespace
 
-MainView::MainView (const Catalogue& c)
-    : catalogue (c), pictures (c), files (edited, question, settings, fileCallbacks()),
-      playback (edited, c, sound, device_setup, [this] { files.beforeRun(); }),
-      limits (edited, device_setup, playback.run(), c),
-      patching (edited, c), inspector (edited, c), live (patching, playback.run()),
-      help (c)
+MainView::MainView (const Catalogue& c) : parts (c, *this, fileCallbacks())
 {
     setOpaque (true);
     setTitle ("Tactus");
     setWantsKeyboardFocus (true);
-    chooseFile = [this] (bool saves, const std::filesystem::path& begin,
-                         std::function<void (const std::filesystem::path&)> chosen) { dialogs.choose (saves, begin, std::move (chosen)); };
     setDesk();
-    addPanels();
+    parts.add();
     connect();
-    edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
+    setKeys();
+    resized();
+    parts.edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
-    juce::Desktop::getInstance().addFocusChangeListener (this);
     addMouseListener (this, true);   // any input wakes the window
     wake();
 }
@@ -47,169 +49,72 @@ MainView::MainView (const Catalogue& c)
 MainView::~MainView()
 {
     removeMouseListener (this);
-    juce::Desktop::getInstance().removeFocusChangeListener (this);
-    if (focused != nullptr) focused->removeKeyListener (this);
-    if (ticks_to_save > 0) static_cast<void> (saveSettings (settings, home));
-    edited.remove (*this);
-}
-
-void MainView::addPanels()
-{
-    const auto attach = [this] (Tabs* tabs, Panel panel) {
-        auto& component = *panel.component;
-        if (tabs != nullptr) tabs->add (panel.name, std::move (panel.component));
-        for (const auto& key : panel.keys)
-            help.addKey (key.shown, key.help);
-        panels.push_back ({ std::move (panel), component, tabs });
-    };
-    [[maybe_unused]] Tabs *const left = &this->left, *const bottom = &this->bottom, *const over = nullptr;
-#define TACTUS_ATTACH(place, make) attach (place, make (desk));
-    TACTUS_PANELS (TACTUS_ATTACH)
-#undef TACTUS_ATTACH
-    addPages();
-    for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, left, bottom, &top, &patching, &inspector, &status })
-        addAndMakeVisible (c);
-    for (const auto& [name, edge] : edges())
-        addAndMakeVisible (*edge);
-    for (auto* page : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour })
-        addChildComponent (page);
-    for (const auto& p : panels)
-        if (p.tabs == nullptr) addChildComponent (p.component);
-    for (auto* above : std::initializer_list<juce::Component*> { &question, &shade })
-        addChildComponent (above);
-    addAndMakeVisible (menus);
-    resized();
+    parts.edited.remove (*this);
 }
 
 void MainView::begin (const StartOptions& how)
 {
-    home = how.home;
-    desk.program = how.program;
-    auto read = loadSettings (home);
-    settings = std::move (read.settings);
-    light = how.light || settings.light;
-    applySettings();
-    templates.show (templatesIn (presetFolder(), catalogue));
+    parts.saver.begin (how.home);
+    parts.desk.program = how.program;
+    auto read = loadSettings (how.home);
+    parts.settings = std::move (read.settings);
+    readSettings (how.light || parts.settings.light);
+    parts.templates.show (templatesIn (presetFolder(), parts.catalogue));
+    auto& files = parts.files;
     files.setSafe (how.safe);
-    if (how.stops_directly) direct_stop.emplace (playback.stopSwitch());
-    if (how.osc) openOscPort (*how.osc);
+    if (how.stops_directly) direct_stop.emplace (parts.playback.stopSwitch());
+    if (how.osc) listenForOsc (*how.osc);
     if (! how.live.empty()) live_nodes.emplace (how.live);
-    files.beginSession (home);
-    desk.session = files.sessionFolder();
-    for (const auto& p : panels)
+    files.beginSession (how.home);
+    parts.desk.session = files.sessionFolder();
+    for (const auto& p : parts.panels)
         if (p.panel.reload) p.panel.reload();
     for (const auto& file : how.files)
         open (file);
     const bool is_asked = files.recover();
-    if (is_asked) playback.current().letGo();   // no forces while a question is open
+    if (is_asked) parts.playback.current().letGo();   // no forces while a question is open
+    auto& status = parts.status;
     if (how.files.empty())
     {
-        welcome.show (desk.presets(), ! settings.toured);
-        welcome.setVisible (true);
+        beginnings.showWelcome();
         if (how.safe && ! is_asked) status.notify (TRANS ("Safe mode: nothing runs until you press START."));
     }
-    device_setup.open (home);
-    if (! settings.language.empty() && settings.language != english && translationFor (settings.language, home).empty())
-        status.notify (filled (TRANS ("There is no file %1, so the texts are in English."), (home / "text" / (settings.language + ".txt")).string()));
+    parts.device_setup.open (how.home);
+    if (const auto& code = parts.settings.language; ! code.empty() && code != english && translationFor (code, how.home).empty())
+        status.notify (filled (TRANS ("There is no file %1, so the texts are in English."), (how.home / "text" / (code + ".txt")).string()));
     if (! read.problem.empty()) status.notify (read.problem);
-    for (const auto& m : device_setup.session().messages)
+    for (const auto& m : parts.device_setup.session().messages)
         status.notify (juce::String (m.file + ": " + messageText (m)));
-    if (! settings.welcomed)
-    {
-        settings.welcomed = true;
-        saveSettingsSoon();
-    }
+    if (! std::exchange (parts.settings.welcomed, true)) parts.desk.settingsChanged();
 }
 
-std::array<std::pair<const char*, Splitter*>, 5> MainView::edges()
+void MainView::readSettings (bool light)
 {
-    return { { { "left", &left_edge }, { "right", &right_edge }, { "bottom", &bottom_edge }, { "hand", &hand_edge }, { "page", &page_edge } } };
-}
-
-MainView::Shares MainView::shares()
-{
-    Shares all;
-    std::ranges::transform (edges(), all.begin(), [] (const auto& e) { return e.second->share(); });
-    return all;
-}
-
-void MainView::rememberPanels()
-{
-    if (is_canvas_alone) return;   // the next start shows the panels
-    settings.panels.clear();
-    for (const auto& [name, edge] : edges())
-        if (const auto share = edge->share()) settings.panels[name] = *share;
-    saveSettingsSoon();
-}
-
-void MainView::edgeMoved()
-{
-    rememberPanels();
+    parts.light = light;
+    parts.layout.readSettings();
+    parts.applyTheme();
+    applyScale (parts.settings.scale);
+    parts.hand.showScene (parts.settings.scene);
+    parts.hand.film().setLength (parts.settings.film_s);
+    parts.applyFusion();
     resized();
 }
 
-void MainView::restorePanels (const Shares& to)
+void MainView::open (const fs::path& file)
 {
-    shares_before = to;
-    for (std::size_t i = 0; const auto& [name, edge] : edges())
-        edge->restore (to[i++]);
-    is_canvas_alone = is_canvas_alone && left_edge.isFolded() && right_edge.isFolded() && bottom_edge.isFolded();
-    edgeMoved();
+    if (isRecording (file)) return parts.desk.fitRecording (file);
+    // A shipped preset is opened as a copy, whichever way its path is written.
+    std::error_code failed;
+    const auto whole = fs::absolute (file, failed);
+    const bool is_shipped = fs::equivalent (whole.parent_path(), presetFolder(), failed) && ! failed;
+    is_shipped ? parts.files.openCopy (whole, false) : parts.files.open (file);
 }
 
-void MainView::panelsMoved()
+bool MainView::isInterestedInFileDrag (const juce::StringArray& dragged)
 {
-    const auto before = std::exchange (shares_before, shares()), now = shares_before;
-    if (before == now) return;
-    const auto restored = [safe = SafePointer (this)] (const Shares& to) {
-        return [safe, to] {
-            if (safe != nullptr) safe->restorePanels (to);
-        };
-    };
-    edited.addWindowStep (NEEDS_TRANS ("move panels"), restored (before), restored (now));
-}
-
-/// Leaves the window to the canvas, or brings back the panels that were open before.
-void MainView::foldPanels()
-{
-    const std::array folding { &left_edge, &right_edge, &bottom_edge };
-    if (is_canvas_alone || std::ranges::all_of (folding, &Splitter::isFolded))
-    {
-        // A panel that was opened meanwhile stays open.
-        for (std::size_t i = 0; i < folding.size(); ++i)
-            folding[i]->fold (folding[i]->isFolded() && folded_before[i]);
-        folded_before = {};
-        is_canvas_alone = false;
-    }
-    else
-    {
-        std::ranges::transform (folding, folded_before.begin(), &Splitter::isFolded);
-        for (auto* edge : folding)
-            edge->fold (true);
-        is_canvas_alone = true;
-    }
-    edgeMoved();
-    panelsMoved();
-    if (is_canvas_alone) status.notify (TRANS ("The panels are hidden. Z shows them again."));
-}
-
-void MainView::applySettings()
-{
-    for (const auto& [name, edge] : edges())
-        if (const auto share = settings.panels.find (name); share != settings.panels.end()) edge->setShare (share->second);
-    shares_before = shares();
-    applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
-    applyScale (settings.scale);
-    hand.showScene (settings.scene);
-    hand.film().setLength (settings.film_s);
-    applyFusion();
-    resized();
-}
-
-void MainView::applyFusion()
-{
-    const Fuser::Options how { .compiler = { .cache = FusionCompiler::usualCache() } };
-    run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
+    if (dragged.size() != 1 || parts.question.isOpen()) return false;
+    const fs::path file { dragged[0].toStdString() };
+    return isClipExtension (file) || isRecording (file) || extensionOf (file) == ".json" || isPresetPack (file);
 }
 
 void MainView::wake()
@@ -230,96 +135,142 @@ void MainView::rest()
     if (auto* window = getPeer()) setRepaintRate (*window, has_caret ? repaints_for_caret : refreshes_at_rest);
 }
 
+void MainView::mouseDown (const juce::MouseEvent& e)
+{
+    wake();
+    keyboard.pressed (*e.eventComponent);
+}
+
+void MainView::mouseDrag (const juce::MouseEvent&)
+{
+    wake();
+    parts.status.endRefusal();   // a drag says what it does
+}
+
+void MainView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& d)
+{
+    wake();
+    juce::Component::mouseWheelMove (e, d);
+}
+
+bool MainView::keyStateChanged (bool is_down)
+{
+    if (! is_down) keyboard.release();
+    return false;
+}
+
 void MainView::timerCallback()
 {
-    const bool is_busy = playback.current().isRunning() || ticks_to_save > 0;
-    if (is_busy)
+    auto& playback = parts.playback;
+    auto& strip = parts.strip;
+    auto& status = parts.status;
+    if (playback.current().isRunning() || parts.saver.isWaiting() || parts.stems.isRunning() || assets.isRunning())
         wake();
     else if (awake_for == 0 || --awake_for == 0)
         rest();
-    device_setup.follow();
+    parts.device_setup.follow();
     playback.poll();
     if (std::exchange (was_trying, playback.isTrying()) && ! was_trying) status.hint ({});   // what the test of a device said
-    attendClutch();
-    keepKeyboard();
-    shade.follow();
+    keyboard.poll();
+    parts.shade.follow();
     if (osc_server) osc_server->poll();
     strip.refresh();
     if (direct_stop)
     {
-        direct_stop->letEscStop (escStops());
+        direct_stop->letEscStop (keyboard.escStops());
         if (const auto why = direct_stop->follow (strip, strip.stopPlace()))
             status.notify (filled (TRANS ("While the window is busy, Esc and STOP have to wait: %1"), messageText (*why)));
     }
-    hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
-    hand.refresh();
-    attendFilm();
-    if (stems.isRunning())
-    {
-        wake();
-        stems.attend();
-    }
-    attendLoad();
-    live.refresh();
-    inspector.refreshLive();
-    limits.poll();
-    attendLiveNodes();
-    strip.limitLight().show (limits.list());
-    inspector.showLimits (limits.list().contacts);
-    files.poll();
-    if (welcome.isVisible()) welcome.refresh (std::ranges::any_of (device_setup.session().session.roles(), [this] (const auto& r) { return bindsTool (r); }));
-    if (ticks_to_save > 0 && --ticks_to_save == 0)
-        if (const auto saved = saveSettings (settings, home); ! saved)
-            status.notify (filled (TRANS ("Could not save the settings: %1"), fromUtf8 (saved.error().text)));
-    for (const auto& [panel, component, tabs] : panels)
-    {
-        if (panel.refresh) panel.refresh();
-        if (! panel.title || tabs == nullptr) continue;
-        const auto title = panel.title();
-        tabs->rename (component, title.text, title.alarms);
-    }
+    parts.hand.setSeen (parts.hand.isShowing() && ! parts.hand.getBounds().isEmpty());
+    parts.hand.refresh();
+    closing.poll();
+    if (parts.stems.isRunning()) parts.stems.attend();
+    assets.poll();
+    parts.live.refresh();
+    parts.inspector.refreshLive();
+    parts.limits.poll();
+    pollLiveNodes();
+    strip.limitLight().show (parts.limits.list());
+    parts.inspector.showLimits (parts.limits.list().contacts);
+    parts.files.poll();
+    beginnings.poll();
+    if (const auto saved = parts.saver.poll(); ! saved) status.notify (filled (TRANS ("Could not save the settings: %1"), fromUtf8 (saved.error().text)));
+    refreshPanels();
     if (onRefresh) onRefresh();
 }
 
-void MainView::attendLiveNodes()
+void MainView::refreshPanels()
+{
+    for (const auto& [panel, component, covers] : parts.panels)
+    {
+        if (panel.refresh) panel.refresh();
+        if (! panel.title || covers) continue;
+        const auto title = panel.title();
+        parts.layout.rename (component, title.text, title.alarms);
+    }
+}
+
+void MainView::pollLiveNodes()
 {
     if (! live_nodes || ! live_nodes->poll()) return;
-    edited.renew();
-    pictures.use (catalogue);
-    if (help.isOpen() && ! help.type().empty()) help.showNode (help.type());
+    parts.edited.renew();
+    parts.pictures.use (parts.catalogue);
+    if (parts.help.isOpen() && ! parts.help.type().empty()) parts.help.showNode (parts.help.type());
     live_nodes->forget();
-    status.notify (juce::String (live_nodes->latest()));
+    parts.status.notify (juce::String (live_nodes->latest()));
 }
 
 void MainView::documentChanged()
 {
     wake();
-    status.clearNotice();
+    parts.status.clearNotice();
+    auto& edited = parts.edited;
+    auto& patching = parts.patching;
     const bool is_other = edited.identity() != shown_identity;
     if (is_other)
     {
         shown_identity = edited.identity();
-        if (loaded_for != shown_identity) loaded_assets.reset();
-        hand.view().letGo();                               // it held the tool of the graph before
+        assets.otherGraph();
+        parts.hand.view().letGo();                         // it held the tool of the graph before
         if (! run().isRunning()) run().traces().clear();   // they are of the graph before
         patching.leaveTo (0);
         patching.select ({});
         patching.frameStart();
-        for (const auto& p : panels)
+        for (const auto& p : parts.panels)
             if (p.panel.restore) p.panel.restore();
     }
     const bool is_begun = edited.identity() != first_identity || edited.isChanged();
-    if (welcome.isVisible() && is_begun) welcome.setVisible (false);
-    showBeginnings();
-    if (is_other && left.isParentOf (getCurrentlyFocusedComponent())) takeFocus (patching);   // what is typed next is for this graph, not for a search
-    top.show();
-    const auto saved = top.savedText();
-    if (onTitle) onTitle (top.graphName() + (saved.isEmpty() ? saved : " (" + saved + ")"));
+    if (parts.welcome.isVisible() && is_begun) parts.welcome.setVisible (false);
+    beginnings.placeTemplates();
+    if (is_other && parts.layout.left.isParentOf (getCurrentlyFocusedComponent()))
+        takeFocus (patching);   // what is typed next is for this graph, not for a search
+    parts.top.show();
+    const auto saved = parts.top.savedText();
+    if (onTitle) onTitle (parts.top.graphName() + (saved.isEmpty() ? saved : " (" + saved + ")"));
 }
 
-void MainView::documentRefused (const Message& m) { report (m); }
-void MainView::report (const Message& m) { status.notify (juce::String (messageText (m))); }
+void MainView::documentRefused (const Message& m) { parts.status.notify (juce::String (messageText (m))); }
 
 void MainView::paint (juce::Graphics& g) { g.fillAll (themeOf (*this).panel); }
+
+void MainView::resized()
+{
+    auto area = getLocalBounds();
+    const auto below_strip = area.withTrimmedTop (SafetyStrip::height);   // STOP stays within reach
+    parts.strip.setBounds (area.removeFromTop (SafetyStrip::height));
+    parts.top.setBounds (area.removeFromTop (TopBar::height));
+    parts.status.setBounds (area.removeFromBottom (StatusLine::height));
+    const auto pages = parts.layout.layOut (area);
+    beginnings.placeTemplates();
+    parts.welcome.setBounds (pages);
+    const bool is_small = parts.layout.isSmall();
+    parts.help.setArea (is_small ? pages.reduced (4) : pages.withBottom (parts.hand.getBottom()).reduced (16));
+    for (const auto& p : parts.panels)
+        if (p.covers) p.component.setBounds (below_strip);
+    parts.tour.setBounds (getLocalBounds());
+    parts.tour.resized();   // what it frames may have moved
+    for (auto* over : std::initializer_list<juce::Component*> { &parts.question, &parts.menus, &parts.shade })
+        over->setBounds (below_strip);
+}
 
 }   // namespace tactus::host

@@ -12,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float margin = 4.0f, menu_width = 28.0f;
+constexpr float tab_margin = 4.0f, menu_width = 28.0f;
 }   // namespace
 
 juce::Component& Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel)
@@ -66,13 +66,13 @@ std::vector<std::pair<juce::String, juce::Rectangle<float>>> Tabs::titles() cons
     for (const auto& t : tabs)
         all_texts += texts.emplace_back (font.getStringWidthFloat (t.name));
     const auto count = static_cast<float> (tabs.size());
-    const float whole = static_cast<float> (getWidth()) - margin;
+    const float whole = static_cast<float> (getWidth()) - tab_margin;
     const bool has_room = all_texts + count * wide <= whole, has_menu = all_texts + count * narrow > whole;
     const float space = has_room ? wide : narrow;
     float left = has_menu ? whole - menu_width : whole;   // for the titles; the current one is always there
     if (current < static_cast<int> (tabs.size())) left -= texts[static_cast<std::size_t> (current)] + space;
     std::vector<std::pair<juce::String, juce::Rectangle<float>>> all;
-    float x = margin;
+    float x = tab_margin;
     for (std::size_t i = 0; i < tabs.size(); ++i)
     {
         const bool is_current = static_cast<int> (i) == current;

@@ -167,7 +167,7 @@ TEST_CASE ("while the graph runs, the node and the inspector show what a wire se
     REQUIRE (field != nullptr);
     CHECK (field->isDriven());
     CHECK (field->spokenValue() == "level.out");
-    CHECK (reads (w.view->inspected(), "from level.out"));
+    CHECK (reads (w.view->part<Inspector>(), "from level.out"));
 
     const auto before = w.view->document().version();
     const auto middle = w.middleOf (*field);

@@ -163,7 +163,7 @@ TEST_CASE ("Add a hand, Add a motor and Wire in the Problems panel leave the oth
     const auto before = placesIn (canvas.scene());
     const auto text = writeGraph (w.graph());
     WindowRig::settle (300);
-    w.click ("Problems " + juce::String (w.view->panel<ProblemList>().messages().size()));
+    w.click ("Problems " + juce::String (w.view->part<ProblemList>().messages().size()));
     w.click (type == "device.position" ? "Add a hand" : "Add a motor");
     REQUIRE (canvas.scene().nodes().size() > before.size());
     Selection made;
@@ -203,10 +203,10 @@ TEST_CASE ("a fit that is added to the graph gets a free place and its wires, in
     const auto before = placesIn (canvas.scene());
     const auto text = writeGraph (w.graph());
     const auto position = w.view->document().history().position();
-    w.view->fitRecordingIn (w.home / "strokes.csv");
-    for (int i = 0; i < 4000 && ! w.view->panel<FitPanel>().fitted(); ++i)
+    w.view->desk().fitRecording (w.home / "strokes.csv");
+    for (int i = 0; i < 4000 && ! w.view->part<FitPanel>().fitted(); ++i)
         WindowRig::settle (5);
-    REQUIRE (w.view->panel<FitPanel>().fitted());
+    REQUIRE (w.view->part<FitPanel>().fitted());
     w.click ("Add to this graph");
     CHECK (latestStep (w.view->document()).starts_with ("add fit"));
     CHECK (w.view->document().history().position() == position + 1);

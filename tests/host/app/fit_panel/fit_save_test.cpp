@@ -31,8 +31,8 @@ TEST_CASE ("fit panel: Cancel at the question about unsaved changes keeps the fi
             out << 1e-3 * i << ',' << v << ",2," << -0.8 * d / 1e-4 + 0.002 * std::sin (7.0 * i) << '\n';
         }
     }
-    auto& panel = w.view->panel<FitPanel>();
-    w.view->fitRecordingIn (file);
+    auto& panel = w.view->part<FitPanel>();
+    w.view->desk().fitRecording (file);
     for (int i = 0; i < 4000 && panel.isFitting(); ++i)
         WindowRig::settle (5);
     REQUIRE (panel.fitted());

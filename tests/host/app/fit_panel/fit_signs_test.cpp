@@ -20,7 +20,7 @@ namespace
 /// Waits for the fit of the panel, which must come about or not.
 void finishFit (WindowRig& w, bool is_possible)
 {
-    auto& panel = w.view->panel<FitPanel>();
+    auto& panel = w.view->part<FitPanel>();
     for (int i = 0; i < 4000 && panel.isFitting(); ++i)
         WindowRig::settle (5);
     INFO (panel.problem());
@@ -40,7 +40,7 @@ std::filesystem::path writeHeights (WindowRig& w)
 
 bool isSaid (WindowRig& w, const char* text)
 {
-    const auto texts = tactus::host::test::readTexts (w.view->panel<FitPanel>());
+    const auto texts = tactus::host::test::readTexts (w.view->part<FitPanel>());
     return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
 }
 
@@ -55,8 +55,8 @@ bool isTurned (WindowRig& w, const char* title)
 TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and each sign can be turned by a click", "[app][fit]")
 {
     WindowRig w ("dry_wood.json");
-    auto& panel = w.view->panel<FitPanel>();
-    w.view->fitRecordingIn (writeHeights (w));
+    auto& panel = w.view->part<FitPanel>();
+    w.view->desk().fitRecording (writeHeights (w));
     CHECK (panel.kind() == FitKind::curve);
     finishFit (w, true);
     CHECK (panel.fitted()->report.is_good);
@@ -88,8 +88,8 @@ TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and e
 TEST_CASE ("fit panel: a minus in a unit turns the sign, and the button shows it", "[app][fit]")
 {
     WindowRig w ("dry_wood.json");
-    auto& panel = w.view->panel<FitPanel>();
-    w.view->fitRecordingIn (writeHeights (w));
+    auto& panel = w.view->part<FitPanel>();
+    w.view->desk().fitRecording (writeHeights (w));
     finishFit (w, true);
     panel.columns().turn ("depth");
     finishFit (w, false);
@@ -114,10 +114,10 @@ TEST_CASE ("fit panel: at 1024 by 700 and 200 %, the table and the legend are wh
     const auto [width, height] = GENERATE (std::pair (512, 350), std::pair (640, 360), std::pair (1280, 720));
     INFO (width << " x " << height);
     WindowRig w ("dry_wood.json", width, height);
-    w.view->fitRecordingIn (writeHeights (w));
+    w.view->desk().fitRecording (writeHeights (w));
     finishFit (w, true);
     WindowRig::settle (50);
-    auto& panel = w.view->panel<FitPanel>();
+    auto& panel = w.view->part<FitPanel>();
     const auto texts = tactus::host::test::readTexts (panel);
     const auto area = panel.getLocalBounds().toFloat();
     CHECK (tactus::host::test::overlaps (texts, area).joinIntoString ("; ") == "");

@@ -148,14 +148,14 @@ struct Window
     std::vector<std::string> labels()
     {
         std::vector<std::string> all;
-        addLabels (view->inspected().shown(), all);
+        addLabels (view->part<Inspector>().shown(), all);
         return all;
     }
 
     /// What the compiler said last, as Problems shows it.
     std::optional<Message> error()
     {
-        const auto& all = view->panel<ProblemList>().messages();
+        const auto& all = view->part<ProblemList>().messages();
         const auto found = std::ranges::find (all, std::string ("live/compile"), &Message::id);
         return found == all.end() ? std::nullopt : std::optional (*found);
     }
@@ -246,11 +246,11 @@ TEST_CASE ("the window unloads each version of a plugin when the next one has ta
         save (i);
 
     w.view->canvas().select ({ w.view->document().graph().root.find ("twice")->id });
-    w.view->helpPanel().showNode ("c.twice");
-    w.view->inspected().setHelp (true);
+    w.view->part<HelpPanel>().showNode ("c.twice");
+    w.view->part<Inspector>().setHelp (true);
     for (int i = 10; i < 14; ++i)
         save (i);
-    CHECK (w.view->helpPanel().isOpen());
+    CHECK (w.view->part<HelpPanel>().isOpen());
 
     w.view->run().letGo();
     for (int i = 14; i < 18; ++i)

@@ -135,7 +135,7 @@ TEST_CASE ("the window shares the open graph, and opens such a file as a copy", 
     WindowRig::settle();
     CHECK (w.graph().name == "Heartbeat");
     CHECK (w.view->document().file().empty());
-    CHECK (w.view->panel<ProblemList>().messages().empty());
+    CHECK (w.view->part<ProblemList>().messages().empty());
 
     folder.write ("bad.tactus", "no archive");
     w.view->open (folder / "bad.tactus");

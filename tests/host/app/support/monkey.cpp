@@ -123,7 +123,7 @@ void Monkey::settle()
         poll (1);
     }
     if (view->asked().isOpen()) view->asked().cancel();
-    view->endPreview();
+    view->desk().endPreview();
 }
 
 fs::path Monkey::someFile (bool saves)

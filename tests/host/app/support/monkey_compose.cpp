@@ -86,7 +86,7 @@ std::string Monkey::turnDepth()
     std::vector<juce::Component*> all;
     const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
         if (! c.isShowing()) return;
-        const bool is_knob = c.getParentComponent() == &view->inspected().knobs();
+        const bool is_knob = c.getParentComponent() == &view->part<Inspector>().knobs();
         if (is_knob || dynamic_cast<DepthRing*> (&c) != nullptr || dynamic_cast<Fader*> (&c) != nullptr) all.push_back (&c);
         for (auto* child : c.getChildren())
             self (self, *child);

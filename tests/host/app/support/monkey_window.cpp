@@ -79,13 +79,13 @@ std::string Monkey::openFile()
 
 std::string Monkey::preview()
 {
-    if (view->isPreviewing() || upTo (3) == 0)
+    if (view->desk().playback.isPreviewing() || upTo (3) == 0)
     {
-        view->endPreview();
+        view->desk().endPreview();
         return "end of the preview";
     }
     const auto file = oneOf (shipped);
-    view->preview (file);
+    view->desk().preview (file);
     return "preview " + file.filename().string();
 }
 

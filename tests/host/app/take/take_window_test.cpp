@@ -22,7 +22,7 @@ TEST_CASE ("a take shows its curve while it records, Stop ends the take and not 
     WindowRig w ("dry_wood.json", 1280, 720, false);
     setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
     auto& run = w.view->run();
-    auto& panel = w.view->panel<TakePanel>();
+    auto& panel = w.view->part<TakePanel>();
     w.view->chooseFile = [&] (bool, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
         chosen (w.home / begin.filename().string());
     };
@@ -139,7 +139,7 @@ struct Recorder
 {
     WindowRig w { "dry_wood.json", 1280, 720, false };
     LiveRun& run { w.view->run() };
-    TakePanel& panel { w.view->panel<TakePanel>() };
+    TakePanel& panel { w.view->part<TakePanel>() };
     Take& take { panel.take() };
 
     Recorder()
@@ -290,7 +290,7 @@ TEST_CASE ("a take that ends with the run says so, and has the length of what it
 TEST_CASE ("a take can be undone, which brings back the one before", "[app][take]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
-    auto& panel = w.view->panel<TakePanel>();
+    auto& panel = w.view->part<TakePanel>();
     w.click ("Take");
     const auto record = [&] (double seconds) {
         w.click ("Record");
@@ -358,7 +358,7 @@ TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app]
     REQUIRE (w.view->asked().isOpen());
     CHECK (w.view->asked().getDescription().contains ("A take was not saved."));
     w.click ("Recover without running");
-    auto& panel = w.view->panel<TakePanel>();
+    auto& panel = w.view->part<TakePanel>();
     REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
     CHECK (panel.unsaved() == std::vector { panel.take().recorded() });
     CHECK (panel.port() == "motor.force");

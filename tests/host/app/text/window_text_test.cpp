@@ -101,11 +101,11 @@ TEST_CASE ("texts neither overlap nor are cut off in questions, in the fit panel
     REQUIRE (question.isOpen());
     checkLayout (question, question.getLocalBounds());
     rig.key ("escape");
-    rig.view->fitRecordingIn (rig.home / "nowhere.csv");
-    checkLayout (rig.view->panel<FitPanel>(), rig.view->panel<FitPanel>().getLocalBounds());
+    rig.view->desk().fitRecording (rig.home / "nowhere.csv");
+    checkLayout (rig.view->part<FitPanel>(), rig.view->part<FitPanel>().getLocalBounds());
     rig.key ("escape");
     rig.key ("F1");
-    auto& help = rig.view->helpPanel();
+    auto& help = rig.view->part<HelpPanel>();
     REQUIRE (help.isOpen());
     CHECK (app_test::overlaps (app_test::readTexts (help), help.getLocalBounds().toFloat()).joinIntoString ("\n") == juce::String());
 }

@@ -21,7 +21,7 @@ namespace
 /// The middle of the row of a preset, which is searched for first.
 juce::Point<float> rowOf (WindowRig& w, const juce::String& name)
 {
-    auto& browser = w.view->panel<PresetBrowser>();
+    auto& browser = w.view->part<PresetBrowser>();
     browser.search (name);
     WindowRig::settle();
     juce::ListBox* list = nullptr;

@@ -23,7 +23,7 @@ const std::filesystem::path templates = TACTUS_SOURCE_DIR "/graphs/templates";
 /// Where a node of the list is on the screen.
 juce::Point<float> rowOf (WindowRig& w, const std::string& type)
 {
-    auto& nodes = w.view->panel<NodeList>();
+    auto& nodes = w.view->part<NodeList>();
     juce::ListBox* list = nullptr;
     for (auto* child : nodes.getChildren())
         if (auto* l = dynamic_cast<juce::ListBox*> (child)) list = l;
@@ -41,13 +41,13 @@ TEST_CASE ("an empty graph offers five templates, each of which can be felt at o
 {
     WindowRig w;
     w.key ("ctrl + n");
-    auto& row = w.view->templateRow();
+    auto& row = w.view->part<TemplateRow>();
     REQUIRE (row.isShowing());
     std::vector<std::string> names;
     for (const auto& t : row.all())
         names.push_back (t.name);
     CHECK (names == std::vector<std::string> { "Press", "Stroke", "Tap", "Cut", "Clip" });
-    for (const auto& p : w.view->panel<PresetBrowser>().shipped())
+    for (const auto& p : w.view->part<PresetBrowser>().shipped())
         CHECK (std::ranges::count (names, p.name) == 0);   // they are no presets
 
     const auto name = GENERATE (as<juce::String>(), "Press", "Stroke", "Tap", "Cut", "Clip");
@@ -112,7 +112,7 @@ TEST_CASE ("a template is chosen by keys in the palette, where the name of a nod
 TEST_CASE ("the tour has five steps on parts of the window, goes on by keys, and is offered until it was seen", "[app][beginnings]")
 {
     WindowRig w;
-    auto& tour = w.view->guidedTour();
+    auto& tour = w.view->part<Tour>();
     w.click ("Show me around");
     REQUIRE (tour.isOpen());
     CHECK (w.graph().name == "Dry wood");   // something to feel
@@ -157,7 +157,7 @@ TEST_CASE ("the tour that was seen is not offered at the next start", "[app][beg
     MainView other (catalogue());
     w.stage->fill (other);
     other.begin ({ .home = home.path(), .safe = true });
-    CHECK (other.welcomePage().isShowing());
+    CHECK (other.part<WelcomePage>().isShowing());
     CHECK (WindowRig::buttonIn (other, "Show me around") == nullptr);
     CHECK (WindowRig::buttonIn (other, "New empty graph") != nullptr);
 }
@@ -166,7 +166,7 @@ TEST_CASE ("a node is dragged from the list to the canvas", "[app][beginnings]")
 {
     WindowRig w ("dry_wood.json", 1600, 900);
     w.click ("Nodes");
-    REQUIRE (w.view->panel<NodeList>().isShowing());
+    REQUIRE (w.view->part<NodeList>().isShowing());
     auto& canvas = w.view->canvas();
     const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
     const auto count = w.graph().root.nodes.size();
@@ -193,7 +193,7 @@ TEST_CASE ("a node is dragged from the list into a wire", "[app][beginnings]")
     REQUIRE (search != nullptr);
     w.stage->click (w.middleOf (*search));
     w.stage->type ("reconstruction");
-    REQUIRE (waitFor ([&] { return w.view->panel<NodeList>().entries().front().type == "filter.reconstruction"; }));
+    REQUIRE (waitFor ([&] { return w.view->part<NodeList>().entries().front().type == "filter.reconstruction"; }));
     const auto wire = std::ranges::find (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text);
     REQUIRE (wire != canvas.scene().wires().end());
     const auto path = wire->path();
@@ -212,7 +212,7 @@ TEST_CASE ("the list of nodes finds as the palette does, Return adds, and Esc gi
     REQUIRE (search != nullptr);
     w.stage->click (w.middleOf (*search));
     w.stage->type ("grating");
-    REQUIRE (waitFor ([&] { return w.view->panel<NodeList>().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
+    REQUIRE (waitFor ([&] { return w.view->part<NodeList>().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
     const auto count = w.graph().root.nodes.size();
     w.key ("return");
     CHECK (w.graph().root.nodes.size() == count + 1);

@@ -37,8 +37,8 @@ struct Closing
     ~Closing() { w.view->run().letGo(); }
 
     Question& question() { return w.view->asked(); }
-    FilmButton& film() { return w.view->handPanel().film(); }
-    Take& take() { return w.view->panel<TakePanel>().take(); }
+    FilmButton& film() { return w.view->part<HandPanel>().film(); }
+    Take& take() { return w.view->part<TakePanel>().take(); }
     void close()
     {
         w.view->closeWhenSaved ([this] { ++closed; });
@@ -62,7 +62,7 @@ struct Closing
     {
         w.click ("Take");
         w.click ("Record");
-        REQUIRE (waitFor ([&] { return take().state() == Take::State::recording && w.view->panel<TakePanel>().plot().length() > 0.05; }));
+        REQUIRE (waitFor ([&] { return take().state() == Take::State::recording && w.view->part<TakePanel>().plot().length() > 0.05; }));
     }
 
     void stopRecording()
@@ -242,7 +242,7 @@ TEST_CASE ("closing asks about a take of which nothing was made, and saves it so
         c.w.key ("escape");
         WindowRig::settle (50);
         CHECK (c.closed == 0);
-        CHECK_FALSE (c.w.view->panel<TakePanel>().unsaved().empty());
+        CHECK_FALSE (c.w.view->part<TakePanel>().unsaved().empty());
         CHECK ((c.take().state() == Take::State::recording) == ! is_complete);
     }
     SECTION ("Don't save")
@@ -307,7 +307,7 @@ TEST_CASE ("a take of which something was made needs no question, a new graph ke
         CHECK (c.w.graph().name != "Dry wood");
         CHECK (c.take().log() == log);
         CHECK (fs::exists (log));
-        REQUIRE (waitFor ([&] { return c.w.view->panel<TakePanel>().plot().length() > 0.05; }));
+        REQUIRE (waitFor ([&] { return c.w.view->part<TakePanel>().plot().length() > 0.05; }));
         c.close();
         CHECK (c.question().title().startsWith ("Save the take"));
         CHECK (c.closed == 0);

@@ -101,7 +101,7 @@ TEST_CASE ("the range of a control keeps its unit when its parameter gets into a
             for (auto* child : at.getChildren())
                 look (*child);
         };
-        look (c.w->view->inspected());
+        look (c.w->view->part<Inspector>());
         return texts;
     };
     const auto before = ranges();
@@ -144,7 +144,7 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
 {
     Cloth c;
     c.select ("drag");
-    auto& knobs = c.w->view->inspected().knobs();
+    auto& knobs = c.w->view->part<Inspector>().knobs();
     REQUIRE (knobs.isVisible());
     auto& knob = knobs.knob (0);
     const auto label =
@@ -182,7 +182,7 @@ TEST_CASE ("on a knob with the keyboard focus, Return and digits open its value,
 {
     Cloth c;
     c.select ("drag");
-    auto& knob = c.w->view->inspected().knobs().knob (0);
+    auto& knob = c.w->view->part<Inspector>().knobs().knob (0);
     const auto& control = c.w->graph().controls[0];
     knob.grabKeyboardFocus();
     REQUIRE (WindowRig::focused() == &knob);
@@ -209,7 +209,7 @@ TEST_CASE ("a click on a knob or a field gives it the keyboard, so that what is 
     Cloth c;
     c.select ("drag");
     const auto& control = c.w->graph().controls[0];
-    c.w->stage->click (c.w->middleOf (c.w->view->inspected().knobs().knob (0)).translated (0.0f, -8.0f));
+    c.w->stage->click (c.w->middleOf (c.w->view->part<Inspector>().knobs().knob (0)).translated (0.0f, -8.0f));
     CHECK (control.value == Approx (0.7));
     c.w->stage->type ("0.4");
     c.key ("return");
@@ -233,7 +233,7 @@ TEST_CASE ("one turn of the wheel over a knob is one step, and Shift+drag is fin
 {
     Cloth c;
     c.select ("drag");
-    auto& knob = c.w->view->inspected().knobs().knob (0);
+    auto& knob = c.w->view->part<Inspector>().knobs().knob (0);
     const auto dial = c.w->middleOf (knob).translated (0.0f, -8.0f);
     const auto& control = c.w->graph().controls[0];
     const auto before = c.w->view->document().history().position();
@@ -296,7 +296,7 @@ TEST_CASE ("a click beside the fields of the inspector gives no field the keyboa
     Cloth c;
     c.select ("drag");
     const auto name = c.node ("drag").name;
-    auto& inspector = c.w->view->inspected();
+    auto& inspector = c.w->view->part<Inspector>();
     for (int y = 4; y < inspector.getHeight(); y += 12)
     {
         c.w->view->canvas().grabKeyboardFocus();
@@ -456,7 +456,7 @@ TEST_CASE ("a knob whose parameters get wires is dimmed, names the wires, and do
 
     k.w->view->canvas().select ({});   // the same in the list of controls
     WindowRig::settle();
-    const auto texts = readTexts (k.w->view->inspected());
+    const auto texts = readTexts (k.w->view->part<Inspector>());
     CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.contains ("drag.mu, without effect: a wire from ratio.out"); }));
     auto* field = dynamic_cast<NumberField*> (k.w->titled ("Roughness"));
     REQUIRE (field != nullptr);

@@ -122,7 +122,7 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     // If a field is deleted while it has the keyboard, the component next to it does not get it.
     d.select ("scrub");
     w.key ("return");
-    REQUIRE (w.view->inspected().hasKeyboardFocus (true));
+    REQUIRE (w.view->part<Inspector>().hasKeyboardFocus (true));
     d.document().perform (graph::RemoveNode { {}, "scrub" });
     d.checkKeys ("the node of a focused field was deleted");
 
@@ -158,7 +158,7 @@ TEST_CASE ("another program gets the keyboard while the palette is open, and kee
 TEST_CASE ("the keyboard alone leads from the welcome page to a force, and through all panels", "[app][keyboard]")
 {
     WindowRig w ({}, 1280, 720, false);
-    const auto& cards = w.view->welcomePage().cards();
+    const auto& cards = w.view->part<WelcomePage>().cards();
     REQUIRE (cards.size() == 6);
     const auto isOn = [&] (std::size_t card) { return WindowRig::focused() != nullptr && WindowRig::focused()->getName() == juce::String (cards[card].name); };
     CHECK (isOn (0));
@@ -247,14 +247,14 @@ TEST_CASE ("keys reach the buttons of the welcome page, and every tab", "[app][k
         w.key ("cursor down");
     CHECK (isOn ("New empty graph"));
     w.key ("cursor up");
-    CHECK (isOn (juce::String (w.view->welcomePage().cards()[5].name)));
+    CHECK (isOn (juce::String (w.view->part<WelcomePage>().cards()[5].name)));
     w.key ("cursor down");
     w.key ("tab");
     CHECK (isOn ("Open ..."));
     w.key ("shift + tab");
     w.key ("return");
     WindowRig::settle();
-    REQUIRE_FALSE (w.view->welcomePage().isVisible());
+    REQUIRE_FALSE (w.view->part<WelcomePage>().isVisible());
     CHECK (WindowRig::focused() == &w.view->canvas());
 
     std::set<std::string> shown;
@@ -304,8 +304,8 @@ TEST_CASE ("the search for commands finds what a click can do, wherever it is", 
     CHECK (w.view->canvas().selection().size() >= w.graph().root.nodes.size());
     w.key ("z");   // all panels are folded
     find ("take");
-    CHECK (w.view->panel<TakePanel>().isShowing());
-    CHECK (w.view->panel<TakePanel>().getHeight() > 100);
+    CHECK (w.view->part<TakePanel>().isShowing());
+    CHECK (w.view->part<TakePanel>().getHeight() > 100);
     const bool was_dark = themeOf (*w.view).is_dark;
     find ("light theme");
     CHECK (themeOf (*w.view).is_dark != was_dark);

@@ -32,7 +32,7 @@ TEST_CASE ("every parameter is reached from the canvas with the keyboard alone, 
     w.key ("return");
     auto* field = dynamic_cast<NumberField*> (WindowRig::focused());
     REQUIRE (field != nullptr);
-    CHECK (w.view->inspected().isParentOf (field));
+    CHECK (w.view->part<Inspector>().isParentOf (field));
 
     // Tab goes through all fields of the node, and opens nothing.
     std::set<std::string> titles;
@@ -40,7 +40,7 @@ TEST_CASE ("every parameter is reached from the canvas with the keyboard alone, 
     {
         if (auto* f = dynamic_cast<NumberField*> (WindowRig::focused())) titles.insert (f->getTitle().toStdString());
         w.key ("tab");
-        REQUIRE (w.view->inspected().hasKeyboardFocus (true));
+        REQUIRE (w.view->part<Inspector>().hasKeyboardFocus (true));
     }
     for (const char* param : { "d max", "Static ratio", "Stiffness" })
         CHECK (titles.contains (param));
@@ -49,7 +49,7 @@ TEST_CASE ("every parameter is reached from the canvas with the keyboard alone, 
         w.key ("tab");
     REQUIRE (WindowRig::focused()->getTitle() == "Stiffness");
     w.key ("return");
-    REQUIRE (firstTextEditor (w.view->inspected()) != nullptr);
+    REQUIRE (firstTextEditor (w.view->part<Inspector>()) != nullptr);
     w.stage->type ("2 kN/m");
     w.key ("return");
     CHECK (w.graph().root.find ("drag")->params["stiffness"] == "2 kN/m");
@@ -72,9 +72,9 @@ TEST_CASE ("a field that gets the focus is scrolled into view", "[app][keys]")
         w.key ("tab");
         const auto* now = WindowRig::focused();
         REQUIRE (now != nullptr);
-        const auto place = w.view->inspected().getLocalArea (now, now->getLocalBounds());
+        const auto place = w.view->part<Inspector>().getLocalArea (now, now->getLocalBounds());
         INFO (now->getTitle());
-        CHECK (w.view->inspected().getLocalBounds().contains (place.getCentre()));
+        CHECK (w.view->part<Inspector>().getLocalBounds().contains (place.getCentre()));
     }
 }
 
@@ -113,8 +113,8 @@ TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to th
     {
         canvas.select (has_node ? Selection { w.graph().root.find ("drag")->id } : Selection {});
         WindowRig::settle();
-        const auto area = w.stage->getLocalArea (&w.view->inspected(), w.view->inspected().getLocalBounds());
-        const auto& knobs = w.view->inspected().knobs();
+        const auto area = w.stage->getLocalArea (&w.view->part<Inspector>(), w.view->part<Inspector>().getLocalBounds());
+        const auto& knobs = w.view->part<Inspector>().knobs();
         for (int y = area.getY() + 4; y < area.getBottom() - (knobs.isVisible() ? knobs.getHeight() : 0); y += 8)
         {
             INFO (y);
@@ -127,7 +127,7 @@ TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to th
 TEST_CASE ("the controls of a graph stay in reach as knobs while a node is selected", "[app][keys]")
 {
     WindowRig w ("bronze_bell.json");
-    auto& knobs = w.view->inspected().knobs();
+    auto& knobs = w.view->part<Inspector>().knobs();
     w.view->canvas().select ({});
     CHECK_FALSE (knobs.isVisible());
     w.view->canvas().select ({ w.graph().root.find ("wall")->id });

@@ -39,11 +39,11 @@ TEST_CASE ("a tool that H holds is let go at a stop, and the next start does not
     w.key ("h");
     w.stage->release();
     WindowRig::settle();
-    REQUIRE (w.view->handPanel().view().isHeld());
+    REQUIRE (w.view->part<HandPanel>().view().isHeld());
 
     w.key ("escape");
     REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
-    REQUIRE (waitFor ([&] { return ! w.view->handPanel().view().isHeld(); }));
+    REQUIRE (waitFor ([&] { return ! w.view->part<HandPanel>().view().isHeld(); }));
     w.key ("F5");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.tool(); }));
     for (int i = 0; i < 20; ++i)

@@ -62,35 +62,35 @@ TEST_CASE ("the first start shows the welcome page, and one click runs a preset 
 {
     Opened o;
     o.view->begin ({ o.home.path() });
-    REQUIRE (o.view->welcomePage().isVisible());
-    REQUIRE (o.view->welcomePage().cards().size() == 6);
-    const auto first = o.view->welcomePage().cards().front();
+    REQUIRE (o.view->part<WelcomePage>().isVisible());
+    REQUIRE (o.view->part<WelcomePage>().cards().size() == 6);
+    const auto first = o.view->part<WelcomePage>().cards().front();
     CHECK (first.name == "Dry wood");
-    o.view->welcomePage().onFeel (first.file, true);
-    CHECK_FALSE (o.view->welcomePage().isVisible());
+    o.view->part<WelcomePage>().onFeel (first.file, true);
+    CHECK_FALSE (o.view->part<WelcomePage>().isVisible());
     CHECK (o.view->run().isRunning());
     CHECK (o.view->run().hand() == LiveRun::Hand::pointer());
     CHECK (o.view->document().file().empty());
     o.view->document().undo();
-    CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph does not bring it back
+    CHECK_FALSE (o.view->part<WelcomePage>().isVisible());   // an empty graph does not bring it back
 }
 
 TEST_CASE ("with simulated devices, Esc first closes what is open and then stops the forces, and Shift+Esc stops in any case")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
-    CHECK_FALSE (o.view->welcomePage().isVisible());
+    CHECK_FALSE (o.view->part<WelcomePage>().isVisible());
     REQUIRE (o.view->run().isRunning());
     o.press ("F1");
-    REQUIRE (o.view->helpPanel().isOpen());
+    REQUIRE (o.view->part<HelpPanel>().isOpen());
     REQUIRE_FALSE (o.view->run().drivesDevice());
     o.press ("escape");
-    CHECK_FALSE (o.view->helpPanel().isOpen());
+    CHECK_FALSE (o.view->part<HelpPanel>().isOpen());
     CHECK (o.view->run().isWanted());
     o.press ("F1");
     o.press ("shift + escape");
     CHECK (o.until ([&] { return o.view->run().isStoppedForGood(); }));
-    CHECK (o.view->helpPanel().isOpen());
+    CHECK (o.view->part<HelpPanel>().isOpen());
     o.press ("escape");
     CHECK (o.view->run().isWanted());
     o.press ("escape");
@@ -107,12 +107,12 @@ TEST_CASE ("while a real device is driven, Esc stops the forces whatever is open
     // The session is read after the graph, and then binds its roles. The device is awaited, and may be plugged in at any time.
     REQUIRE (o.until ([&] { return o.view->run().drivesDevice(); }));
     o.press ("F1");
-    REQUIRE (o.view->helpPanel().isOpen());
+    REQUIRE (o.view->part<HelpPanel>().isOpen());
     o.press ("escape");
     CHECK_FALSE (o.view->run().isWanted());
-    CHECK (o.view->helpPanel().isOpen());
+    CHECK (o.view->part<HelpPanel>().isOpen());
     o.press ("escape");
-    CHECK_FALSE (o.view->helpPanel().isOpen());
+    CHECK_FALSE (o.view->part<HelpPanel>().isOpen());
 }
 
 TEST_CASE ("a stopped run stays stopped during edits")
@@ -275,9 +275,9 @@ TEST_CASE ("help on a node shows its datasheet, and its example opens a graph th
     o.view->begin ({ o.home.path(), true });
     for (const auto& type : catalogue())
     {
-        o.view->helpPanel().showNode (std::string (type.info.id));
-        REQUIRE (o.view->helpPanel().type() == type.info.id);
-        o.view->helpPanel().onExample (o.view->helpPanel().type());
+        o.view->part<HelpPanel>().showNode (std::string (type.info.id));
+        REQUIRE (o.view->part<HelpPanel>().type() == type.info.id);
+        o.view->part<HelpPanel>().onExample (o.view->part<HelpPanel>().type());
         INFO (type.info.id);
         const auto& g = o.view->document().graph();
         bool has = false;
@@ -290,17 +290,17 @@ TEST_CASE ("help on a node shows its datasheet, and its example opens a graph th
             look (patch);
         REQUIRE (has);
     }
-    o.view->helpPanel().showNode ("foo.bar");
-    CHECK (o.view->helpPanel().isOpen());
-    o.view->helpPanel().showNode ("graph:grain");
-    CHECK (o.view->helpPanel().isOpen());
+    o.view->part<HelpPanel>().showNode ("foo.bar");
+    CHECK (o.view->part<HelpPanel>().isOpen());
+    o.view->part<HelpPanel>().showNode ("graph:grain");
+    CHECK (o.view->part<HelpPanel>().isOpen());
 }
 
 TEST_CASE ("the browser searches by words and lists favourites first")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true });
-    auto& browser = o.view->panel<PresetBrowser>();
+    auto& browser = o.view->part<PresetBrowser>();
     browser.setSize (232, 600);
     const auto all = browser.rows().size();
     CHECK (all >= 30);
@@ -330,19 +330,19 @@ TEST_CASE ("a preset is previewed while the button is held, and the document doe
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     REQUIRE (o.view->run().isRunning());
     const auto before = writeGraph (o.view->document().graph());
-    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
-    CHECK (o.view->isPreviewing());
+    o.view->desk().preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    CHECK (o.view->desk().playback.isPreviewing());
     CHECK_FALSE (o.view->run().isRunning());
     CHECK (o.view->statusText().startsWith ("Soft pad"));
-    o.view->endPreview();
-    CHECK_FALSE (o.view->isPreviewing());
+    o.view->desk().endPreview();
+    CHECK_FALSE (o.view->desk().playback.isPreviewing());
     CHECK (o.view->run().isRunning());
     CHECK (writeGraph (o.view->document().graph()) == before);
     CHECK (o.view->document().history().names().size() == 1);
 
     o.press ("escape");
-    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
-    o.view->endPreview();
+    o.view->desk().preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    o.view->desk().endPreview();
     CHECK_FALSE (o.view->run().isWanted());   // it was stopped before the preview
 }
 
@@ -378,14 +378,14 @@ TEST_CASE ("settings persist between starts, and damaged ones are reported")
         "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");
     o.view->begin ({ o.home.path(), true });
     CHECK (o.look.theme().is_dark == false);
-    CHECK (o.view->panel<PresetBrowser>().getWidth() == 320);
-    CHECK (o.view->inspected().getWidth() == 304);   // pixels, as older versions wrote them, are the usual size
+    CHECK (o.view->part<PresetBrowser>().getWidth() == 320);
+    CHECK (o.view->part<Inspector>().getWidth() == 304);   // pixels, as older versions wrote them, are the usual size
     o.view->setSize (1920, 1080);
-    CHECK (o.view->panel<PresetBrowser>().getWidth() == 480);
-    CHECK (o.view->inspected().getWidth() == 304);
-    REQUIRE (o.view->panel<PresetBrowser>().rows().size() > 2);
-    CHECK (o.view->panel<PresetBrowser>().rows()[0].heading == "Favourites");
-    CHECK (o.view->panel<PresetBrowser>().rows()[1].preset->name == "Dry wood");
+    CHECK (o.view->part<PresetBrowser>().getWidth() == 480);
+    CHECK (o.view->part<Inspector>().getWidth() == 304);
+    REQUIRE (o.view->part<PresetBrowser>().rows().size() > 2);
+    CHECK (o.view->part<PresetBrowser>().rows()[0].heading == "Favourites");
+    CHECK (o.view->part<PresetBrowser>().rows()[1].preset->name == "Dry wood");
     o.view.reset();
     CHECK (o.home.textOf ("settings.json").find ("\"welcomed\": true") != std::string::npos);
 

@@ -70,10 +70,10 @@ TEST_CASE ("every control of the window has a name for screen readers", "[app][n
             {
                 INFO (n.name);
                 w.view->canvas().select ({ n.id });
-                checkNames (w.view->inspected());
+                checkNames (w.view->part<Inspector>());
             }
             w.view->canvas().select ({ w.graph().root.wires.front().id });
-            checkNames (w.view->inspected());
+            checkNames (w.view->part<Inspector>());
         }
     }
     SECTION ("with the palette open")

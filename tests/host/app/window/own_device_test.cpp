@@ -55,12 +55,12 @@ TEST_CASE ("a card of the devices panel says that the mouse moves the tool, and 
     CHECK (waitFor ([&] { return ! reads (w, "Not in use"); }));
     CHECK (waitFor ([&] { return listTitled (w, "What moves the tool").getText() == "Its own device"; }));
     CHECK (w.view->statusText().contains ("The device of stylus moves its tool from now on"));
-    CHECK (w.view->handPanel().chosen() == LiveRun::Hand {});   // also in the next graph
+    CHECK (w.view->part<HandPanel>().chosen() == LiveRun::Hand {});   // also in the next graph
 
     w.key ("ctrl + z");   // takes back the device, and what moved the tool
     CHECK (listTitled (w, "device").getText() == "as in the graph");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
-    CHECK (w.view->handPanel().chosen() == LiveRun::Hand::pointer());
+    CHECK (w.view->part<HandPanel>().chosen() == LiveRun::Hand::pointer());
     w.key ("ctrl + y");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand {}; }));
     CHECK (listTitled (w, "device").getText() == "simulated tool");
@@ -96,13 +96,13 @@ TEST_CASE ("the welcome page promises the mouse only if no device of the user mo
     for (const auto& [session, has_device] : { std::pair { "", false }, { with_sound_card, false }, { with_simulated_stylus, true } })
     {
         WindowRig w ({}, 1280, 720, false, session);
-        REQUIRE (w.view->welcomePage().isVisible());
+        REQUIRE (w.view->part<WelcomePage>().isVisible());
         CHECK (waitFor ([&, device = has_device] { return reads (w, "moved by the device that you chose for it") == device; }));
         CHECK (reads (w, "with the mouse as your hand") != has_device);
-        REQUIRE (w.view->welcomePage().cards().front().name == "Dry wood");
-        w.stage->click (w.stage->getLocalPoint (&w.view->welcomePage(), w.view->welcomePage().getChildComponent (3)->getBounds().getCentre()).toFloat());
+        REQUIRE (w.view->part<WelcomePage>().cards().front().name == "Dry wood");
+        w.stage->click (w.stage->getLocalPoint (&w.view->part<WelcomePage>(), w.view->part<WelcomePage>().getChildComponent (3)->getBounds().getCentre()).toFloat());
         auto& run = w.view->run();
-        REQUIRE (waitFor ([&] { return ! w.view->welcomePage().isVisible(); }));
+        REQUIRE (waitFor ([&] { return ! w.view->part<WelcomePage>().isVisible(); }));
         CHECK ((run.hand() == LiveRun::Hand::pointer()) != has_device);
         CHECK (w.view->statusText().contains ("The device chosen in the Devices panel moves the tool") == has_device);
         run.letGo();

@@ -300,17 +300,17 @@ TEST_CASE ("presets are in view in a low window, whatever the user has opened an
         p.w.view->open (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "." / "soft_pad.json");   // a preset, as a file
         for (const auto* file : { "pad_3.json", "pad_7.json", "pad_3.json" })
             p.w.view->open (mine / file);
-        const auto rows = [&] { return p.w.view->panel<PresetBrowser>().rows(); };
+        const auto rows = [&] { return p.w.view->part<PresetBrowser>().rows(); };
         CHECK (rows()[1].preset->file == mine / "pad_3.json");   // the latest
         const auto isInView = [&] {
-            for (const auto& t : tactus::host::test::readTexts (p.w.view->panel<PresetBrowser>()))
+            for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
                 if (t.text == "Aluminium bar") return true;
             return false;
         };
         CHECK (isInView());
         int factory = 0;   // presets that can be read besides the own graphs
-        for (const auto& t : tactus::host::test::readTexts (p.w.view->panel<PresetBrowser>()))
-            factory += static_cast<int> (std::ranges::count (p.w.view->panel<PresetBrowser>().shipped(), t.text.toStdString(), &Preset::name));
+        for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
+            factory += static_cast<int> (std::ranges::count (p.w.view->part<PresetBrowser>().shipped(), t.text.toStdString(), &Preset::name));
         CHECK (factory >= 2);
         const auto before = rows().size();
         const auto* list = dynamic_cast<juce::ListBox*> (p.titled ("Presets")->getChildComponent (2));

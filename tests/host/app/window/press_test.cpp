@@ -68,14 +68,14 @@ TEST_CASE ("a slow click on a problem shows its node", "[app][mouse][problems]")
 TEST_CASE ("pressing the surface before there is a graph starts nothing", "[app][mouse]")
 {
     WindowRig w ({}, 1280, 720, false);
-    REQUIRE (w.view->welcomePage().isVisible());
+    REQUIRE (w.view->part<WelcomePage>().isVisible());
     auto* surface = w.titled ("Surface");
     REQUIRE (surface != nullptr);
     const auto at = w.middleOf (*surface);
     w.stage->drag (at, at.translated (30.0f, 0.0f));
     WindowRig::settle (100);
     CHECK_FALSE (w.view->run().isWanted());
-    CHECK (w.view->welcomePage().isVisible());
+    CHECK (w.view->part<WelcomePage>().isVisible());
     CHECK (showsText (*w.titled ("Hand"), "Nothing to feel yet: choose a preset, or add a node."));
 
     w.click ("Dry wood");
@@ -92,7 +92,7 @@ TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspect
     w.key ("ctrl + a");
     WindowRig::settle();
     const auto& root = w.graph().root;
-    CHECK (showsText (w.view->inspected(), juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
+    CHECK (showsText (w.view->part<Inspector>(), juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
     const auto from = root.find (root.wires.front().from.node)->id, to = root.find (root.wires.front().to.node)->id;
     const auto between = std::ranges::count_if (root.wires, [&] (const graph::Wire& v) {
         const std::set<graph::Id> ends { root.find (v.from.node)->id, root.find (v.to.node)->id };
@@ -101,14 +101,14 @@ TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspect
     canvas.select ({ from, to });
     WindowRig::settle();
     const auto wires = [&] (auto count) { return "2 nodes, " + juce::String (static_cast<int> (count)) + " wires"; };
-    CHECK (showsText (w.view->inspected(), wires (between)));
+    CHECK (showsText (w.view->part<Inspector>(), wires (between)));
     const auto& other = *std::ranges::find_if (root.wires, [&] (const graph::Wire& v) { return root.find (v.from.node)->id != from; });
     canvas.select ({ from, to, other.id });
     WindowRig::settle();
-    CHECK (showsText (w.view->inspected(), wires (between + 1)));
+    CHECK (showsText (w.view->part<Inspector>(), wires (between + 1)));
     REQUIRE (w.view->document().perform (graph::RemoveWire { {}, other.id }));
     WindowRig::settle();
-    CHECK (showsText (w.view->inspected(), wires (between)));
+    CHECK (showsText (w.view->part<Inspector>(), wires (between)));
 }
 
 TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][mouse][safety]")
@@ -183,10 +183,10 @@ TEST_CASE ("a tool that H holds is let go when another graph opens", "[app][mous
     w.key ("h");
     w.stage->release();
     WindowRig::settle (100);
-    REQUIRE (w.view->handPanel().view().isHeld());
+    REQUIRE (w.view->part<HandPanel>().view().isHeld());
     w.view->document().open (loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph, {}, "open Bronze bell");
     WindowRig::settle (100);
-    CHECK_FALSE (w.view->handPanel().view().isHeld());
+    CHECK_FALSE (w.view->part<HandPanel>().view().isHeld());
     w.view->run().letGo();
 }
 

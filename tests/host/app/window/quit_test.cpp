@@ -10,7 +10,7 @@ TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[ap
 {
     WindowRig w ("dry_wood.json");
     int quits = 0;
-    w.view->onQuit = [&] { ++quits; };
+    w.view->allowQuit ([&] { ++quits; });
     w.key ("ctrl + q");
     CHECK (quits == 1);
     w.choose (w.middleOf (*w.titled ("Menu")), -1, juce::ModifierKeys::leftButtonModifier);   // the last entry

@@ -275,7 +275,7 @@ TEST_CASE ("the labels of a take are whole in a small window", "[app][small][tak
     const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360), std::pair (1280, 720));
     INFO (width << " x " << height);
     WindowRig w ("dry_wood.json", width, height, false);
-    auto& panel = w.view->panel<TakePanel>();
+    auto& panel = w.view->part<TakePanel>();
     w.click ("Take");
     const auto checkLabels = [&] (const std::vector<std::array<juce::String, 2>>& wanted) {
         const auto texts = host::test::readTexts (panel);
@@ -315,7 +315,7 @@ TEST_CASE ("in a small window, the tour leaves free what one is to try, and a di
     INFO (width << " x " << height);
     WindowRig w ("dry_wood.json", width, height);
     w.key ("shift + F1");
-    auto& tour = w.view->guidedTour();
+    auto& tour = w.view->part<Tour>();
     REQUIRE (tour.isOpen());
     auto* surface = w.titled ("Surface");
     REQUIRE (surface != nullptr);

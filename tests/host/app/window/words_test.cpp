@@ -89,7 +89,7 @@ TEST_CASE ("the lists of the help have aligned columns", "[app][words]")
         {
             INFO (beginning);
             bool is_there = false;
-            for (const auto& t : readTexts (w.view->helpPanel()))
+            for (const auto& t : readTexts (w.view->part<HelpPanel>()))
                 if (t.text.startsWith (beginning))
                 {
                     is_there = true;
@@ -100,8 +100,8 @@ TEST_CASE ("the lists of the help have aligned columns", "[app][words]")
         return found;
     };
     w.key ("F1");
-    REQUIRE (w.view->helpPanel().isOpen());
+    REQUIRE (w.view->part<HelpPanel>().isOpen());
     CHECK (columnOf ({ "emergency stop", "recalls a snapshot", "new, open" }).size() == 1);
-    w.view->helpPanel().showNode ("friction.elasto_plastic");
+    w.view->part<HelpPanel>().showNode ("friction.elasto_plastic");
     CHECK (columnOf ({ "tool position p", "direction out of the surface", "force f_n of the tool" }).size() == 1);
 }

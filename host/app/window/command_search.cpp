@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything that a click can do, and the nodes of the graph, found by their names, so that nothing needs the mouse.
-#include "main_view.hpp"
+#include "command_search.hpp"
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
@@ -16,7 +15,7 @@
 namespace tactus::host
 {
 
-struct MainView::Action
+struct CommandSearch::Action
 {
     juce::String name, about;
     std::function<void()> act;
@@ -61,81 +60,65 @@ void press (juce::Component& in, const juce::String& name)
 }
 }   // namespace
 
-void MainView::reveal (Tabs& tabs, const juce::Component& panel)
-{
-    if (auto& edge = &tabs == &left ? left_edge : bottom_edge; edge.isFolded())
-    {
-        edge.fold (false);
-        edgeMoved();
-        panelsMoved();
-    }
-    if (&tabs == &left) turnTo (left);
-    tabs.show (panel);
-}
-
-/// Calls f with the row of tabs of a panel.
-void MainView::withTabs (const juce::Component& panel, const std::function<void (Tabs&)>& f)
-{
-    for (const auto& p : panels)
-        if (&p.component == &panel && p.tabs != nullptr) f (*p.tabs);
-}
-
 /// Adds the actions for the parameters of the selected node, and the commands of the canvas.
-void MainView::addEdits (std::vector<Action>& all)
+void CommandSearch::addEdits (std::vector<Action>& all)
 {
-    if (! patching.isShowing() || welcome.isVisible()) return;
+    auto& patching = parts.patching;
+    if (! patching.isShowing() || parts.welcome.isVisible()) return;
     if (const auto nodes = patching.commands().selectedNodes(); nodes.size() == 1)
         for (const auto& p : nodes[0]->face->params)
         {
             juce::PopupMenu menu;
-            inspector.fillParamMenu (menu, nodes[0]->name, p.id);
+            parts.inspector.fillParamMenu (menu, nodes[0]->name, p.id);
             addItems (menu, fromUtf8 (readableName (p)) + ": ", all);
         }
     for (const auto& c : canvasCommands())
         if (c.in_menu && c.can (patching))
         {
             const auto keys = keyText (juce::String (c.keys).upToFirstOccurrenceOf ("|", false, false));
-            all.push_back ({ juce::translate (c.name), keys, [this, &c] { c.run (patching); } });
+            all.push_back ({ juce::translate (c.name), keys, [&patching, &c] { c.run (patching); } });
         }
 }
 
-void MainView::addTabsAndButtons (std::vector<Action>& all)
+void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
 {
-    if (isSmall())
-        for (const auto& [name, part] : pageParts())
-            all.push_back ({ juce::translate (name), TRANS ("A page"), [this, shown = part] { turnTo (*shown); } });
-    for (auto* tabs : { &bottom, &left })
+    auto& layout = parts.layout;
+    if (layout.isSmall())
+        for (const auto& [name, part] : layout.pageParts())
+            all.push_back ({ juce::translate (name), TRANS ("A page"), [this, shown = part] { parts.turnTo (*shown); } });
+    for (auto* tabs : { &layout.bottom, &layout.left })
         for (int i = 0; const auto& [name, place] : tabs->titles())
-            all.push_back ({ name, TRANS ("A panel"), [this, tabs, i = i++] { reveal (*tabs, *tabs->panel (i)); } });
-    forButtons (*this, nullptr, [&] (juce::Button& b, juce::Component* panel) {
-        auto* tabs = panel == nullptr ? nullptr : dynamic_cast<Tabs*> (panel->getParentComponent());
-        const auto act = [this, name = nameOf (b), panel, tabs] {
-            if (tabs != nullptr) reveal (*tabs, *panel);
-            press (tabs != nullptr ? *panel : *this, name);
+            all.push_back ({ name, TRANS ("A panel"), [&layout, tabs, i = i++] { layout.reveal (*tabs->panel (i)); } });
+    forButtons (parts.window, nullptr, [&] (juce::Button& b, juce::Component* panel) {
+        const bool is_tab = panel != nullptr && dynamic_cast<Tabs*> (panel->getParentComponent()) != nullptr;
+        const auto act = [this, name = nameOf (b), panel, is_tab] {
+            if (is_tab) parts.layout.reveal (*panel);
+            press (is_tab ? *panel : parts.window, name);
         };
         all.push_back ({ nameOf (b), b.getTooltip(), act });
     });
 }
 
 /// Adds the choices for what moves the tool.
-void MainView::addHands (std::vector<Action>& all)
+void CommandSearch::addHands (std::vector<Action>& all)
 {
-    if (welcome.isVisible()) return;
-    for (auto& [name, choose] : hand.choices())
+    if (parts.welcome.isVisible()) return;
+    for (auto& [name, choose] : parts.hand.choices())
         all.push_back ({ name, TRANS ("What moves the tool"), std::move (choose) });
 }
 
 /// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
-void MainView::addNodes (std::vector<Action>& all)
+void CommandSearch::addNodes (std::vector<Action>& all)
 {
-    if (welcome.isVisible()) return;
-    const auto types = paletteTypes (edited.graph(), catalogue);
+    if (parts.welcome.isVisible()) return;
+    const auto& graph = parts.edited.graph();
+    const auto types = paletteTypes (graph, parts.catalogue);
     std::vector<std::pair<std::size_t, Action>> found;   // with the number of the type
     std::vector<std::string> patches { {} };
     for (std::size_t i = 0; i < patches.size(); ++i)
     {
         const auto in = patches[i];
-        const auto* patch = findPatch (edited.graph(), in);
+        const auto* patch = findPatch (graph, in);
         if (patch == nullptr) continue;
         for (const auto& n : patch->nodes)
         {
@@ -146,9 +129,10 @@ void MainView::addNodes (std::vector<Action>& all)
             if (type != types.end()) searched.push_back (type->searched);
             const auto about = filled (TRANS ("A node of this graph: %1"), type == types.end() ? n.type : type->entry.name);
             const auto show = [this, in, id = n.id] {
-                turnTo (patching);
-                patching.show (in, id);
-                if (const auto* node = patching.scene().find (id)) patching.bringIntoView (node->bounds());
+                auto& canvas = parts.patching;
+                parts.turnTo (canvas);
+                canvas.show (in, id);
+                if (const auto* node = canvas.scene().find (id)) canvas.bringIntoView (node->bounds());
             };
             Action way { fromUtf8 (path), about, show, n.type + " (" + path + ')', std::move (searched) };
             found.emplace_back (static_cast<std::size_t> (type - types.begin()), std::move (way));
@@ -159,16 +143,16 @@ void MainView::addNodes (std::vector<Action>& all)
         all.push_back (std::move (f.second));
 }
 
-void MainView::findAction()
+void CommandSearch::open()
 {
     std::vector<Action> all;
     addEdits (all);
     addHands (all);
     addTabsAndButtons (all);
-    addItems (windowMenu(), {}, all);
+    addItems (menu.items(), {}, all);
     addNodes (all);
-    for (const auto& p : panels)
-        if (p.panel.actions && ! welcome.isVisible())
+    for (const auto& p : parts.panels)
+        if (p.panel.actions && ! parts.welcome.isVisible())
             for (auto& a : p.panel.actions())
                 all.push_back ({ std::move (a.name), std::move (a.about), std::move (a.act) });
     std::map<std::string, std::function<void()>> acts;
@@ -196,11 +180,11 @@ void MainView::findAction()
         return found;
     };
     const auto choose = [this, acts] (const std::string& chosen) {
-        takeFocus (keyboardHome());
+        takeFocus (keyboard.home());
         if (const auto found = acts.find (chosen); found != acts.end()) found->second();
     };
-    palette.open ({ (getWidth() - Palette::width) / 2, top.getBottom() }, search, TRANS ("Find a node of this graph, a command, a button or a panel"), choose,
-                  Palette::Finds::others);
+    const juce::Point<int> at { (parts.window.getWidth() - Palette::width) / 2, parts.top.getBottom() };
+    parts.palette.open (at, search, TRANS ("Find a node of this graph, a command, a button or a panel"), choose, Palette::Finds::others);
 }
 
 }   // namespace tactus::host
