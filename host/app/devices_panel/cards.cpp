@@ -109,7 +109,8 @@ std::unique_ptr<Column> DeviceCards::sound()
     for (const auto& list : listsOfCard())
         card->add (cardRow (list.pointer, list.label, list.about));
     card->add (buttonRow (
-        TRANS ("Look for sound cards"), [this] { bindings.listSoundCards(); }, TRANS ("Lists the sound cards again, including one that you have just plugged in")));
+        TRANS ("Look for sound cards"), [this] { bindings.listSoundCards(); },
+        TRANS ("Lists the sound cards again, including one that you have just plugged in")));
     for (const auto& field : fieldsOfCard())
         card->add (textRow (
             juce::translate (field.label), [this, at = JsonPointer (field.pointer)] {

@@ -55,7 +55,8 @@ void openExample (const Desk& desk, const std::string& type)
     for (const auto& p : shipped)
         if (p.problem.empty() && p.types.contains (type) && (smallest == nullptr || p.types.size() < smallest->types.size())) smallest = &p;
     if (smallest != nullptr) return desk.openGraph (smallest->file);
-    if (const auto* known = desk.types.find (type)) desk.openMade (exampleOf (*known, desk.types), filled (TRANS ("example of %1"), type).toStdString(), false, {});
+    const auto* known = desk.types.find (type);
+    if (known != nullptr) desk.openMade (exampleOf (*known, desk.types), filled (TRANS ("example of %1"), type).toStdString(), false, {});
 }
 
 }   // namespace tactus::host
