@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/run/asset_load.hpp>
-
 #include "window_parts.hpp"
+
+#include <host/app/run/asset_load.hpp>
 
 namespace tactus::host
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "main_menu.hpp"
-#include "appearance.hpp"
 #include "graph_commands.hpp"
 
 #include <host/app/adding/add_graph.hpp>
+#include <host/app/look/appearance.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/key_text.hpp>
 #include <host/app/storage/language.hpp>

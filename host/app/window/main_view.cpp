@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "main_view.hpp"
-#include "appearance.hpp"
 
+#include <host/app/look/appearance.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "tabs.hpp"
-
 #include <host/app/desk/desk.hpp>
 #include <host/app/look/splitter.hpp>
+#include <host/app/look/tabs.hpp>
 #include <host/app/run/views/hand_panel.hpp>
 
 #include <array>

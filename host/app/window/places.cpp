@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "places.hpp"
-#include "tabs.hpp"
+
+#include <host/app/look/tabs.hpp>
 
 namespace tactus::host
 {

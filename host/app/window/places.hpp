@@ -2,7 +2,6 @@
 #pragma once
 
 #include <host/app/canvas/canvas.hpp>
-
 #include <tactus/text/json.hpp>
 
 namespace tactus::host

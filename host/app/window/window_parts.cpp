@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "window_parts.hpp"
-#include "appearance.hpp"
 #include "panels.hpp"
+
+#include <host/app/look/appearance.hpp>
 
 #include <algorithm>
 

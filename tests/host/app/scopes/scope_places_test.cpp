@@ -6,7 +6,7 @@
 
 #include <host/app/scopes/over_plot.hpp>
 #include <host/app/scopes/scope_panel.hpp>
-#include <host/app/window/appearance.hpp>
+#include <host/app/look/appearance.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

@@ -2,7 +2,7 @@
 // What is on the screen is what should be there, whatever has happened before: no place keeps an old picture.
 #include "host/app/support/window_rig.hpp"
 
-#include <host/app/window/appearance.hpp>
+#include <host/app/look/appearance.hpp>
 
 #include <cstdlib>
 
