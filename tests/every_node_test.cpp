@@ -46,6 +46,8 @@ TEST_CASE ("every node repeats itself bit for bit", "[nodes][contract]") { hold 
 
 TEST_CASE ("every node that can adopt continues exactly where the old instance stopped", "[nodes][contract]") { hold ("adopt"); }
 
+TEST_CASE ("every node goes on from its saved state with the same bits", "[nodes][contract]") { hold ("state"); }
+
 TEST_CASE ("every node returns from all hooks, and accepts its own defaults", "[nodes][contract]") { hold ("hooks"); }
 
 TEST_CASE ("every node has its defaults in their ranges, and no name twice", "[nodes][contract]") { hold ("datasheet"); }

@@ -30,6 +30,7 @@ constexpr auto list = std::to_array<Examination> ({
     { "revival", "every output works again after an input was not finite", 2, false, &noInputs, &revivalFault },
     { "memory", "a node without a memory does not remember that an input was not finite", 2, false, &peeks, &memoryFault },
     { "adopt", "a new instance continues exactly where the old one stopped", 2, true, &noAdopt, &adoptFault },
+    { "state", "a restored state goes on with the same bits, and a damaged one does no harm", 2, true, &noState, &stateFault },
     { "passive", "a node that claims to be passive generates no energy on a closed path", 3, true, &notMechanical, &passiveFault },
     { "threads", "two instances that tick in two threads do not affect each other", 3, true, &always, &threadFault },
 });

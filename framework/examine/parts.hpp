@@ -19,9 +19,10 @@ Fault hookFault, sheetFault;                                 // hooks.cpp, sheet
 Fault rangeFault, sizeFault;                                 // finite.cpp
 Fault nanFault, revivalFault, memoryFault;                   // nan.cpp
 Fault repeatFault, instanceFault, threadFault, adoptFault;   // same_bits.cpp
+Fault stateFault;                                            // same_bits.cpp
 Fault allocationFault, lockFault, systemCallFault;           // real_time.cpp, system_calls.cpp
 Fault amplitudeFault, passiveFault;                          // claims.cpp
-Reason noInputs, peeks, noAdopt, unwatched, callsUnwatched, noClaims, notMechanical;
+Reason noInputs, peeks, noAdopt, noState, unwatched, callsUnwatched, noClaims, notMechanical;
 
 /// A node as it is before its first tick, with its defaults.
 inline Rig prepared (const NodeType& type, double rate_hz = 4000.0)

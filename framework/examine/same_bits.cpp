@@ -2,11 +2,13 @@
 #include "examination.hpp"
 #include "parts.hpp"
 
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/text/caught.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <latch>
+#include <optional>
 #include <thread>
 
 namespace tactus::examine
@@ -118,6 +120,78 @@ std::string adoptFault (const NodeType& type, unsigned seed)
         old.tick();
         young.tick();
         if (! sameBits (old.outs(), young.outs())) return say ("tick ", k + 1, " after `adopt` gives different bits than the old instance");
+    }
+    return {};
+}
+
+namespace
+{
+/// A rig whose node can also be saved.
+struct Kept
+{
+    explicit Kept (const NodeType& of) : type (of)
+    {
+        type.make = [this, &of] { return node = of.make(); };
+        rig.emplace (type);
+        rig->prepare();
+    }
+
+    Kept (const Kept&) = delete;
+    Kept& operator= (const Kept&) = delete;
+
+    std::string restore (std::span<const std::byte> bytes)
+    {
+        StateArchive archive { bytes };
+        Stage::enter ("restore");
+        type.serialize (node.get(), archive);
+        if (! archive.isAtEnd()) archive.refuse ("has bytes that nothing reads");
+        return archive.refusal();
+    }
+
+    NodeType type;
+    std::shared_ptr<void> node {};
+    std::optional<Rig> rig {};
+};
+}   // namespace
+
+std::string noState (const NodeType& type) { return type.serialize ? "" : "its state cannot be saved"; }
+
+std::string stateFault (const NodeType& type, unsigned seed)
+{
+    NodeDice dice { seed };
+    Kept one { type }, other { type };
+    auto &saved = *one.rig, &restored = *other.rig;
+    const auto tickBoth = [&] (bool same) {
+        randomTameInputs (saved, dice);
+        if (same)
+            restored.in = saved.in;
+        else
+            randomTameInputs (restored, dice);
+        saved.tick();
+        restored.tick();
+    };
+    for (int k = 0; k < 50; ++k)
+        tickBoth (false);
+    std::vector<std::byte> bytes;
+    StateArchive archive { bytes };
+    Stage::enter ("save");
+    type.serialize (one.node.get(), archive);
+    if (archive.isRefused()) return archive.refusal();
+    if (const auto why = other.restore (bytes); ! why.empty()) return "its own state is refused: " + why;
+    for (int k = 0; k < 50; ++k)
+    {
+        tickBoth (true);
+        if (! sameBits (saved.outs(), restored.outs())) return say ("tick ", k + 1, " after a state was restored gives other bits than the saved instance");
+    }
+    for (int k = 0; k < 10 && ! bytes.empty(); ++k)
+    {
+        auto damaged = bytes;
+        for (int n = 0; n < 4; ++n)
+            damaged[at (dice.below (static_cast<int> (damaged.size())))] = static_cast<std::byte> (dice.below (256));
+        const auto cut_off = std::span (damaged).first (at (dice.below (static_cast<int> (damaged.size()))));
+        if (other.restore (cut_off).empty()) return "a state that is cut off is not refused";
+        if (! other.restore (damaged).empty() && ! other.restore (bytes).empty()) return "its own state is refused after a damaged one";   // as a run does
+        tickBoth (false);
     }
     return {};
 }

@@ -112,7 +112,7 @@ private:
 class NodeCheck
 {
 public:
-    explicit NodeCheck (const tactus_plugin_node& n) : node (n), params (n.params_size), outputs (n.outputs_size) {}
+    explicit NodeCheck (const tactus_plugin_node& n) : node (n), params (n.params_size), outputs (n.outputs_size) { copyKnown (known, &n); }
 
     std::string fault()
     {
@@ -146,6 +146,8 @@ private:
         for (const auto& [name, is_there] : needed)
             if (! is_there) return "it lacks the function " + quote (name) + ", which every node has";
         if ((node.announce == nullptr) != (node.bind == nullptr)) return "it has " + std::string (node.announce != nullptr ? "announce, but no bind" : "bind, but no announce");
+        if ((known.save == nullptr) != (known.restore == nullptr))
+            return "it has " + std::string (known.save ? "save, but no restore" : "restore, but no save");
         if (node.announce == nullptr && (node.missing || node.effort)) return "it has " + std::string (node.missing != nullptr ? "missing" : "effort") + ", but no bind";
         return {};
     }
@@ -210,8 +212,6 @@ private:
     /// An unknown kind or part is fine: a later version may know it.
     std::string appearance()
     {
-        tactus_plugin_node known {};
-        copyKnown (known, &node);
         const auto* a = known.appearance;
         if (a == nullptr) return {};
         if (! isWhole (a) || a->kind == nullptr || (a->part_count > 0 && (a->parts == nullptr || a->rows == nullptr)))
@@ -226,6 +226,7 @@ private:
     }
 
     const tactus_plugin_node& node;
+    tactus_plugin_node known {};   // with the members of later versions
     Room params, outputs;
     std::set<std::string_view> in_names, out_names, all_names;
     bool has_list = false;

@@ -13,6 +13,8 @@
 #include "device_link.hpp"
 #include "lent_services.hpp"
 
+#include <tactus/kit/state_archive.hpp>
+
 #include <exception>
 #include <memory>
 #include <stdexcept>
@@ -161,6 +163,31 @@ struct Hooks
         return guarded (report, [&] { hosted (node).device.announce (*device); });
     }
 
+    static void serialize (void* node, StateArchive& archive)
+    {
+        if constexpr (Savable<N>) hosted (node).node.serialize (archive);
+        if (archive.restores() && ! archive.isAtEnd()) archive.refuse ("has bytes that nothing reads");
+        if (archive.isRefused()) throw std::runtime_error (archive.refusal());
+    }
+
+    static std::int32_t save (const void* node, const tactus_plugin_report* report) noexcept
+    {
+        return guarded (report, [&] {
+            std::vector<std::byte> bytes;
+            StateArchive archive { bytes };
+            serialize (const_cast<void*> (node), archive);   // which changes nothing while it saves
+            report->put (report->context, reinterpret_cast<const char*> (bytes.data()), bytes.size());
+        });
+    }
+
+    static std::int32_t restore (void* node, const void* bytes, std::size_t size, const tactus_plugin_report* report) noexcept
+    {
+        return guarded (report, [&] {
+            StateArchive archive { std::span (static_cast<const std::byte*> (bytes), size) };
+            serialize (node, archive);
+        });
+    }
+
     static void fill (tactus_plugin_node& c)
     {
         c.create = &create;
@@ -175,6 +202,11 @@ struct Hooks
         if constexpr (Delaying<N>) c.delay = [] (const void* n) noexcept -> std::int32_t { return read (n).delay(); };
         if constexpr (Updatable<N>) c.update = [] (void* n) noexcept { hosted (n).node.update(); };
         if constexpr (Adoptable<N>) c.adopt = [] (void* n, const void* old) noexcept { hosted (n).node.adopt (read (old)); };
+        if constexpr (Savable<N> || Unchanging<N>)
+        {
+            c.save = &save;
+            c.restore = &restore;
+        }
         if constexpr (Costly<N>) c.cost = &cost;
         if constexpr (SelfChecking<N>)
             c.problem = [] (const void* n, const tactus_plugin_report* r) noexcept { return guarded (r, [&] { put (r, read (n).problem()); }); };

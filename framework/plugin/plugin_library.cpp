@@ -6,11 +6,14 @@
 #include "known.hpp"
 #include "plugin_node.hpp"
 
+#include <tactus/text/quick_hash.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace tactus
@@ -26,6 +29,14 @@ const tactus_plugin_host& host()
                                              return std::strcmp (id, TACTUS_PLUGIN_DEVICE_STATE) == 0 ? &devices : nullptr;
                                          } };
     return one;
+}
+
+/// A hash of the file that has been loaded.
+std::uint32_t buildOf (const std::filesystem::path& file)
+{
+    std::ostringstream bytes;
+    bytes << std::ifstream (file, std::ios::binary).rdbuf();
+    return quickHash (bytes.view());
 }
 
 std::string rebuild() { return "build the plugin again, with the <tactus/tactus_plugin.h> of this version"; }
@@ -72,10 +83,11 @@ PluginLibrary::~PluginLibrary()
 std::vector<NodeType> PluginLibrary::types (Messages& messages, const std::string& state_layout)
 {
     std::vector<NodeType> all;
+    const auto build = buildOf (from);
     const auto turn = plugin::hookTurn();
     for (std::size_t i = 0; i < entry.get_node_count(); ++i)
     {
-        auto type = plugin::readNode (entry.get_node (i), from.string(), shared_from_this(), state_layout);
+        auto type = plugin::readNode (entry.get_node (i), from.string(), shared_from_this(), build, state_layout);
         if (type)
             all.push_back (std::move (*type));
         else

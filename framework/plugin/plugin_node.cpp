@@ -6,11 +6,13 @@
 #include "lending.hpp"
 #include "setting_values.hpp"
 
+#include <tactus/kit/opaque_state.hpp>
 #include <tactus/node/node_fault.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <deque>
+#include <unordered_map>
 
 namespace tactus::plugin
 {
@@ -22,6 +24,7 @@ struct Guest
 {
     std::shared_ptr<const void> library;
     std::string file;
+    std::uint32_t build;   // tells builds of the plugin apart: only the same one knows what its bytes mean
     tactus_plugin_node hooks {};
     std::deque<std::vector<std::string_view>> choices {};
 
@@ -41,6 +44,29 @@ struct Guest
     }
 };
 
+/// NodeType::serialize gets no context, and the node is the plugin's own: this table knows whose it is. [with hookTurn]
+std::unordered_map<const void*, const Guest*>& guests()
+{
+    static std::unordered_map<const void*, const Guest*> all;
+    return all;
+}
+
+void serialize (void* node, StateArchive& archive)
+{
+    const Answer saved, why;
+    const auto turn = hookTurn();
+    const auto& g = *guests().at (node);
+    std::uint32_t build = g.build;
+    archive (build);
+    if (build != g.build) return archive.refuse ("comes from another build of the plugin " + quotePath (g.file));
+    if (! archive.restores() && (g.hooks.save (node, saved.report()) != TACTUS_PLUGIN_OK || ! saved.isWhole()))
+        return archive.refuse ("cannot save its state: " + quote (saved.text()));
+    const auto bytes = opaqueState (archive, saved.text());
+    if (! archive.restores() || archive.isRefused()) return;
+    if (g.hooks.restore (node, bytes.data(), bytes.size(), why.report()) != TACTUS_PLUGIN_OK)
+        archive.refuse ("does not take its state: " + quote (why.text()));
+}
+
 /// NodeType::make.
 struct MakeNode
 {
@@ -53,10 +79,12 @@ struct MakeNode
         {
             const auto turn = hookTurn();
             node = guest->hooks.create (why.report());
+            if (node != nullptr) guests()[node] = guest.get();
         }
         if (node == nullptr) guest->failed ("create", why);
         return std::shared_ptr<void> (node, [g = guest] (void* n) {
             const auto turn = hookTurn();
+            guests().erase (n);
             g->hooks.destroy (n);
         });
     }
@@ -202,7 +230,8 @@ void addDevice (NodeType& t, const Guest* g)
 }
 }   // namespace
 
-Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& file, std::shared_ptr<const void> library, std::string state_layout)
+Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& file, std::shared_ptr<const void> library, std::uint32_t build,
+                           std::string state_layout)
 {
     if (auto fault = faultOf (given); ! fault.empty())
     {
@@ -210,7 +239,7 @@ Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& f
         return Message::error ("plugin/bad_node", file, id + " is refused: " + fault,
                                "ask the author of the plugin; <tactus/plugin/node_plugin.hpp> gets this right");
     }
-    const auto guest = std::make_shared<Guest> (Guest { std::move (library), file });
+    const auto guest = std::make_shared<Guest> (Guest { std::move (library), file, build });
     copyKnown (guest->hooks, given);
     const auto& c = guest->hooks;
 
@@ -229,6 +258,7 @@ Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& f
     t.update = c.update;
     t.adopt = c.adopt;
     addQuestions (t, guest.get());
+    if (c.save) t.serialize = &serialize;
     addDevice (t, guest.get());
     return t;
 }

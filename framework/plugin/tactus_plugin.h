@@ -484,8 +484,8 @@ typedef struct tactus_plugin_appearance
 
 /* ============================================================================ A node type */
 
-/** `node` is what `create` returned. Functions marked optional may be NULL. `report` takes the answer of `problem`, `warning` and
- *  `missing` if they return TACTUS_PLUGIN_OK, and otherwise why the hook failed. framework/node/node.hpp says what each hook means. */
+/** `node` is what `create` returned. Functions marked optional may be NULL. `report` takes the answer of `problem`, `warning`,
+ *  `missing` and `save` if they return TACTUS_PLUGIN_OK, and otherwise why the hook failed. framework/node/node.hpp says what each hook means. */
 typedef struct tactus_plugin_node
 {
     uint32_t size;
@@ -544,11 +544,19 @@ typedef struct tactus_plugin_node
     /** Optional, not for device nodes. [main thread or tick thread] */
     void (*learn) (void* node, const tactus_plugin_mechanics*) TACTUS_PLUGIN_NOEXCEPT;
     const tactus_plugin_appearance* appearance; /**< optional; plugins built before this member was added do not have it */
+
+    /** Optional, but both or neither; plugins built before they were added do not have them. Without them, no state of a run with this node can be
+     *  saved. Both are called between two ticks. `save` puts the state as bytes, in a form of the plugin's own: all that a tick changes. It puts
+     *  nothing if there is no state. [main thread] */
+    int32_t (*save) (const void* node, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
+    /** Gets what `save` of the same build of the plugin has put, in a node with the same settings. The params are in place, and `update` has been called.
+     *  It fails if the bytes do not fit, and then gets earlier bytes again. They may be damaged: trust no size, index or address in them. [main thread] */
+    int32_t (*restore) (void* node, const void* bytes, size_t size, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
 } tactus_plugin_node;
 
-#define TACTUS_PLUGIN_NODE_INIT                                                                                                        \
-    {                                                                                                                                  \
-        sizeof (tactus_plugin_node), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_PLUGIN_NODE_INIT                                                                                                              \
+    {                                                                                                                                        \
+        sizeof (tactus_plugin_node), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
 /* ============================================================================ The plugin */

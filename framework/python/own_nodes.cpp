@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <tactus/kit/opaque_state.hpp>
 #include <tactus/text/units.hpp>
 
 #include <array>
@@ -220,6 +221,22 @@ struct OwnNode
         });
     }
 
+    /// The state, as bytes that only the Python side reads.
+    void serialize (StateArchive& archive)
+    {
+        const py::gil_scoped_acquire gil;
+        if (type.all.haveFailed()) return archive.refuse ("has raised an exception, which ended its run");
+        try
+        {
+            const auto bytes = opaqueState (archive, archive.restores() ? "" : python.attr ("save")().cast<std::string>());
+            if (archive.restores() && ! archive.isRefused()) python.attr ("restore") (py::bytes (bytes));
+        }
+        catch (const py::error_already_set& why)
+        {
+            archive.refuse (py::str (why.value()).cast<std::string>());
+        }
+    }
+
     const OwnType& type;
     std::vector<double> params, values;
     py::object python;
@@ -268,6 +285,7 @@ NodeType OwnType::describe() const
     t.initialiseOutputs = slot_functions[slot].initialise;
     t.paramsOf = [] (void* node) noexcept -> void* { return static_cast<OwnNode*> (node)->params.data(); };
     t.prepare = [] (void* node, const Setup& setup) { static_cast<OwnNode*> (node)->prepare (setup.rate_hz); };
+    t.serialize = [] (void* node, StateArchive& archive) { static_cast<OwnNode*> (node)->serialize (archive); };
     t.tick = [] (void* node, const double* const* sources, void* to) noexcept {
         static_cast<OwnNode*> (node)->tick (sources, static_cast<double*> (to));
     };

@@ -34,6 +34,7 @@ std::string headOf (std::string_view graph_hash, double rate_hz)
 }
 
 constexpr std::size_t hash_size = 16;
+constexpr const char* state_remedy = "leave it out of runs that are saved, or let it list its state: see the page on states";
 
 Message refused (std::string id, std::string why, std::string remedy) { return Message::error (std::move (id), "", std::move (why), std::move (remedy)); }
 
@@ -98,7 +99,7 @@ Result<std::vector<std::byte>> Run::save (const graph::Graph& graph, const MoreS
     StateArchive archive { state };
     serialize (archive, more);
     if (archive.isRefused())
-        return refused ("state/refused", archive.refusal(), "leave it out of runs that are saved");
+        return refused ("state/refused", archive.refusal(), state_remedy);
     bytes.reserve (head.size() + hash_size + state.size());
     append (bytes, head);
     append (bytes, contentHash (textOf (state)));
@@ -122,7 +123,7 @@ Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& gra
     std::vector<std::byte> kept;
     StateArchive keep { kept };
     serialize (keep, more);
-    if (keep.isRefused()) return refused ("state/refused", keep.refusal(), "leave it out of runs that are saved");
+    if (keep.isRefused()) return refused ("state/refused", keep.refusal(), state_remedy);
     const auto readFrom = [&] (std::span<const std::byte> from) {
         StateArchive archive { from };
         serialize (archive, more);

@@ -49,6 +49,7 @@ TEST_CASE ("a plugin whose datasheet is wrong is refused, and the row is named",
     };
     CHECK (textOf ("bad_node_size").find ("size") != std::string::npos);
     CHECK (textOf ("bad_no_tick").find ("lacks the function 'tick'") != std::string::npos);
+    CHECK (textOf ("bad_no_restore").find ("save, but no restore") != std::string::npos);
     CHECK (textOf ("bad_offset").find ("'out': it lies outside of its struct of 8 bytes") != std::string::npos);
     CHECK (textOf ("bad_id").find ("family.name") != std::string::npos);
 }

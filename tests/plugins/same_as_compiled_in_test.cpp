@@ -102,6 +102,7 @@ TEST_CASE ("the datasheet of a node in a plugin equals that of the node compiled
         CHECK (! type.prepare == ! built_in->prepare);
         CHECK (! type.update == ! built_in->update);
         CHECK (! type.adopt == ! built_in->adopt);
+        CHECK (! type.serialize == ! built_in->serialize);
         CHECK (! type.claims == ! built_in->claims);
         CHECK (! type.bind == ! built_in->bind);
         CHECK (! type.missing == ! built_in->missing);

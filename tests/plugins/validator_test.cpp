@@ -115,6 +115,12 @@ TEST_CASE ("check-plugin catches bits that depend on the run or on another insta
     catches ("bad_static", { "instances: two instances" });
 }
 
+TEST_CASE ("check-plugin catches a state that is not restored", "[plugins]")
+{
+    catches ("bad_state", { "state: tick 1 after a state was restored gives other bits" }, { "--strict", "2" });
+    CHECK (check ("saves", { "--strict", "3" }).status == 0);
+}
+
 TEST_CASE ("check-plugin catches a false claim, and its seed repeats the failure", "[plugins]")
 {
     const auto first = failuresOf (check ("bad_claim").report);

@@ -5,10 +5,12 @@ their states, which contain every output, every value under way, and what the gu
 
 import json
 import unittest
+from collections import deque
 
 import numpy as np
 import tactus
 from support import GRAPHS, TestCase, drag, quiet
+from tactus import _own
 
 PRESETS = sorted(GRAPHS.glob("*.json"))
 SAVES = 1000   # over all presets
@@ -140,6 +142,98 @@ class Count(tactus.Node):
         return {"out": self.n}
 
 
+class Remembering(tactus.Node):
+    """Has a state of each kind."""
+    id = "own.remembering"
+    outputs = {"out": tactus.scalar("1")}
+    state = ("n", "past", "seen", "dice")
+
+    def prepare(self, rate_hz):
+        self.n, self.seen, self.past = 0, {"mean": -0.0, (1, None): [True, "a"]}, deque([0.0], maxlen=3)
+        self.window, self.random = np.zeros((2, 3)), np.random.default_rng(1)
+
+    @property
+    def dice(self):
+        return [self.random.bit_generator.state, self.window, self.window[0, 0]]
+
+    @dice.setter
+    def dice(self, state):
+        self.random.bit_generator.state, self.window = state[:2]
+
+    def tick(self, inputs, params):
+        self.n += 1
+        self.window[self.n % 2, self.n % 3] += self.random.normal()
+        self.past.append(float(self.window.sum()))
+        self.seen["mean"] += self.past[0] / 3
+        return {"out": self.seen["mean"] + self.n}
+
+
+class NodesInPython(TestCase):
+    def engine(self, kind):
+        graph = tactus.Graph(name="count", rate=1000)
+        graph.add_node("here", kind.id)
+        return engine(graph, nodes=[kind], record=["here.out"])
+
+    def test_a_run_goes_on_where_it_was_saved(self):
+        run, clone = self.engine(Remembering), self.engine(Remembering)
+        run.step(n=40)
+        clone.step(n=7)
+        state = run.save()
+        expected = run.step(n=50)["here.out"]
+        for again in (run, clone):
+            again.restore(state)
+            self.assertEqual(again.save(), state)
+            self.same_bits(again.step(n=50)["here.out"], expected)
+
+    def test_values_keep_their_types(self):
+        nan = float("nan")
+        for value in (1, True, -0.0, 1e-320, nan, "\0é", None, 2 ** 200, [], (1, [2.5]), deque([1], 2), deque(), {"a": 1}, {1.5: (None,)}, np.float32(1.1),
+                      np.int8(-3), np.array(2.0), np.zeros((0, 3)), np.array([[1 + 2j]]), np.arange(6.0).reshape(2, 3).T, np.array([True, False]),
+                      [np.uint64(2 ** 63)]):
+            back = _own._restored(json.loads(json.dumps(_own._plain(value))))
+            self.assertIs(type(back), type(value))
+            self.assertEqual(repr(back), repr(value))
+            self.assertEqual(getattr(back, "dtype", None), getattr(value, "dtype", None))
+        for wrong in (np.random.default_rng(1), np.array([None]), {1, 2}, [lambda: 0], np.datetime64("2026-01-01"), 1j, TestCase):
+            with self.assertRaisesRegex(TypeError, "cannot be saved"):
+                _own._plain(wrong)
+
+    def test_a_state_that_does_not_fit_is_refused_and_changes_nothing(self):
+        run = self.engine(Remembering)
+        run.step(n=5)
+        state = run.save()
+        head, payload = parts(state)
+        start = payload.index(b'{"n": 5')
+        length = int.from_bytes(payload[start - 8:start], "little")
+        text = payload[start:start + length].decode()
+        for old, new in (('"n"', '"m"'), ('{"n": 5', '["n", 5'), ("<f8", "|O8"), ("<f8", "<f9"), ('"shape": [2, 3]', '"shape": [3, 3]'), ("deque", "open"),
+                         ('"PCG64"', '"PCG65"'), (text, ""), (text, "[" * length)):
+            forged = text.replace(old, new, 1).encode()
+            self.assertNotEqual(forged, text.encode())
+            whole = payload[:start - 8] + len(forged).to_bytes(8, "little") + forged + payload[start + length:]
+            self.fails("state/graph", run.restore, with_checksum(head, whole))
+            self.assertEqual(run.save(), state)
+        for size in (length - 1, 2 ** 63):
+            self.fails("state/graph", run.restore, with_checksum(head, payload[:start - 8] + size.to_bytes(8, "little") + payload[start:]))
+        self.assertEqual(run.save(), state)
+
+    def test_what_a_class_must_say(self):
+        refused = self.fails("state/refused", self.engine(Count).save)
+        self.assertIn("'here'", refused.text)
+        self.assertIn("Count", refused.text)
+
+        class Late(Remembering):
+            id = "own.late"
+            state = ("nothing",)
+        self.assertIn("nothing", self.fails("state/refused", self.engine(Late).save).text)
+
+        class Unchanging(Remembering):
+            id = "own.unchanging"
+            state = ()
+        run = self.engine(Unchanging)
+        run.restore(run.save())
+
+
 class Refusals(TestCase):
     def test_states_that_do_not_fit_change_nothing(self):
         run = engine(GRAPHS / "dry_wood.json")
@@ -183,9 +277,6 @@ class Refusals(TestCase):
         held = engine(GRAPHS / "dry_wood.json", devices={"stylus": tactus.PushedDevice()})
         self.assertIn("'stylus'", str(self.fails("state/refused", held.save)))
 
-        graph = tactus.Graph(name="count", rate=1000)
-        graph.add_node("here", Count.id)
-        self.assertIn("'here'", str(self.fails("state/refused", engine(graph, nodes=[Count]).save)))
         live = engine(GRAPHS / "dry_wood.json")
         live.start(duration=0.01)
         self.fails("engine/not_now", live.save)

@@ -89,6 +89,7 @@ public:
     {
         archive (recent, phase);
         archive.index (newest, std::max (recent.size(), std::size_t { 1 }));
+        if (! (phase >= 0.0 && phase < 1.0)) archive.refuse ("has a time that is not between two samples");   // the loops would not end, or leave the kernel
     }
 
 private:

@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import math
+from collections import deque
 from types import SimpleNamespace
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type
 
@@ -91,7 +94,9 @@ class Node:
                 return {"force": (0, 0, params.stiffness * max(0.0, -inputs.position[2]))}
 
     inputs and params have one attribute per port: a float, an array (3,), or the name of a choice. All outputs must be returned. Keep
-    state in attributes that __init__ or prepare sets. The same inputs must give the same outputs in every run: use no clock, and no random
+    state in attributes that __init__ or prepare sets, and name in `state` those that tick changes, so that Engine.save works: state = ("past",), or
+    state = () if there are none. Such an attribute is a number, a text, None, an array of numbers, or a list, tuple, deque or dict of these; for
+    anything else, name a property that reads and sets it. The same inputs must give the same outputs in every run: use no clock, and no random
     generator without a fixed seed.
 
     Non-finite numbers: if an input, a parameter or an output is not finite, all outputs of this tick are 0 (-1 for the quantity "state"), and
@@ -104,6 +109,7 @@ class Node:
     inputs: Mapping[str, Port] = {}
     params: Mapping[str, Port] = {}
     outputs: Mapping[str, Port] = {}
+    state: Optional[Sequence[str]] = None
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}, a tactus.Node: {self.id!r}>"
@@ -157,6 +163,55 @@ class _Running:
                 raise TypeError(f"the output {name} of {self.kind.id} must have {port.width} components, not {len(values)}")
             numbers += values
         return numbers
+
+
+    def save(self) -> bytes:
+        return json.dumps({name: _plain(getattr(self.node, name)) for name in self.names()}).encode()
+
+    def restore(self, given: bytes) -> None:
+        try:
+            values = {name: _restored(value) for name, value in json.loads(given).items()}
+            if set(values) != set(self.names()):
+                raise ValueError(f"it has {', '.join(values)}, and the class names {', '.join(self.names())}")
+            for name, value in values.items():
+                setattr(self.node, name, value)
+        except Exception as why:
+            raise ValueError(f"does not take its state: {_checks.shown(why)}") from None
+
+    def names(self) -> Sequence[str]:
+        names = self.kind.state
+        if not isinstance(names, (tuple, list)) or not all(isinstance(name, str) for name in names):
+            raise ValueError(f'has a state that cannot be saved: its class {self.kind.__name__} does not name it, as in state = ("past",)')
+        return names
+
+
+def _plain(value: Any) -> Any:
+    """A part of a state as JSON, which gets back its exact type. Restoring it runs no code, whatever it contains."""
+    kind = type(value)
+    if (kind is np.ndarray or isinstance(value, np.generic)) and value.dtype.kind in "biufc":
+        return {"array": value.dtype.str, "shape": value.shape if kind is np.ndarray else None, "bytes": base64.b64encode(value.tobytes()).decode()}
+    if value is None or kind in (bool, int, float, str):
+        return value
+    if kind in (list, tuple, deque):
+        return {"list": kind.__name__, "values": [_plain(v) for v in value], "most": getattr(value, "maxlen", None)}
+    if kind is dict:
+        return {"dict": [[_plain(key), _plain(v)] for key, v in value.items()]}
+    raise TypeError(f"has a state that cannot be saved: {_checks.shown(value)} is neither a number, a text, an array of numbers, nor a list or dict of these")
+
+
+def _restored(part: Any) -> Any:
+    if not isinstance(part, dict):
+        return part
+    if "array" in part:
+        kind = np.dtype(part["array"])
+        if kind.kind not in "biufc":
+            raise ValueError("has an array of things that are not numbers")
+        numbers = np.frombuffer(base64.b64decode(part["bytes"]), kind)
+        return numbers[0] if part["shape"] is None else numbers.reshape(part["shape"]).copy()
+    if "dict" in part:
+        return {_restored(key): _restored(value) for key, value in part["dict"]}
+    values = map(_restored, part["values"])
+    return deque(values, part["most"]) if part["list"] == "deque" else {"list": list, "tuple": tuple}[part["list"]](values)
 
 
 def _namespace(ports: Mapping[str, Port], numbers: Tuple[float, ...], at: int) -> Tuple[SimpleNamespace, int]:

@@ -16,7 +16,7 @@ namespace
 constexpr int fine = 0, failed = 1, wrong_usage = 2;   // as in host/cli/report.hpp
 
 constexpr const char* footer =
-    "A higher level means more examinations (2 adds memory and adopt, 3 threads and passivity) and more random trials. Trial k uses the\n"
+    "A higher level means more examinations (2 adds memory, adopt and state, 3 threads and passivity) and more random trials. Trial k uses the\n"
     "seed S + k; a failure names its seed, so `--seed` repeats it immediately.\n"
     "Of a device driver, --open DESCRIPTION also examines a device: its readings, timeouts, limits, and how it comes to rest.\n"
     "The time per tick is printed but not judged. Exit status 1 if anything failed.\n\n"

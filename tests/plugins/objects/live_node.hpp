@@ -42,6 +42,7 @@ struct Growing
     Params params;
 
     void adopt (const Growing& old) noexcept { ticks = old.ticks; }
+    void serialize (auto& archive) { archive (ticks); }
 
     Outputs tick (const Inputs&) noexcept
     {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* A plugin in C that doubles its input. Each macro BAD_… makes it wrong in one way; GROWN makes it newer than this version,
-   and ALONE makes it notice two calls at the same time. */
+   ALONE makes it notice two calls at the same time, and SAVES gives it a state: it adds the sum of the inputs before. */
 #include <tactus/tactus_plugin.h>
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -54,7 +55,7 @@ static void* create (const tactus_plugin_report* report)
     (void)report;
     begin();
     end();
-    return malloc (1);
+    return calloc (1, sizeof (double)); /* the sum, with SAVES */
 }
 
 static void destroy (void* node)
@@ -78,6 +79,34 @@ static void initialise (void* outputs) { *(double*)outputs = 0.0; }
 
 #ifdef BAD_BITS
 static double started; /* when the plugin was loaded, in ns */
+#endif
+
+#if defined(SAVES) || defined(BAD_STATE) || defined(BAD_NO_RESTORE)
+#define HAS_STATE
+static int32_t save (const void* node, const tactus_plugin_report* report)
+{
+    report->put (report->context, (const char*)node, sizeof (double));
+    return TACTUS_PLUGIN_OK;
+}
+#endif
+#if defined(SAVES) || defined(BAD_STATE)
+static int32_t restore (void* node, const void* bytes, size_t size, const tactus_plugin_report* report)
+{
+#ifndef BAD_STATE /* which forgets it */
+    if (size == sizeof (double))
+    {
+        memcpy (node, bytes, size);
+        return TACTUS_PLUGIN_OK;
+    }
+    report->put (report->context, "another size", 12);
+    return TACTUS_PLUGIN_FAILED;
+#endif
+    (void)node;
+    (void)bytes;
+    (void)size;
+    (void)report;
+    return TACTUS_PLUGIN_OK;
+}
 #endif
 
 /* What one fault does in each tick; returns what the fault adds to the output. */
@@ -124,8 +153,14 @@ static double fault (double v, double* outputs)
 
 static void tick (void* node, const double* const* sources, void* outputs)
 {
-    const double v = *sources[0], sum = 2.0 * v + fault (v, outputs);
+    const double v = *sources[0];
+#ifdef HAS_STATE
+    const double before = *(double*)node, sum = 2.0 * v + before + fault (v, outputs), after = before + v;
+    if (after - after == 0.0) *(double*)node = after;
+#else
+    const double sum = 2.0 * v + fault (v, outputs);
     (void)node;
+#endif
 #ifdef BAD_NAN
     *(double*)outputs = v - v == 0.0 ? sum : 0.0;
 #else
@@ -231,6 +266,12 @@ static int32_t init (const tactus_plugin_host* host, const tactus_plugin_report*
 #endif
 #ifdef BAD_CLAIM
     twice.now.claims = claims;
+#endif
+#ifdef HAS_STATE
+    twice.now.save = save;
+#ifndef BAD_NO_RESTORE
+    twice.now.restore = restore;
+#endif
 #endif
 #ifndef BAD_NO_TICK
     twice.now.tick = tick;
