@@ -2,8 +2,8 @@
 #include "points.hpp"
 
 #include "assets.hpp"
-#include "gauge.hpp"
 #include "graph.hpp"
+#include "point_run.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>
@@ -25,121 +25,7 @@ namespace tactus::python
 namespace
 {
 using Rows = PythonRun::Rows;
-
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double most_ticks = 1e10;
-
-/// The graph and options that all points share.
-struct Job
-{
-    graph::Graph graph {};
-    CompileOptions options {};              // with the values that all points share
-    std::vector<std::string> names {};      // of what varies
-    std::vector<DeviceOption> devices {};   // instead of those of the graph
-    std::vector<Gauge::Options> gauges {};
-    double seconds = 0.0;     // 0: as long as the feed, or the longest path of a hand
-    bool keeps = false;       // the records, too
-    std::size_t places = 0;   // of the check of stability; 0: none
-    std::optional<Feed> feed {};
-};
-
-struct Outcome
-{
-    std::vector<double> numbers {}, rows {};   // rows: tick by tick
-    Messages messages {};
-    std::vector<std::string> columns {}, units {};
-    double seconds = 0.0, rate_hz = 0.0;
-};
-
-/// Computes the gauges of a run, and keeps its records if asked for.
-class Listener final : public RunListener
-{
-public:
-    Listener (const Job& job, Outcome& o, double step_s) : to (o), dt (step_s), keeps (job.keeps)
-    {
-        for (const auto& options : job.gauges)
-            gauges.emplace_back (options, o.columns);
-    }
-
-    void after (const Plan& plan, std::uint64_t, bool) noexcept override
-    {
-        for (auto& gauge : gauges)
-            gauge.add (plan.taps(), dt);
-        if (! keeps || row + to.columns.size() > to.rows.size()) return;
-        for (std::size_t i = 0; i < to.columns.size(); ++i)
-            to.rows[row++] = *plan.taps()[i].value;
-    }
-
-    void finish() const
-    {
-        for (const auto& gauge : gauges)
-            to.numbers.push_back (gauge.result());
-    }
-
-private:
-    Outcome& to;
-    std::vector<Gauge> gauges {};
-    double dt;
-    bool keeps;
-    std::size_t row = 0;
-};
-
-const DeviceOption* given (const Job& job, const std::string& role)
-{
-    const auto found = std::ranges::find (job.devices, role, &DeviceOption::role);
-    return found != job.devices.end() ? &*found : nullptr;
-}
-
-std::size_t ticksOf (const Job& job, const Run& run)
-{
-    double seconds = job.seconds;
-    if (seconds <= 0.0 && job.feed) return job.feed->ticks();
-    if (seconds <= 0.0)
-        for (const auto& [role, d] : run.devices())
-            seconds = std::max (seconds, d.device ? d.device->duration() : 0.0);
-    const double ticks = std::ceil (seconds * run.rate() - 1e-6);
-    if (! (ticks >= 1.0 && ticks <= most_ticks)) return 0;
-    return job.feed ? std::min (job.feed->ticks(), static_cast<std::size_t> (ticks)) : static_cast<std::size_t> (ticks);
-}
-
-void render (const Job& job, const CompileOptions& options, Outcome& to)
-{
-    auto feed = job.feed;
-    const auto open = [&] (const std::string& role, const graph::Graph& graph, const Plan&, Messages& messages) {
-        const auto* mine = given (job, role);
-        auto made = makeDevice (mine != nullptr ? mine->description : describedByGraph (graph.device (role), role, messages),
-                                mine != nullptr ? mine->folder : std::filesystem::path (graph.folder));
-        for (auto& m : made.messages)
-            m.where = "/devices/" + role + m.where;
-        std::ranges::move (made.messages, std::back_inserter (messages));
-        return Run::RoleDevice { std::move (made.device), made.limits };
-    };
-    std::optional<Listener> listener;   // outlives the run
-    Run run (catalogue(), options, open, Run::Queries::within_tick);
-    to.messages = run.load (job.graph);
-    if (hasErrors (to.messages) || ! run.hasEngine()) return;
-    run.openDevices (job.graph, to.messages);
-    if (hasErrors (to.messages)) return;
-    for (const auto& tap : run.engine().newest().taps())
-    {
-        to.columns.push_back (tap.name);
-        to.units.push_back (tap.unit);
-    }
-    to.rate_hz = run.rate();
-    const auto ticks = ticksOf (job, run);
-    if (ticks == 0)
-    {
-        to.messages.push_back (Message::error ("run/no_length", "", "the length of the run is unknown, or more than 10^10 ticks", "give the duration in s"));
-        return;
-    }
-    if (job.keeps) to.rows.resize (ticks * to.columns.size());
-    listener.emplace (job, to, 1.0 / run.rate());
-    if (feed) run.add (*feed);
-    run.add (*listener);
-    for (std::size_t k = 0; k < ticks; ++k)
-        run.tick();
-    listener->finish();
-}
 
 /// 2: passive, at least along the motion. 1: stable. 0: it swings, or may swing. Not a number: not known.
 double rankOf (check::Verdict verdict)
@@ -174,7 +60,7 @@ void judge (const Job& job, const CompileOptions& options, Outcome& to)
     std::vector<check::RoleDevice> devices;
     for (const auto& role : recorded.motion.roles)
     {
-        const auto* mine = given (job, role.role);
+        const auto* mine = job.deviceOf (role.role);
         const auto* description = mine != nullptr ? &mine->description : job.graph.device (role.role);
         const auto folder = mine != nullptr ? mine->folder : std::filesystem::path (job.graph.folder);
         check::RoleDevice device { .role = role.role };
@@ -200,7 +86,7 @@ void judge (const Job& job, const CompileOptions& options, Outcome& to)
     to.numbers.push_back (margin);
 }
 
-Outcome renderOne (const Job& job, const std::vector<Json>& values)
+Outcome renderOne (const Job& job, PointRun& run, const std::vector<Json>& values)
 {
     Outcome outcome;
     auto options = job.options;
@@ -209,7 +95,7 @@ Outcome renderOne (const Job& job, const std::vector<Json>& values)
     const auto begin = std::chrono::steady_clock::now();
     try
     {
-        render (job, options, outcome);
+        run.render (options, outcome);
         if (job.places > 0 && ! hasErrors (outcome.messages)) judge (job, options, outcome);
     }
     catch (const std::invalid_argument& why)
@@ -292,7 +178,7 @@ py::dict renderPoints (const EditedGraph& graph, double rate_hz, std::vector<std
     std::fill_n (numbers.mutable_data(), numbers.size(), unknown);
     py::list errors, kept;
     std::map<std::string, std::string> warnings;   // one of each kind and place
-    Outcome latest;
+    PointRun run (job, values.size());
     for (std::size_t k = 0; k < values.size(); ++k)
     {
         std::vector<Json> parsed;
@@ -301,7 +187,7 @@ py::dict renderPoints (const EditedGraph& graph, double rate_hz, std::vector<std
         Outcome outcome;
         {
             const py::gil_scoped_release without_gil;
-            outcome = renderOne (job, parsed);
+            outcome = renderOne (job, run, parsed);
             reader.release();
         }
         reader.raiseFailure();
@@ -318,10 +204,9 @@ py::dict renderPoints (const EditedGraph& graph, double rate_hz, std::vector<std
         if (! is_broken) std::ranges::copy (outcome.numbers, numbers.mutable_data() + k * width);
         if (keeps)
         {
-            const auto count = outcome.columns.empty() || is_broken ? 0 : outcome.rows.size() / outcome.columns.size();
-            kept.append (Rows ({ static_cast<py::ssize_t> (count), static_cast<py::ssize_t> (outcome.columns.size()) }, outcome.rows.data()));
+            const auto count = run.columns.empty() || is_broken ? 0 : outcome.rows.size() / run.columns.size();
+            kept.append (Rows ({ static_cast<py::ssize_t> (count), static_cast<py::ssize_t> (run.columns.size()) }, outcome.rows.data()));
         }
-        if (! is_broken) latest = std::move (outcome);
     }
     py::dict all;
     all["numbers"] = numbers;
@@ -329,9 +214,9 @@ py::dict renderPoints (const EditedGraph& graph, double rate_hz, std::vector<std
     all["errors"] = errors;
     all["warnings"] = warnings;
     all["rows"] = kept;
-    all["columns"] = latest.columns;
-    all["units"] = latest.units;
-    all["rate"] = latest.rate_hz;
+    all["columns"] = run.columns;
+    all["units"] = run.units;
+    all["rate"] = run.rate_hz;
     return all;
 }
 }   // namespace

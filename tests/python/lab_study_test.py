@@ -23,7 +23,7 @@ import numpy as np
 import tactus
 from support import GRAPHS, PROGRAM, ROOT, TestCase
 import waiting
-from tactus import lab
+from tactus import _tactus, lab
 from tactus.lab import _columns, _design, _drive, _measures, _parts, _study_report, _worker
 
 WALL = ROOT / "docs/figures/stiffness_limit.json"
@@ -160,6 +160,36 @@ class Measures(Quiet):
             r = graph.render(duration=0.2, rate=float(results["rate"][i]), set={"roughness": float(results["roughness"][i])}, record=["motor.force"])
             for c, axis in enumerate("xyz"):
                 self.same_bits(results[f"trace:motor.force.{axis}"][i], r["motor.force"][:, c])
+
+
+class Renders(Quiet):
+    def test_a_run_that_goes_back_has_the_bits_and_messages_of_a_new_one(self):
+        draw = random.Random(1)
+
+        def near(value):
+            found = re.fullmatch(r"(-?[\d.]+)(.*)", str(value))
+            return json.dumps(f"{float(found[1]) * draw.uniform(0.8, 1.2)!r}{found[2]}" if found else value)
+
+        different = 0
+        for file in sorted(GRAPHS.glob("*.json")):
+            graph = tactus.Graph(file)
+            described = json.loads(graph.text)
+            given = {f"{node}.{param}": value for node, about in described["nodes"].items() for param, value in about.get("params", {}).items()
+                     if isinstance(value, (int, float, str))}
+            points = [[*map(near, given.values()), *(repr(draw.random()) for _ in described.get("controls", ()))] for _ in range(3)]
+            points.append([*points[0][:-1], '"3 apples"'])   # one with an error, and after it the first one again
+            points.append(points[0])
+
+            def render(some):
+                return _tactus.render_points(graph._graph, 0.0, [], {}, [*given, *described.get("controls", ())], some, {}, "", None, None, 1.0, [], True, 0)
+
+            together, alone = render(points), [render([point]) for point in points]
+            self.assertEqual([error[1:] for error in together["errors"]], [error[1:] for each in alone for error in each["errors"]], file.name)
+            self.assertEqual(together["warnings"], {key: text for each in reversed(alone) for key, text in each["warnings"].items()}, file.name)
+            for i, each in enumerate(alone):
+                self.assertEqual(together["rows"][i].tobytes(), each["rows"][0].tobytes(), (file.name, i))
+            different += together["rows"][0].tobytes() != together["rows"][1].tobytes()
+        self.assertGreater(different, 30)   # the points are not all the same
 
 
 def last_and_stiffness(records, point):
