@@ -10,7 +10,9 @@ import shlex
 import sys
 import time
 from concurrent.futures import BrokenExecutor, Future
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, TextIO, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Set, TextIO, Tuple
+
+import numpy as np
 
 from .._messages import fail
 from ._design import Point
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from ._study import Prepared
 
 SECONDS = 1.0   # of a chunk
+PATIENCE = 5.0   # seconds without a result until a driver asks whether the executor still works
 TRIES = 3   # of executors that break, one after another, without a result in between
 
 try:
@@ -173,7 +176,7 @@ class _Driver:
                     flying[executor.submit(work, self.prepared.context, None, self._points(chunk))] = chunk
                 if not flying:
                     return
-                for future in concurrent.futures.wait(flying, return_when=concurrent.futures.FIRST_COMPLETED).done:
+                for future in self._done(executor, flying):
                     result = self._result(future)
                     if result is None:   # this worker has not got the study yet
                         flying[executor.submit(work, self.prepared.context, self.pickled, self._points(flying[future]))] = flying[future]
@@ -185,6 +188,15 @@ class _Driver:
                 future.cancel()
             self.again += list(flying.values())
             raise
+
+    def _done(self, executor: Any, flying: Dict["Future[Optional[Chunk]]", range]) -> "Set[Future[Optional[Chunk]]]":
+        """The chunks that have come back, at least one. A pool of processes that breaks while it is given a chunk forgets that chunk (before Python 3.12),
+        but it refuses the next one."""
+        while True:
+            done = concurrent.futures.wait(flying, PATIENCE, concurrent.futures.FIRST_COMPLETED).done
+            if done:
+                return done
+            executor.submit(int)
 
     def _result(self, future: "Future[Optional[Chunk]]") -> Optional[Chunk]:
         try:

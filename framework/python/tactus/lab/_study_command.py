@@ -133,13 +133,19 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Make, int
         pools: List[ProcessPoolExecutor] = []
 
         def make() -> ProcessPoolExecutor:
-            for pool in pools:
-                pool.shutdown(wait=False, cancel_futures=True)
-            pools[:] = [ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent)]
-            return pools[0]
+            end()
+            pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
+            return pools[-1]
+
+        def end() -> None:
+            for child in multiprocessing.active_children():   # a pool that is broken may wait for them
+                child.kill()
 
         try:
             yield make, workers
+        except BaseException:
+            end()
+            raise
         finally:
             for pool in pools:
                 pool.shutdown(wait=True, cancel_futures=True)
