@@ -386,7 +386,7 @@ class Report(Quiet):
         study = wall(about="<script>alert(1)</script>", factors=factors,
                      maps=[lab.Map("peak", "wall.damping", "wall.stiffness", limits=bool(PROGRAM))])
         results = study.run(self.folder / "out")
-        page = _study_report.page(study.prepare(), results, "/x/wa ll.json")
+        page = _study_report.page(study.prepare(), results, ["tactus", "study", "wa ll.json"])
         ElementTree.fromstring(re.sub(r"<meta[^>]*>|<!DOCTYPE html>", "", page))   # each tag is closed
         self.assertNotIn("<script", page)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:image/png)', page), [])
@@ -483,7 +483,12 @@ class Command(Quiet):
         self.assertIn("6 with errors", said)
         self.ran(file, "--functions", "f.py", "--out", "b", "--executor", "serial")
         self.assertEqual((self.folder / "a/results.tcol").read_bytes(), (self.folder / "b/results.tcol").read_bytes())
-        self.assertEqual(lab.load_results(self.folder / "a")["error_place"][0], "functions.py:2")
+        results = lab.load_results(self.folder / "a")
+        self.assertEqual(results["error_place"][0], "functions.py:2")
+        words = re.search(r"<code>(tactus study .*?)</code>", (self.folder / "a/report.html").read_text())[1].split()   # of the worst point
+        self.ran(file, *words[3:], "--out", "a")
+        self.assertEqual(int(words[-1]), int(np.nanargmax(results["f"])))
+        self.assertTrue((self.folder / f"a/point-{words[-1]}.csv").exists())
         self.assertEqual(len((self.folder / "a/results.csv").read_text().splitlines()), 31)
 
     def test_one_point_and_wrong_uses(self):

@@ -79,7 +79,8 @@ def run(given: argparse.Namespace) -> int:
                 return 0
     results = merge(prepared, out, given.mixed, given.partial)
     _write(results, pathlib.Path(out), given.to)
-    _study_report.write(prepared, results, pathlib.Path(out) / "report.html", given.file)
+    words = ["tactus", "study", os.path.basename(given.file), *(["--functions", os.path.basename(given.functions)] if given.functions else [])]
+    _study_report.write(prepared, results, pathlib.Path(out) / "report.html", words)
     bad = sum(map(bool, results["error"]))
     print(f"{out}/results.tcol: {results.rows} points, {bad} with errors; report: {out}/report.html")
     return 0

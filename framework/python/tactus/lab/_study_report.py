@@ -190,10 +190,10 @@ def _parallel(results: Results, column: str, axes: List[str], units: Dict[str, s
             f"{len(rows)} of {results.rows} points, coloured by {escape(column)}. A line that leaves an axis below it has no number there.</p>")
 
 
-def page(prepared: Prepared, results: Results, file: str) -> str:
-    """The page."""
+def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
+    """The page. words: the command that renders the study."""
     study, names = prepared.study, prepared.names
-    units = {**{f.vary: f.unit for f in study.factors}, **{n: m.unit for m in study.measures for n in m.columns[:1]}}
+    units = study.units
     bad = [i for i, error in enumerate(results["error"]) if error]
     maps = study.maps or ([Map(column, names[0], names[1]) for column in study.columns if not column.endswith("_margin")] if len(names) > 1 else [])
     body = []
@@ -206,10 +206,10 @@ def page(prepared: Prepared, results: Results, file: str) -> str:
         body.append(_parallel(results, column, [*names, *study.columns][:10], units))
         values = np.asarray(results[column], float)
         order = [int(i) for i in np.argsort(values if least else -values, kind="stable") if np.isfinite(values[i])][:WORST]
-        body.append(f"<h2>The points with the {'smallest' if least else 'largest'} {escape(column)}</h2>" + _table(prepared, results, order, file)
+        body.append(f"<h2>The points with the {'smallest' if least else 'largest'} {escape(column)}</h2>" + _table(prepared, results, order, words)
                     + "<p>The command writes the records of the point and its graph, and prints how to open that in the window.</p>")
     if bad:
-        body.append(f"<h2>{len(bad)} points with errors</h2>" + _table(prepared, results, bad[:PROBLEMS], file))
+        body.append(f"<h2>{len(bad)} points with errors</h2>" + _table(prepared, results, bad[:PROBLEMS], words))
     marks = ", ".join(f"Tactus {o['tactus']} on {o['computer']}" for o in results.about["origins"])
     many = len(results.about["origins"])
     mixed = f"<p><strong>The results come from {many} kinds of computers or versions</strong>; the column origin tells them apart.</p>" if many > 1 else ""
@@ -221,18 +221,18 @@ def page(prepared: Prepared, results: Results, file: str) -> str:
             f'<p>{results.rows} points, {len(bad)} with errors. {escape(marks)}. Study {escape(results.about["study"])}.</p>{mixed}{"".join(body)}</body></html>\n')
 
 
-def _table(prepared: Prepared, results: Results, rows: List[int], file: str) -> str:
+def _table(prepared: Prepared, results: Results, rows: List[int], words: Sequence[str]) -> str:
     columns = [*prepared.names, *prepared.study.columns, *(["error", "error_place"] if any(results["error"][i] for i in rows) else [])]
     head = "".join(f"<th>{escape(name)}</th>" for name in ["point", *columns, "render it"])
     lines = []
     for i in rows:
-        command = f"tactus study {shlex.quote(os.path.basename(file) or 'FILE')} --point {i}"
+        command = shlex.join([*words, "--point", str(i)])
         cells = "".join(f"<td>{escape(results[name][i] if isinstance(results[name], list) else _short(float(results[name][i])))}</td>" for name in columns)
         lines.append(f"<tr><td>{i}</td>{cells}<td><code>{escape(command)}</code></td></tr>")
     return f"<table><tr>{head}</tr>{''.join(lines)}</table>"
 
 
-def write(prepared: Prepared, results: Results, path: pathlib.Path, file: str) -> None:
+def write(prepared: Prepared, results: Results, path: pathlib.Path, words: Sequence[str]) -> None:
     """Writes the page."""
-    text = page(prepared, results, file).encode()
+    text = page(prepared, results, words).encode()
     _columns.replace(path, lambda out: out.write(text))
