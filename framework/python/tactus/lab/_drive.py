@@ -94,19 +94,18 @@ def drive(prepared: "Prepared", out: Any, make: Optional[Callable[[], Any]] = No
     folder = Folder(prepared, out, mixed, begin=True)
     lock = _lock(folder, is_shared=shard != (0, 1))
     try:
-        held = folder.keys()
-        if held and not resume and shard == (0, 1):
-            fail("study/exists", str(folder.path), f"the folder has the results of {len(held)} points",
+        held = folder.results()
+        if len(held.keys) and not resume and shard == (0, 1):
+            fail("study/exists", str(folder.path), f"the folder has the results of {len(held.keys)} points",
                  "go on with --resume, or choose another folder with --out")
         wanted = range(shard[0], prepared.design.count, shard[1])
-        todo: Dict[bytes, int] = {}   # points by their key: two equal points are one
-        for i in wanted:
-            key = prepared.key(prepared.design.at(i))
-            if key not in held:
-                todo.setdefault(key, i)
-        progress = Progress(len(wanted), len(wanted) - len(todo), sum(held.values()) if shard == (0, 1) else 0, report)
-        if todo:
-            _Driver(prepared, folder, progress, todo, max(1, workers)).run(make)
+        keys = prepared.keys(wanted)
+        at = held.find(keys)
+        _, first = np.unique(keys, return_index=True)   # two equal points are one
+        todo = np.sort(first[at[first] < 0])
+        progress = Progress(len(wanted), len(wanted) - len(todo), int(np.isin(at, list(held.problems)).sum()), report)
+        if len(todo):
+            _Driver(prepared, folder, progress, keys[todo], np.array(wanted)[todo], max(1, workers)).run(make)
         return progress
     finally:
         os.close(lock)
@@ -125,9 +124,9 @@ def _lock(folder: Folder, is_shared: bool) -> int:
 
 
 class _Driver:
-    def __init__(self, prepared: "Prepared", folder: Folder, progress: Progress, todo: Dict[bytes, int], workers: int):
+    def __init__(self, prepared: "Prepared", folder: Folder, progress: Progress, keys: Any, todo: Any, workers: int):
         self.prepared, self.folder, self.progress, self.workers = prepared, folder, progress, workers
-        self.keys, self.todo, self.at = list(todo), list(todo.values()), 0
+        self.keys, self.todo, self.at = keys, todo, 0
         self.sizes = _Sizes(workers, len(todo))
         self.parts: Dict[Tuple[str, str], Part] = {}
         self.told: set[str] = set()
@@ -165,7 +164,7 @@ class _Driver:
         return range(self.at - size, self.at)
 
     def _points(self, chunk: range) -> List[Point]:
-        return [self.prepared.design.at(self.todo[k]) for k in chunk]
+        return [self.prepared.design.at(i) for i in self.todo[chunk.start:chunk.stop].tolist()]
 
     def _with(self, executor: Any) -> None:
         """Works on an executor until nothing is left, or until it breaks."""
@@ -214,7 +213,7 @@ class _Driver:
         if made.stamp not in self.parts:
             self.folder.accept(made.stamp, made.host)
             self.parts[made.stamp] = Part(self.folder.parts_path, self.prepared.context, made.stamp)
-        self.parts[made.stamp].add(b"".join(self.keys[chunk.start:chunk.stop]), made)
+        self.parts[made.stamp].add(self.keys[chunk.start:chunk.stop].tobytes(), made)
         self.sizes.learn(len(chunk), float(made.seconds.sum()))
         for kind, text in made.warnings.items():
             if kind not in self.told and len(self.told) < 20:

@@ -15,7 +15,7 @@ import pathlib
 import socket
 import struct
 import zlib
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -39,7 +39,6 @@ class Frame(NamedTuple):
     numbers: Array
     seconds: Array
     traces: List[Array]
-    part: int   # the number of the part in the list of parts
 
 
 class Part:
@@ -104,7 +103,7 @@ def disk(folder: pathlib.Path, why: OSError, points: int) -> DiskError:
                      "    make room, and go on with --resume")
 
 
-def frames(path: pathlib.Path, number: int) -> Iterator[Tuple[Dict[str, Any], Optional[Frame]]]:
+def frames(path: pathlib.Path) -> Iterator[Tuple[Dict[str, Any], Optional[Frame]]]:
     """The header of a part, once with None, and then its frames. Ends at the first one that is not whole."""
     with open(path, "rb") as file:
         if os.fstat(file.fileno()).st_size <= len(MAGIC):
@@ -136,7 +135,7 @@ def frames(path: pathlib.Path, number: int) -> Iterator[Tuple[Dict[str, Any], Op
             width = len(about["kept"]) if ticks else 0
             traces.append(np.frombuffer(body, "<f8", ticks * width, here).reshape(ticks, width))
             here += 8 * ticks * width
-        yield header, Frame(about, keys, numbers, seconds, traces, number)
+        yield header, Frame(about, keys, numbers, seconds, traces)
 
 
 class Folder:
@@ -191,8 +190,8 @@ class Folder:
 
     def frames(self) -> Iterator[Tuple[Stamp, str, Frame]]:
         """What is there: the mark of each frame, the name of its part, and the frame."""
-        for number, path in enumerate(sorted(self.parts_path.glob("*.part"))):
-            for header, frame in frames(path, number):
+        for path in sorted(self.parts_path.glob("*.part")):
+            for header, frame in frames(path):
                 if header["study"] != self.prepared.context.hex():
                     break
                 mark = (header["tactus"], header["computer"])
@@ -200,14 +199,51 @@ class Folder:
                 if frame is not None:
                     yield mark, path.name, frame
 
-    def keys(self) -> Dict[bytes, bool]:
-        """The points that have results; True for those with an error."""
-        found: Dict[bytes, bool] = {}
-        for _, _, frame in self.frames():
-            bad = {problem[0] for problem in frame.about["problems"]}
-            for i in range(frame.about["n"]):
-                found[frame.keys[16 * i:16 * i + 16]] = i in bad
+    def results(self) -> "Held":
+        """All results that are there."""
+        return Held(list(self.frames()))
+
+
+class Held:
+    """The results in a folder, numbered from 0 in the order of their parts."""
+
+    def __init__(self, frames_: List[Tuple[Stamp, str, Frame]]):
+        self.frames = frames_
+        sizes = [frame.about["n"] for _, _, frame in frames_]
+        self.frame = np.repeat(np.arange(len(sizes)), sizes)   # by result: the number of its frame, and its row there
+        starts = np.cumsum([0, *sizes])
+        self.row = np.arange(starts[-1]) - np.repeat(starts[:-1], sizes)
+        self.keys = np.frombuffer(b"".join(frame.keys for _, _, frame in frames_), "S16")
+        self.problems = {int(start) + p[0]: p for start, (_, _, frame) in zip(starts, frames_) for p in frame.about["problems"]}
+        self._order = np.argsort(self.keys, kind="stable")
+
+    def find(self, keys: Any) -> Any:
+        """By key: the number of its first result; -1 if there is none."""
+        if len(self.keys) == 0:
+            return np.full(len(keys), -1)
+        at = self._order[np.minimum(np.searchsorted(self.keys, keys, sorter=self._order), len(self.keys) - 1)]
+        return np.where(self.keys[at] == keys, at, -1)
+
+    def taken(self, at: Any, parts: List[Array], missing: float) -> Any:
+        """Values of frames or of their rows, by point; `at` says which result a point has."""
+        found = np.full((len(at), *(parts[0].shape[1:] if parts else ())), missing)
+        if parts:
+            found[at >= 0] = (np.concatenate(parts) if parts[0].ndim else np.array(parts)[self.frame])[at[at >= 0]]
         return found
+
+    def twice(self) -> Iterator[Tuple[int, int]]:
+        """Pairs of results of one point on equal computers."""
+        ordered = self.keys[self._order]
+        first: Dict[Tuple[bytes, Stamp], int] = {}
+        for k in np.flatnonzero(np.isin(self.keys, ordered[1:][ordered[1:] == ordered[:-1]])).tolist():
+            other = first.setdefault((self.keys[k].tobytes(), self.frames[self.frame[k]][0]), k)
+            if other != k:
+                yield other, k
+
+    def result(self, number: int) -> Tuple[Any, ...]:
+        """What must be the same in two results of one point."""
+        frame, row = self.frames[self.frame[number]][2], self.row[number]
+        return frame.numbers[row].tobytes(), self.problems.get(number, [0])[1:], frame.traces[row].tobytes() if frame.traces else b""
 
 
 class Results(Dict[str, Any]):
@@ -232,86 +268,48 @@ def load(path: Any) -> Results:
 def merge(prepared: "Prepared", out: Any, mixed: bool = False, partial: bool = False) -> Results:
     """Makes results.tcol, sorted by point, and times.tcol. partial: also if points are missing; they have the error study/missing."""
     folder = Folder(prepared, out, mixed, begin=False)
-    held, marks, names = list(folder.frames()), [], []
-    where: Dict[bytes, Tuple[int, int]] = {}
-    for f, (mark, name, frame) in enumerate(held):
-        marks.append(mark)
-        names.append(name)
-        for i in range(frame.about["n"]):
-            key = frame.keys[16 * i:16 * i + 16]
-            before = where.setdefault(key, (f, i))
-            if before != (f, i) and marks[before[0]] == mark:
-                _same(folder, held[before[0]][2], before[1], frame, i)
+    held = folder.results()
+    for a, b in held.twice():
+        if held.result(a) != held.result(b):
+            fail("study/differs", str(folder.path), f"a point was rendered twice, and its results differ (key {held.keys[a].hex()})",
+                 "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
     count = prepared.design.count
-    points = [prepared.design.at(i) for i in range(count)]
-    keys = [prepared.key(point) for point in points]
-    missing = sum(key not in where for key in keys)
-    if missing and not partial:
-        fail("study/missing", str(folder.path), f"{missing} of {count} points have no results yet",
+    keys = prepared.keys(range(count))
+    at = held.find(keys)
+    if (at < 0).any() and not partial:
+        fail("study/missing", str(folder.path), f"{(at < 0).sum()} of {count} points have no results yet",
              "go on with --resume, or merge what is there with --partial")
-    sizes = [frame.about["n"] for _, _, frame in held]
-    starts = np.concatenate([[0], np.cumsum(sizes)]).astype(int)
-    at = np.array([starts[where[key][0]] + where[key][1] if key in where else -1 for key in keys], int)
-    there, frame_of = at >= 0, np.repeat(np.arange(len(held)), sizes)
+    marks, parts = [mark for mark, _, _ in held.frames], [name for _, name, _ in held.frames]
+    workers = [(frame.about["host"], frame.about["process"]) for _, _, frame in held.frames]
+    origins = sorted({marks[f] for f in set(held.frame[at[at >= 0]].tolist())})
 
-    def rows(parts: List[Array], width: Tuple[int, ...]) -> Array:
-        found = np.full((count, *width), np.nan)
-        if parts:
-            found[there] = np.concatenate(parts)[at[there]]
-        return found
+    def numbered(known: List[Any], each: List[Any]) -> Any:
+        return held.taken(at, [np.array(known.index(v) if v in known else -1) for v in each], -1).astype("<i4")
 
-    numbers = rows([frame.numbers for _, _, frame in held], (len(prepared.study.columns),))
-    seconds = rows([frame.seconds for _, _, frame in held], ())
-    origins = sorted({marks[f] for f in {f for f, _ in where.values()}})
-    origin = np.array([origins.index(mark) for mark in marks] or [0])
-    bad = {(f, p[0]): p for f, (_, _, frame) in enumerate(held) for p in frame.about["problems"]}
-    errors, places = [""] * count, [""] * count
-    for row, key in enumerate(keys) if bad or missing else ():
-        if key not in where:
-            errors[row] = "study/missing: the point has no result yet"
-        elif where[key] in bad:
-            _, name, place, text = bad[where[key]]
-            errors[row], places[row] = f"{name}: {text}", place
-    columns: Dict[str, Any] = {"key": np.frombuffer(b"".join(keys), "|u1").reshape(count, 16)}
-    texts = list(zip(*points)) or [()] * len(prepared.names)
-    columns.update({name: _columns.numbers_or_texts(column) for name, column in zip(prepared.names, texts)})
+    columns: Dict[str, Any] = {"key": keys.view("|u1").reshape(count, 16)}
+    for c, name in enumerate(prepared.names):
+        columns[name] = _columns.numbers_or_texts([prepared.design.at(i)[c] for i in range(count)])
+    numbers = held.taken(at, [np.zeros((0, len(prepared.study.columns))), *(frame.numbers for _, _, frame in held.frames)], np.nan)
     columns.update({name: numbers[:, i] for i, name in enumerate(prepared.study.columns)})
-    columns.update({"error": errors, "error_place": places, "origin": np.where(there, origin[frame_of[at]] if held else 0, -1).astype("<i4")})
-    columns.update(_traces(prepared, held, where, keys))
-    units = {**{f.vary: f.unit for f in prepared.study.factors}, **{n: m.unit for m in prepared.study.measures for n in m.columns[:1]}}
+    errors, places = [""] * count, [""] * count
+    for row in np.flatnonzero((at < 0) | np.isin(at, list(held.problems))).tolist():
+        _, name, places[row], text = held.problems.get(int(at[row]), (0, "study/missing", "", "the point has no result yet"))
+        errors[row] = f"{name}: {text}"
+    columns.update({"error": errors, "error_place": places, "origin": numbered(origins, marks)})
+    for c, name in enumerate(next((frame.about["kept"] for _, _, frame in held.frames if frame.about["kept"]), [])):
+        traces = [held.frames[held.frame[k]][2].traces[held.row[k]] if k >= 0 else np.zeros((0, 0)) for k in at]
+        columns[f"trace:{name}"] = [np.ascontiguousarray(trace[:, c]) if trace.size else np.zeros(0) for trace in traces]
     about = {"format": "tactus-study-results", "version": 1, "name": prepared.study.name, "study": prepared.context.hex(), "rows": count,
              "factors": prepared.names, "measures": prepared.study.columns, "origins": [{"tactus": t, "computer": c} for t, c in origins]}
-    used = sorted(set(names))
+    used, known = sorted(set(parts)), sorted(set(workers))
+    times = {"seconds": held.taken(at, [frame.seconds for _, _, frame in held.frames], np.nan), "part": numbered(used, parts), "worker": numbered(known, workers)}
     try:
-        _columns.write(folder.path / "results.tcol", columns, about, units)
-        part = np.array([used.index(name) for name in names] or [0])
-        hosts = sorted({(frame.about["host"], frame.about["process"]) for _, _, frame in held})
-        host = np.array([hosts.index((frame.about["host"], frame.about["process"])) for _, _, frame in held] or [0])
-        _columns.write(folder.path / "times.tcol", {
-            "seconds": seconds, "part": np.where(there, part[frame_of[at]] if held else 0, -1).astype("<i4"),
-            "worker": np.where(there, host[frame_of[at]] if held else 0, -1).astype("<i4")},
-            {"format": "tactus-study-times", "rows": count, "parts": used, "workers": [{"host": h, "process": p} for h, p in hosts]}, {"seconds": "s"})
+        _columns.write(folder.path / "results.tcol", columns, about, prepared.study.units)
+        _columns.write(folder.path / "times.tcol", times, {"format": "tactus-study-times", "rows": count, "parts": used,
+                                                           "workers": [{"host": h, "process": p} for h, p in known]}, {"seconds": "s"})
     except OSError as why:
         raise DiskError(f"{folder.path}: the results cannot be merged: {why.strerror}\n    make room, and merge again; no result is lost") from None
     return Results(columns, about)
-
-
-def _same(folder: Folder, a: Frame, i: int, b: Frame, k: int) -> None:
-    """Two results of one point on equal computers have the same bits, or something is broken."""
-    problems = [[p[1:] for p in frame.about["problems"] if p[0] == row] for frame, row in ((a, i), (b, k))]
-    traces = [frame.traces[row].tobytes() if frame.traces else b"" for frame, row in ((a, i), (b, k))]
-    if a.numbers[i].tobytes() != b.numbers[k].tobytes() or problems[0] != problems[1] or traces[0] != traces[1]:
-        fail("study/differs", str(folder.path), f"a point was rendered twice, and its results differ (key {a.keys[16 * i:16 * i + 16].hex()})",
-             "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
-
-
-def _traces(prepared: "Prepared", held: Sequence[Tuple[Stamp, str, Frame]], where: Dict[bytes, Tuple[int, int]], keys: List[bytes]) -> Dict[str, Any]:
-    kept: List[str] = next((frame.about["kept"] for _, _, frame in held if frame.about["kept"]), [])
-    found: Dict[str, Any] = {}
-    for c, name in enumerate(kept):
-        rows = [held[where[key][0]][2].traces[where[key][1]] if key in where else np.zeros((0, 0)) for key in keys]
-        found[f"trace:{name}"] = [np.ascontiguousarray(row[:, c]) if row.size else np.zeros(0) for row in rows]
-    return found
 
 
 __all__ = ["DiskError", "Folder", "Part", "Results", "load", "merge"]

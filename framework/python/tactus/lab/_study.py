@@ -11,7 +11,7 @@ import os
 import pickle
 import platform
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -87,6 +87,11 @@ class Study:
     def columns(self) -> List[str]:
         """The columns of the measures."""
         return [name for measure in self.measures for name in measure.columns]
+
+    @property
+    def units(self) -> Dict[str, str]:
+        """The units of the columns that have one."""
+        return {**{factor.vary: factor.unit for factor in self.factors}, **{measure.columns[0]: measure.unit for measure in self.measures}}
 
     def prepare(self, functions: Optional[Functions] = None, source: str = "", graph: Optional[Graph] = None, assets: Optional[Assets] = None) -> "Prepared":
         """The study with its graph and files, ready for workers. `run` says what the arguments are."""
@@ -233,6 +238,10 @@ class Prepared:
         made = self._hash.copy()
         made.update(text.encode())
         return made.digest()
+
+    def keys(self, numbers: Iterable[int]) -> Any:
+        """The addresses of the results of some points, shape (n,)."""
+        return np.frombuffer(b"".join([self.key(self.design.at(i)) for i in numbers]), "S16")
 
     def __getstate__(self) -> Dict[str, Any]:
         state = {key: value for key, value in self.__dict__.items() if key not in ("design", "_hash")}   # a worker gets points, and no keys

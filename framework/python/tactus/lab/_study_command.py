@@ -18,6 +18,8 @@ import threading
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, Callable, Dict, Iterator, List, NoReturn, Optional, Tuple
 
+import numpy as np
+
 from .._graph import Graph
 from .._messages import fail
 from . import _study_report
@@ -204,7 +206,7 @@ def _slurm(prepared: Prepared, out: str, given: argparse.Namespace) -> int:
     if given.dry_run:
         return 0
     folder = Folder(prepared, out, given.mixed, begin=True)
-    if folder.keys() and not given.resume:
+    if len(folder.results().keys) and not given.resume:
         fail("study/exists", out, "the folder has results", "go on with --resume, or choose another folder with --out")
     path = folder.path / "slurm.sh"
     path.write_text(script, encoding="utf-8")
@@ -232,11 +234,11 @@ def _sbatch(words: List[str]) -> str:
 
 def _status(prepared: Prepared, out: str, mixed: bool) -> int:
     folder = Folder(prepared, out, mixed, begin=False)
-    held = folder.keys()
-    keys = {prepared.key(prepared.design.at(i)) for i in range(prepared.design.count)}
-    done = [held[key] for key in keys if key in held]
-    others = f"; {len(held) - len(done)} results of other points" if len(held) > len(done) else ""
-    print(f"{out}: {len(done)} of {len(keys)} points, {sum(done)} with errors{others}")
+    held = folder.results()
+    keys = np.unique(prepared.keys(range(prepared.design.count)))
+    at = held.find(keys)
+    done, others = int((at >= 0).sum()), len(np.unique(held.keys)) - int((at >= 0).sum())
+    print(f"{out}: {done} of {len(keys)} points, {np.isin(at, list(held.problems)).sum()} with errors" + (f"; {others} results of other points" if others else ""))
     print(f"Tactus {folder.about['tactus']}, computer {folder.about['computer']}")
     return 0
 
