@@ -3,8 +3,8 @@
 
     PYTHONPATH=build/release/python python3 tests/python/study_cost.py build/release [POINTS [ROUNDS]]"""
 
+import os
 import pathlib
-import resource
 import statistics
 import subprocess
 import sys
@@ -13,6 +13,7 @@ import tempfile
 from support import ROOT
 from tactus import lab
 
+GRAPH = ROOT / "docs/figures/stiffness_limit.json"
 LOOP = r"""
 #include <tactus/tactus.h>
 #include <math.h>
@@ -62,38 +63,55 @@ int main (int count, char** words)
 """
 
 
-def children_s():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+def spent(words, **environment):
+    """The processor time of a program and its children, in s, and the most memory of one process, in MB."""
+    process = subprocess.Popen(list(map(str, words)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **environment})
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise subprocess.CalledProcessError(process.returncode, words)
+    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+
+
+def study_of(count, duration):
+    return lab.Study(name="cost", graph=str(GRAPH), duration=duration, rate=1000.0,
+                     factors=[lab.Factor("wall.stiffness", low=500.0, high=8000.0, count=count // 100),
+                              lab.Factor("wall.damping", low=0.0, high=20.0, count=100)],
+                     measures=[lab.Measure("peak", "peak", port="motor.force"), lab.Measure("given", "given", port="motor.force", position="hand.position")])
 
 
 def main(build, count=10000, rounds=5):
-    graph = ROOT / "docs/figures/stiffness_limit.json"
-    study = lab.Study(name="cost", graph=str(graph), duration=0.25, rate=1000.0,
-                      factors=[lab.Factor("wall.stiffness", low=500.0, high=8000.0, count=count // 100),
-                               lab.Factor("wall.damping", low=0.0, high=20.0, count=100)],
-                      measures=[lab.Measure("peak", "peak", port="motor.force"), lab.Measure("given", "given", port="motor.force", position="hand.position")])
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        compiled = {"PYTHONPYCACHEPREFIX": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": ""}   # as in an installed package
+        numbers = iter(range(10**6))
+
+        def study(points, duration, executor="serial"):
+            file = folder / f"{points}-{duration}.json"
+            file.write_text(study_of(points, duration).text())
+            return spent([sys.executable, "-m", "tactus.lab", "study", file, "--out", folder / f"out{next(numbers)}", "--executor", executor, "--workers", 2],
+                         **compiled)
+
         (folder / "loop.c").write_text(LOOP)
         subprocess.run(["cc", "-O2", "-o", folder / "loop", folder / "loop.c", f"-I{build}/include", f"-L{build}", "-ltactus", "-lm",
                         f"-Wl,-rpath,{pathlib.Path(build).resolve()}"], check=True)
-        (folder / "s.json").write_text(study.text())
+        start, _ = min(study(200, 0.25) for _ in range(3))
         ratios = []
-        for k in range(rounds):
-            a = children_s()
-            subprocess.run([folder / "loop", graph, str(count)], check=True, stdout=subprocess.DEVNULL)
-            b = children_s()
-            subprocess.run([sys.executable, "-m", "tactus.lab", "study", folder / "s.json", "--out", folder / f"out{k}", "--executor", "serial"],
-                           check=True, capture_output=True)
-            c = children_s()
-            subprocess.run([sys.executable, "-m", "tactus.lab", "study", folder / "s.json", "--out", folder / f"out{k}", "--status"],
-                           check=True, capture_output=True)
-            d = children_s()
-            ratios.append((c - b) / (b - a))
-            print(f"{count} renders: loop in C {b - a:.2f} s, study {c - b:.2f} s, of which start of Python and counting {d - c:.2f} s; ratio {ratios[-1]:.3f}",
+        for _ in range(rounds):
+            loop, _ = spent([folder / "loop", GRAPH, count])
+            whole, memory = study(count, 0.25)
+            ratios.append(whole / loop)
+            print(f"{count} renders: loop in C {loop:.2f} s, study {whole:.2f} s, of which start {start:.2f} s; ratio {ratios[-1]:.3f}; {memory:.0f} MB",
                   flush=True)
-        print(f"median ratio {statistics.median(ratios):.3f}; most memory of a child {resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024:.0f} MB")
+        few = study(count // 5, 0.25)[1]
+        print(f"median ratio {statistics.median(ratios):.3f}; most memory with {count // 5} points {few:.0f} MB, with {count} {memory:.0f} MB")
+        for executor in ("local", "dask"):
+            ratios = []
+            for _ in range(rounds):
+                few, many, plain_few, plain_many = (study(points, 25.0, by)[0] for by in (executor, "serial") for points in (1000, 5000))
+                ratios.append((many - few) / (plain_many - plain_few))
+                print(f"{executor}: 4000 more renders take {many - few:.2f} s, in one process {plain_many - plain_few:.2f} s; ratio {ratios[-1]:.3f}", flush=True)
+            print(f"{executor}: median ratio {statistics.median(ratios):.3f}")
 
 
 if __name__ == "__main__":
