@@ -9,10 +9,8 @@ import subprocess
 import sys
 import unittest
 
-from lab_study_test import Quiet, points, wall
+from lab_study_test import Killed, descendants
 import waiting
-from tactus import lab
-from tactus.lab import _drive
 
 WORDS = [sys.executable, "-B", "-m", "tactus.lab", "study"]
 
@@ -25,56 +23,102 @@ def has(package):
         return False
 
 
-class Clusters(Quiet):
+DASK = unittest.skipUnless(has("distributed"), "python3-distributed is not installed")
+MPI = unittest.skipUnless(has("mpi4py") and shutil.which("mpirun"), "mpi4py or mpirun is not installed")
+SLURM = unittest.skipUnless(os.getuid() == 0 and all(map(shutil.which, ("slurmctld", "slurmd", "sbatch", "munged"))),
+                            "slurm-wlm is not installed, or this is not root")
+
+
+class Clusters(Killed):
     def setUp(self):
         super().setUp()
-        self.study = wall(keep=["motor.force.z"], factors=[lab.Factor("wall.stiffness", low=1000.0, high=5000.0, count=20),
-                                                           lab.Factor("wall.damping", values=[0, 0.5, -1, 2])])
-        self.file = self.folder / "s.json"
-        self.file.write_text(self.study.text())
-        self.study.run(self.folder / "whole")
-        self.whole = (self.folder / "whole/results.tcol").read_bytes()
+        self.begin_study()
+
+    def start(self, *words, **options):
+        return subprocess.Popen([*map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder, **options)
 
     def ran(self, *words, **options):
-        done = subprocess.run([*map(str, words)], capture_output=True, text=True, cwd=self.folder, **options)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        return done.stdout
+        process = self.start(*words, **options)
+        said = process.communicate()
+        self.assertEqual(process.returncode, 0, said)
+        return said[0]
 
     def same(self, out):
-        self.assertEqual((self.folder / out / "results.tcol").read_bytes(), self.whole, out)
+        self.assertEqual((self.folder / out / "results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes(), out)
+        self.assertEqual(self.held(out)[1], self.prepared.design.count)   # nothing was rendered twice
 
-    @unittest.skipUnless(has("distributed"), "python3-distributed is not installed")
+    def dask(self, out):
+        return [*WORDS, self.file, "--out", out, "--executor", "dask", "--workers", "2", "--resume"]
+
+    @DASK
     def test_dask(self):
-        self.ran(*WORDS, self.file, "--out", "dask", "--executor", "dask", "--workers", "2")
+        self.ran(*self.dask("dask"))
         self.same("dask")
 
-    @unittest.skipUnless(has("mpi4py") and shutil.which("mpirun"), "mpi4py or mpirun is not installed")
-    def test_mpi(self):
+    @DASK
+    def test_workers_and_scheduler_of_dask_are_killed(self):
+        self.survives(lambda: self.start(*self.dask("out")),
+                      lambda process: [process.pid, *(pid for pid, words in descendants(process.pid).items() if "spawn_main" in words)])
+
+    def mpi(self, out):
         root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-        self.ran("mpirun", *root, "-n", "4", "--oversubscribe", *WORDS, self.file, "--out", "mpi", "--executor", "mpi")
+        return ["mpirun", *root, "-n", "4", "--oversubscribe", *WORDS, self.file, "--out", out, "--executor", "mpi", "--resume"]
+
+    @MPI
+    def test_mpi(self):
+        self.ran(*self.mpi("mpi"))
         self.same("mpi")
 
-    @unittest.skipUnless(os.getuid() == 0 and all(map(shutil.which, ("slurmctld", "slurmd", "sbatch", "munged"))),
-                         "slurm-wlm is not installed, or this is not root")
-    def test_slurm_goes_on_with_what_another_executor_began(self):
-        with Slurm(self.folder) as environment:
-            if not environment:
-                self.skipTest("slurmctld, slurmd or munged cannot start here")
-            self.ran(*WORDS, self.file, "--out", "slurm", "--executor", "slurm", "--workers", "3", env=environment)
-            self.wait_for(environment)
-            self.same("slurm")
-            prepared = self.study.prepare()
-            _drive.drive(prepared, self.folder / "both", shard=(1, 2))
-            begun = len(lab._parts.Folder(prepared, self.folder / "both", False, False).keys())
-            self.assertEqual(begun, len(points(prepared.design)) // 2)
-            self.ran(*WORDS, self.file, "--out", "both", "--executor", "slurm", "--workers", "3", "--resume", env=environment)
-            self.wait_for(environment)
-            self.same("both")
-            sizes = [frame.about["n"] for _, _, frame in lab._parts.Folder(prepared, self.folder / "both", False, False).frames()]
-            self.assertEqual(sum(sizes), prepared.design.count)   # nothing was rendered twice
+    @MPI
+    def test_ranks_of_mpi_are_killed(self):
+        self.survives(lambda: self.start(*self.mpi("out")),
+                      lambda process: [pid for pid, words in descendants(process.pid).items() if "--executor mpi" in words])
 
-    def wait_for(self, environment):
-        self.assertTrue(waiting.eventually(lambda: not self.ran("squeue", "--noheader", env=environment).strip(), 0.2))
+    def slurm(self, out, environment):
+        return [*WORDS, self.file, "--out", out, "--executor", "slurm", "--workers", "3", "--resume"], {"env": environment}
+
+    def cluster(self):
+        environment = self.enterContext(Slurm(self.folder))
+        if not environment:
+            self.skipTest("slurmctld, slurmd or munged cannot start here")
+        return environment
+
+    def is_over(self, environment):
+        return not self.ran("squeue", "--noheader", env=environment).strip()
+
+    @SLURM
+    def test_slurm(self):
+        environment = self.cluster()
+        words, options = self.slurm("slurm", environment)
+        self.ran(*words, **options)
+        self.assertTrue(waiting.eventually(lambda: self.is_over(environment), 0.2))
+        self.same("slurm")
+
+    @SLURM
+    def test_steps_of_slurm_are_killed(self):
+        environment = self.cluster()
+        words, options = self.slurm("out", environment)
+
+        def steps(_):
+            all_words = {int(path.parent.name): path.read_text().split("\0") for path in pathlib.Path("/proc").glob("[0-9]*/cmdline") if path.exists()}
+            return [pid for pid, said in all_words.items() if "--shard" in said and str(self.folder / "out") in said]
+
+        self.survives(lambda: self.ran(*words, **options) and None, steps, lambda _: self.is_over(environment))
+
+    @DASK
+    @SLURM
+    def test_begun_on_dask_it_ends_on_slurm(self):
+        environment = self.cluster()
+        process = self.start(*self.dask("both"), env=environment)
+        self.assertTrue(waiting.eventually(lambda: self.held("both")[1] >= 10 or process.poll() is not None))
+        process.kill()
+        process.communicate()
+        begun = self.held("both")[1]
+        self.assertTrue(10 <= begun < self.prepared.design.count, begun)
+        words, options = self.slurm("both", environment)
+        self.ran(*words, **options)
+        self.assertTrue(waiting.eventually(lambda: self.is_over(environment), 0.2))
+        self.same("both")
 
 
 class Slurm:

@@ -408,7 +408,69 @@ class Report(Quiet):
 KILLS = int(os.environ.get("TACTUS_KILLS", "4"))
 
 
-class Command(Quiet):
+def descendants(pid):
+    """The processes that a process has started, and those that they have started: numbers and command lines."""
+    found = {}
+    with contextlib.suppress(OSError):   # it ends
+        for child in pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+            found[int(child)] = pathlib.Path(f"/proc/{child}/cmdline").read_text().replace("\0", " ")
+            found.update(descendants(child))
+    return found
+
+
+class Killed(Quiet):
+    """Processes of a study are killed at random, and it goes on: nothing is lost, and nothing is rendered twice."""
+
+    def begin_study(self):
+        self.study = wall(duration=100.0, factors=[lab.Factor("wall.stiffness", low=1000.0, high=5000.0, count=20),
+                                                   lab.Factor("wall.damping", values=[0, 0.5, -1, 2])])
+        self.file = self.folder / "s.json"
+        self.file.write_text(self.study.text())
+        self.study.run(self.folder / "whole")
+        self.prepared = self.study.prepare()
+
+    def held(self, out="out"):
+        """The points with results, and how many results there are."""
+        if not (self.folder / out / "study.json").exists():
+            return set(), 0
+        keys = _parts.Folder(self.prepared, self.folder / out, False, False).results().keys.tolist()
+        return set(keys), len(keys)
+
+    def survives(self, start, victims, is_over=lambda process: process.poll() is not None, out="out"):
+        """start: begins or resumes the study. victims: the numbers of processes that may be killed."""
+        seed = int(os.environ.get("TACTUS_SEED", "1"))
+        print(f"{self.id()}: seed {seed}, {KILLS} kills", file=sys.__stderr__)
+        draw, known, kills = random.Random(seed), set(), 0
+
+        def next_kill():
+            return len(known) + draw.randrange(1, 25) if kills < KILLS else self.prepared.design.count + 1
+
+        while True:
+            process, wanted = start(), next_kill()
+            while not is_over(process):
+                now, _ = self.held(out)
+                self.assertLessEqual(known, now, f"results were lost; seed {seed}")
+                known = now
+                if len(known) >= wanted and (alive := victims(process)):
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(draw.choice(alive), signal.SIGKILL)
+                        kills += 1
+                    wanted = next_kill()
+                waiting.let_pass(0.01)
+            if process:
+                process.communicate()
+            known, results = self.held(out)
+            self.assertEqual(len(known), results, f"a point was rendered twice; seed {seed}")
+            if len(known) == self.prepared.design.count and (not process or process.returncode == 0):
+                self.assertEqual((self.folder / out / "results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes(), f"seed {seed}")
+                if kills >= KILLS:
+                    return
+                for path in (self.folder / out / "parts").iterdir():
+                    path.unlink()   # it was faster than the kills; begin again
+                known = set()
+
+
+class Command(Killed):
     def start(self, file, *words, **options):
         return subprocess.Popen([sys.executable, "-B", "-m", "tactus.lab", "study", str(file), *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                 cwd=self.folder, **options)
@@ -425,39 +487,9 @@ class Command(Quiet):
         return path
 
     def test_killed_at_random_it_loses_nothing(self):
-        file = self.written(wall(duration=10.0, rate=4000.0, factors=[lab.Factor("wall.stiffness", low=1000.0, high=5000.0, count=25),
-                                                                      lab.Factor("wall.damping", values=[0, 0.5, 1, 2, 5])]))
-        self.ran(file, "--out", "whole", "--executor", "serial")
-        seed = int(os.environ.get("TACTUS_SEED", "1"))
-        draw, held, kills = random.Random(seed), 0, 0
-        prepared = lab.Study.load(file).prepare()
-        while kills < KILLS:
-            process = self.start(file, "--out", "out", "--workers", "2", "--resume", start_new_session=True)
-            parts = self.folder / "out/parts"
-            wanted = held + draw.randrange(1, 20)   # a number of points to wait for, or the end
-            while process.poll() is None:
-                children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split() if process.poll() is None else []
-                begun = (parts.parent / "study.json").exists()
-                there = len(lab._parts.Folder(prepared, self.folder / "out", False, False).keys()) if begun else 0
-                if there >= wanted and len(children) >= 2:
-                    with contextlib.suppress(ProcessLookupError):
-                        os.kill(process.pid if kills % 2 else int(draw.choice(children)), signal.SIGKILL)
-                        kills += 1
-                    wanted = there + draw.randrange(1, 20) if kills % 2 and kills < KILLS else 10**9
-                    if not kills % 2:
-                        process.wait()
-                waiting.let_pass(0.01)
-            process.communicate()
-            held_now = lab._parts.Folder(prepared, self.folder / "out", False, False).keys()
-            self.assertGreaterEqual(len(held_now), held)   # what was there is still there
-            held = len(held_now)
-            if held == prepared.design.count and kills < KILLS:
-                self.assertEqual((self.folder / "out/results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes())
-                for path in parts.iterdir():
-                    path.unlink()   # it was faster than the kills; begin again
-                held = 0
-        self.ran(file, "--out", "out", "--workers", "2", "--resume")
-        self.assertEqual((self.folder / "out/results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes(), f"seed {seed}")
+        self.begin_study()
+        self.survives(lambda: self.start(self.file, "--out", "out", "--workers", "2", "--resume"),
+                      lambda process: [process.pid, *(pid for pid, words in descendants(process.pid).items() if "spawn_main" in words)])
 
     def test_a_full_disk_loses_nothing(self):
         file = self.written(wall(keep=["motor.force"], duration=0.5))
