@@ -89,6 +89,8 @@ class Writers(TestCase):
                 self.same_bits(rows["v"][:, 1], NUMBERS)
             at += 9 + length
         self.assertEqual((at, tags), (len(data), [(1, 0), (2, 1), (3, 1), (6, 1), (2, 2), (3, 2), (6, 2)]))
+        lab.Table({"t": [0.0, 1.0], "name": ["a", "b"], "value": ["c", "d"], "level": [1, 2]}).write(self.folder / "y.xdf")
+        self.assertEqual((self.folder / "y.xdf").read_bytes().count(b"<channel_count>1<"), 2)   # libxdf reads one text of a sample
 
     def test_records_of_a_run_become_a_table(self):
         run = drag().render(feed={"drag.position": positions(50), "drag.normal_force": 1.0}, record=["drag.force", "drag.state"])

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import csv
 import importlib
 import json
 import math
 import os
 import pathlib
+import re
 import struct
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 from xml.sax.saxutils import escape
@@ -27,7 +29,8 @@ class Table(Dict[str, Column]):
 
     def __init__(self, columns: Mapping[str, Column], units: Optional[Mapping[str, str]] = None, about: Optional[Mapping[str, Any]] = None,
                  rate_hz: float = 0.0):
-        super().__init__({name: values if isinstance(values, list) else np.asarray(values) for name, values in columns.items()})
+        super().__init__({name: values if isinstance(values, list) and any(isinstance(v, str) for v in values) else np.asarray(values)
+                          for name, values in columns.items()})
         self.units, self.about, self.rate_hz = dict(units or {}), dict(about or {}), rate_hz
         lengths = {len(values) for values in self.values()}
         if len(lengths) > 1:
@@ -93,16 +96,12 @@ def _shown(value: Any) -> str:
 
 
 def _write_text(path: pathlib.Path, table: Table, separator: str) -> None:
-    def cell(value: Any) -> str:
-        text = _shown(value)
-        if separator == "\t":
-            return " ".join(text.split()) if any(c in text for c in "\t\r\n") else text
-        return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\r\n') else text
+    rows = [list(table), *zip(*(map(_shown, values) for values in table.values()))]
     with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write(separator.join(map(cell, table)) + "\n")
-        columns = list(table.values())
-        for i in range(table.rows):
-            file.write(separator.join(cell(values[i]) for values in columns) + "\n")
+        if separator == ",":
+            csv.writer(file, lineterminator="\n").writerows(rows)
+        else:   # BIDS has no quotes
+            file.writelines("\t".join(" ".join(re.split("[\t\r\n]+", cell)) for cell in row) + "\n" for row in rows)
 
 
 def _write_hdf5(path: pathlib.Path, table: Table) -> None:
@@ -120,7 +119,8 @@ def _write_hdf5(path: pathlib.Path, table: Table) -> None:
             made.attrs["units"] = table.units.get(name, "")
 
 
-# ------------------------------------------------------------------------ MAT, version 5 (MathWorks, "MAT-File Format")
+# ------------------------------------------------------------------------ MAT, version 5 (MathWorks, "MAT-File Format"). Octave 7 does not read the letters
+# beyond ASCII that scipy.io.savemat writes.
 
 def _element(kind: int, data: bytes) -> bytes:
     return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
@@ -188,18 +188,14 @@ def _samples(times: Any, values: Any) -> bytes:
     return table.tobytes()
 
 
-def _texts(times: Any, rows: Sequence[Sequence[str]]) -> bytes:
-    parts = []
-    for time, row in zip(times, rows):
-        parts.append(b"\x08" + struct.pack("<d", time))
-        for text in row:
-            data = text.encode()
-            parts.append(b"\x04" + struct.pack("<I", len(data)) + data)
-    return b"".join(parts)
+def _texts(times: Any, texts: Sequence[str]) -> bytes:
+    encoded = [str(text).encode() for text in texts]
+    return b"".join(struct.pack("<BdBI", 8, time, 4, len(data)) + data for time, data in zip(times, encoded))
 
 
 def _write_xdf(path: pathlib.Path, table: Table) -> None:
-    """One stream of numbers, and one of texts (marks) if there are any. The times are those of the column monotonic, t or onset, in s."""
+    """One stream of all numbers, and one for each column of texts (marks): libxdf reads only one text of a sample. The times are those of the column
+    monotonic, t or onset, in s."""
     clock = next((name for name in ("monotonic", "t", "onset") if name in table), None)
     if clock is None:
         fail("lab/no_times", str(path), "the table has no times", "give it a column 't', 'onset' or 'monotonic', in s")
@@ -212,9 +208,8 @@ def _write_xdf(path: pathlib.Path, table: Table) -> None:
         values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
         file.write(_stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64",
                            times, _samples(times, values), about))
-        if texts:
-            rows = [[str(table[name][i]) for name in texts] for i in range(table.rows)]
-            file.write(_stream(2, "tactus marks", "Markers", texts, [""] * len(texts), 0.0, "string", times, _texts(times, rows), about))
+        for i, name in enumerate(texts):
+            file.write(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about))
 
 
 _WRITERS = {".csv": lambda path, table: _write_text(path, table, ","), ".tsv": lambda path, table: _write_text(path, table, "\t"),
