@@ -323,6 +323,7 @@ class Windows(Case):
         self.assertTrue(report["over"])
         self.assertEqual((report["report"]["block"], report["report"]["done"]), ("b", 4))
         self.assertIn("STOP", self.get(browser.experimenter))
+        self.assertIn('fetch("mark"', self.get(browser.experimenter))   # a key is a mark
         self.assertIn("fetch(\"state\")", self.get(browser.participant))
 
     def test_stop_aborts_and_strangers_see_nothing(self):
@@ -419,6 +420,37 @@ class OnDevices(Case):
         killed, once = (lab.load(folder / "sub-01/ses-01/beh") for folder in (out, whole))
         self.assertEqual(self.answers(killed), self.answers(once))
         self.assertEqual(len(list(out.rglob("*_log.jsonl"))), 4)   # none replaces another
+
+    def rests(self, levels, rest=100.0, **guard):
+        """A protocol with two walls, in which a tool rests 2 mm deep."""
+        (self.out / "rests.csv").write_text("t,x,y,z\n0,0,0,-0.002\n600,0,0,-0.002\n", encoding="utf-8")
+        for name, kind in (("plane", "deform.plane"), ("coupled", "coupling.virtual")):
+            (self.out / f"{name}.json").write_text(json.dumps({
+                "format": "tactus-graph", "version": 2, "rate_hz": 1000, "devices": {"stylus": {"driver": "sim", "mass": 0.1, "damping": 3.0, "guard": guard}},
+                "nodes": {"hand": {"type": "device.position", "role": "stylus"}, "wall": {"type": kind, "params": {"stiffness": 500.0}},
+                          "motor": {"type": "device.force", "role": "stylus"}}, "wires": ["hand.position -> wall.position", "wall.force -> motor.force"]}))
+        return lab.Protocol(name="wall", folder=str(self.out), devices={"stylus": f"trace:{self.out}/rests.csv"}, conditions=[
+            lab.Condition(name="a", graph="plane.json"), lab.Condition(name="b", graph="coupled.json")], blocks=[
+                lab.Block(name="w", task="2ifc", interval=0.1, gap=0.1, varies=lab.Varies(target="wall.stiffness", standard=500.0, rest=rest),
+                          procedure=lab.Constant(levels=levels, repeats=2))])
+
+    def test_what_a_guard_does_is_a_column_of_the_trial(self):
+        made = self.rests((500.0,), 500.0, max_force=0.5)
+        stage = lab.Live(made, None, "off")
+
+        class Waits(lab.Simulated):
+            def ask(self, trial, *rest):
+                assert trial.number > 1 or eventually(lambda: stage.wait(0.0) or "run/clipped" in stage._seen)
+                return super().ask(trial, *rest)
+        data = self.run_session(made, Waits(OBSERVER), stage=stage)
+        self.assertEqual((data.trials["guard"][0], data.trials["guard_count"][0]), ("run/clipped", 1))
+
+    def test_switching_a_stimulus_never_steps_the_force(self):
+        made = self.rests((1000.0, 2000.0))
+        self.assertTrue(self.run_session(made, stage=lab.Live(made, str(self.out / "log.jsonl"), "off")).is_complete)
+        force = tactus.replay(self.out / "log.jsonl", record=["motor.applied"])["motor.applied"][20:, 2]   # the tool begins in the wall
+        self.assertGreater(np.ptp(force), 3.0)                      # from 0 to 4 N
+        self.assertLess(np.abs(np.diff(force)).max(), 0.7, force)   # in a tick of 1 ms: 4 N take 10 ms, along a cosine
 
     def test_an_emergency_stop_ends_the_session_which_can_be_resumed(self):
         class Stops(lab.Simulated):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import queue
@@ -58,15 +59,41 @@ class Silent:
         """Ends the run: all forces go to zero first."""
 
 
+FADE = 0.03   # s: an edited graph takes over the force in 10 ms, and nodes know the tool after a few ticks
+
+
+def without_motors(graph: Graph) -> Graph:
+    """A copy of a graph in which nothing is wired to its devices, except in files that it includes."""
+    make, (text, *rest) = graph.__reduce__()
+    data = json.loads(text)
+    for part in (data, *data.get("graphs", {}).values()):
+        sinks = {name for name, node in part.get("nodes", {}).items() if str(node.get("type")).startswith("device.")}
+        ends = [(wire if isinstance(wire, str) else wire["wire"]).split("->")[-1].replace("(+)", "").strip().split(".")[0] for wire in part.get("wires", [])]
+        part["wires"] = [wire for wire, end in zip(part.get("wires", []), ends) if end not in sinks]
+    quiet: Graph = make(json.dumps(data), *rest)
+    return quiet
+
+
+def _shape(graph: Graph) -> Any:
+    """What a graph is, without the values of its parameters and controls, which ramp."""
+    data = json.loads(graph.text)
+    for part in (data, *data.get("graphs", {}).values()):
+        for node in part.get("nodes", {}).values():
+            node.pop("params", None)
+        part.pop("controls", None)
+    return data
+
+
 class Live(Silent):
-    """A stage on devices: a session of tactus.play. When the condition changes, the graph is edited while it plays; parameters ramp to their new values."""
+    """A stage on devices: a session of tactus.play. Parameters ramp to their new values. If a condition has other nodes or wires, the force fades to zero; then
+    the graph is edited while it plays, and the force fades in."""
 
     def __init__(self, protocol: Protocol, log: Optional[str] = None, session: Optional[str] = None, device: Mapping[str, str] = {}):
         """log: the new file for the log of all inputs. session, device: as in tactus.play; `device` replaces those of the protocol."""
         self._protocol, self._session_file, self._log, self._device = protocol, session, log, dict(device)
         self._session: Optional[Session] = None
         self._graphs: Dict[str, Graph] = {}   # by condition: a file that changes in the middle of a session changes nothing
-        self._text = ""
+        self._playing = Graph()
         self._seen: List[str] = []
 
     def show(self, condition: Condition, target: str, level: float) -> None:
@@ -80,12 +107,20 @@ class Live(Silent):
             self._session = play(graph, {**self._protocol.devices, **self._device}, session=self._session_file, log=self._log)
             if self._protocol.hand:
                 self._session.probe(*sorted({answer.port for answer in self._protocol.hand.values()}))
-        elif graph.text != self._text:
-            self._session.edit(graph)
-        self._text = graph.text
+        elif graph.text != self._playing.text:
+            self._edit(graph)
+        self._playing = graph
         values, controls = self._protocol.values_of(condition)
         for name, value in [*values.items(), *controls.items(), (target, level)]:
             self._session.control(name, value) if name in graph.controls else self._session.set(name, value)
+
+    def _edit(self, graph: Graph) -> None:
+        assert self._session is not None
+        if _shape(graph) != _shape(self._playing):
+            for quiet in (without_motors(self._playing), without_motors(graph)):
+                self._session.edit(quiet)
+                self.wait(FADE)
+        self._session.edit(graph)
 
     def wait(self, duration: float) -> None:
         until = time.monotonic() + duration

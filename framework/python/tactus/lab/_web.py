@@ -60,6 +60,8 @@ table{border-collapse:collapse}td{padding:.15em .8em .15em 0}progress{width:100%
 <button id="stop">STOP</button><div id="state">waiting</div><progress id="bar" value="0" max="1"></progress><table id="facts"></table>
 <svg id="plot" viewBox="0 0 600 200" preserveAspectRatio="none"></svg><table id="health"></table><script>
 document.getElementById("stop").onclick = () => fetch("stop", {method: "POST"});
+addEventListener("keydown", e => { if (!e.repeat && e.key.length === 1 && e.key !== " ")   // the space bar presses a button
+  fetch("mark", {method: "POST", body: JSON.stringify({name: "key", value: e.key})}).catch(() => {}); });
 function rows(table, facts) { table.replaceChildren(); for (const [k, v] of facts) {
   const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = v; } }
 function draw(s) {
