@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "clip_io.hpp"
 #include "clip_samples.hpp"
 #include "clip_sounds.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "stretch_files.hpp"
 
 #include <tactus/file/clips/clip_signal.hpp>

@@ -1,20 +1,19 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "wav.hpp"
+#include <host/base/files/wav/wav_chunks.hpp>
 #include <host/base/files/wav/wav_header.hpp>
-#include <host/base/files/wav/wav_samples.hpp>
 
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
 
-#include <juce_audio_formats/juce_audio_formats.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <utility>
@@ -24,78 +23,65 @@ namespace tactus::host
 
 namespace
 {
-/// JUCE's reader takes frames from a buffer of this size; if a frame is larger, reading never ends.
-constexpr std::size_t largest_frame_bytes = 480 * 3 * 4;
-constexpr std::size_t most_channels = largest_frame_bytes / sizeof (float);
+constexpr std::size_t most_channels = 1440, frames_per_block = 1024;
 
-constexpr std::size_t frames_per_block = 1024;
-
-bool isKnown (const juce::AudioFormatReader& reader)
+/// The sample whose bytes begin here.
+double sampleAt (const char* bytes, const WavSamples& format)
 {
-    const auto bits = reader.bitsPerSample;
-    return bits == 32 || (! reader.usesFloatingPointData && (bits == 8 || bits == 16 || bits == 24));
-}
-
-/// Converts a sample. The reader returns the bits of a float, or a 32-bit integer regardless of the integer size in the file.
-double sampleFrom (int raw, const juce::AudioFormatReader& reader)
-{
-    return reader.usesFloatingPointData ? double { std::bit_cast<float> (raw) } : std::ldexp (raw, -31);
+    std::uint64_t raw = 0;
+    for (unsigned i = 0; i < format.bits / 8; ++i)
+        raw |= std::uint64_t { static_cast<unsigned char> (bytes[i]) } << 8 * i;
+    if (format.is_float) return format.bits == 64 ? std::bit_cast<double> (raw) : double { std::bit_cast<float> (static_cast<std::uint32_t> (raw)) };
+    if (format.bits == 8) raw ^= 0x80;   // 8 bits have no sign: 128 is 0
+    return std::ldexp (std::bit_cast<std::int32_t> (static_cast<std::uint32_t> (raw << (32 - format.bits))), -31);
 }
 }   // namespace
 
 Result<Signal> readWav (const std::filesystem::path& path)
 {
     if (const auto why = whyUnreadable (path); ! why.empty()) return Message::error ("wav/unreadable", path.string(), why, "check the path");
-    const auto full_path = std::filesystem::absolute (path).string();
-    std::unique_ptr<juce::InputStream> stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
-    if (stream == nullptr)
+    std::ifstream file (path, std::ios::binary);
+    if (! file)
         return Message::error ("wav/unreadable", path.string(), "there is no such file, or it is not readable",
                                "check the path and the permissions");
 
-    auto samples = samplesOnly (std::move (stream));
-    std::unique_ptr<juce::AudioFormatReader> reader;
-    if (samples.stream != nullptr)
-        reader.reset (juce::WavAudioFormat().createReaderFor (samples.stream.release(), true));
-
-    if (reader == nullptr || ! isKnown (*reader))
-        return Message::error ("wav/not_a_wav", path.string(),
-                               "it is not a supported WAV file" + (samples.why.empty() ? "" : ": " + samples.why),
+    const auto samples = findWavSamples (file);
+    if (! samples.why.empty())
+        return Message::error ("wav/not_a_wav", path.string(), "it is not a supported WAV file: " + samples.why,
                                "save it as WAV, 32- or 64-bit float or 8-, 16-, 24- or 32-bit integer");
 
-    const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
-    if (bytes_per_frame > largest_frame_bytes)
-        return Message::error ("wav/too_many_channels", path.string(), "it has too many channels: " + std::to_string (reader->numChannels),
+    const std::size_t channels = samples.channels;
+    if (channels > most_channels)
+        return Message::error ("wav/too_many_channels", path.string(), "it has too many channels: " + std::to_string (channels),
                                "save it with fewer channels");
 
     // Checked before memory is allocated, because a header may claim any size.
-    if (reader->lengthInSamples < 0 || reader->lengthInSamples > samples.bytes / static_cast<juce::int64> (bytes_per_frame))
+    const auto frame_bytes = samples.frameBytes();
+    if (samples.claimed / frame_bytes > samples.present / frame_bytes)
         return Message::error ("wav/truncated", path.string(), "its header declares more samples than the file contains",
                                "create the file again; writing it was interrupted");
 
-    const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
-    const std::size_t channels = reader->numChannels;
+    const auto frames = static_cast<std::size_t> (samples.present / frame_bytes);
     if (const auto count = static_cast<double> (frames) * static_cast<double> (channels); count > budgets().numbers)
     {
         const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", count, "save a part of it");
         return Message::error (over.id, path.string(), over.text, over.remedy);
     }
-    Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };
+    Signal recording { .rate_hz = samples.rate_hz, .channels = std::vector (channels, std::vector<double> (frames)) };
 
-    std::vector<std::vector<int>> block (channels, std::vector<int> (frames_per_block));
-    std::vector<int*> pointers;
-    for (auto& channel : block)
-        pointers.push_back (channel.data());
-
+    file.clear();
+    file.seekg (static_cast<std::streamoff> (samples.start));
+    std::string block;
     for (std::size_t done = 0; done < frames; done += frames_per_block)
     {
         const auto now = std::min (frames_per_block, frames - done);
-        if (! reader->read (pointers.data(), static_cast<int> (channels), static_cast<juce::int64> (done),
-                            static_cast<int> (now), false))
+        block.resize (now * frame_bytes);
+        if (! file.read (block.data(), static_cast<std::streamsize> (block.size())))
             return Message::error ("wav/unreadable", path.string(), "reading failed before the end of the file", "check the disk");
-
-        for (std::size_t channel = 0; channel < channels; ++channel)
-            for (std::size_t i = 0; i < now; ++i)
-                recording.channels[channel][done + i] = sampleFrom (block[channel][i], *reader);
+        const auto* bytes = block.data();
+        for (std::size_t i = 0; i < now; ++i)
+            for (std::size_t channel = 0; channel < channels; ++channel, bytes += samples.bits / 8)
+                recording.channels[channel][done + i] = sampleAt (bytes, samples);
     }
     return recording;
 }

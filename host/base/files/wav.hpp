@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Reads 32-bit float samples unchanged (in our files they are SI values), and integer samples (8 to 32 bit) as -1…1.
+/// Reads float samples unchanged (in our files they are SI values), and integer samples (8 to 32 bit) as -1…1. Skips the metadata.
 /// Errors: wav/unreadable, wav/not_a_wav, wav/truncated, wav/too_many_channels.
 [[nodiscard]] Result<Signal> readWav (const std::filesystem::path& path);
 

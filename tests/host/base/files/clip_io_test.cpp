@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <host/base/files/clip_io.hpp>
 
 #include "support/temporary_folder.hpp"

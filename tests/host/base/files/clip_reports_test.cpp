@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Random clips as other programs write them. The test knows how each one sounds, from the rules of its format, and so whether a report about what a conversion
 // loses is true.
 #include <host/base/files/clip_io.hpp>
