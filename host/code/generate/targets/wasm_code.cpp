@@ -315,18 +315,18 @@ std::string page (const Exported& e)
 <script type="module">
 import { compile } from './tactus_graph.js';
 
-const module = await compile (new URL ('@S@.wasm', import.meta.url));
+const module = compile (new URL ('@S@.wasm', import.meta.url));
 let node;
 addEventListener ('pointerdown', async () => {   // browsers start sound only after a gesture
     if (node !== undefined) return;
     node = null;
     const sound = new AudioContext();
     await sound.audioWorklet.addModule ('@S@_worklet.js');
-    node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module, gain: 0.3 } });
+    node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module: await module, gain: 0.3 } });
     node.connect (sound.destination);
     node.port.onmessage = ({ data: { level } }) =>
         navigator.getGamepads?.().find (pad => pad?.vibrationActuator)?.vibrationActuator
-            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, level) });
+            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, 10 * level) });   // all of it at 0.1 N
 });
 addEventListener ('pointermove', at =>   // 0.1 mm for each pixel; a pressed pointer is 0.2 mm below z = 0
     node?.port.postMessage ({ position: [1e-4 * at.clientX, -1e-4 * at.clientY, at.buttons ? -2e-4 : 2e-4] }));

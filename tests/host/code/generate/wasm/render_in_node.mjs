@@ -4,6 +4,7 @@
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import assert from 'node:assert';
+import { render } from './shared.mjs';
 
 const [script, trace, ...sets] = process.argv.slice (2);
 const exported = await import (pathToFileURL (script));
@@ -11,28 +12,9 @@ const Exported = Object.values (exported).find (one => typeof one === 'function'
 const module = new WebAssembly.Module (readFileSync (script.replace (/\.js$/, '.wasm')));
 assert.deepEqual (WebAssembly.Module.imports (module), []);
 const graph = new Exported (module);
-for (const set of sets)
-{
-    const [name, value] = set.split ('=');
-    if (about.controls.some (control => control.name === name)) graph.turn (name, Number (value));
-    else graph.set (name, Number (value));
-}
+process.stdout.write (render (graph, readFileSync (trace, 'utf8'), sets).join ('\n') + '\n');
 
-const print = numbers => process.stdout.write (numbers.join (',') + '\n');
 const efforts = () => about.roles.flatMap (role => [...graph.outputs[role.member].force]);
-print (['t', ...about.records.map (record => record.name)]);
-let largest = 0;
-for (const line of readFileSync (trace, 'utf8').trim().split ('\n').slice (1))
-{
-    const [t, ...position] = line.split (',').map (Number);
-    for (const role of about.roles)
-        graph.inputs[role.member].position.set (position);
-    graph.tick();
-    print ([t, ...about.records.map (record => graph.outputs[record.member])]);
-    largest = Math.max (largest, ...efforts().map (Math.abs));
-}
-assert (largest > 0);
-
 const role = about.roles[0].name;
 assert.throws (() => graph.set ('nothing', 1), /there is no parameter "nothing"/);
 assert.equal (graph.tighten (role, { max_force: 1e-3 }), false);   // after the first tick
