@@ -17,7 +17,7 @@ namespace
 constexpr std::size_t channel_count = std::size (channel_fields), field_count = std::size (reading_fields) + channel_count;
 constexpr auto most_channels = static_cast<std::size_t> (Channels::most);
 constexpr std::size_t numbers_of_role = reading_size + channel_count * most_channels;
-constexpr std::size_t most_roles = 100'000;   // far more than the budget of roles
+constexpr std::size_t most_roles = 20'000;   // far more than the budget of roles
 
 enum Parts : unsigned
 {
@@ -119,13 +119,13 @@ bool unpack (std::string_view from, PackedState& state, LogLine& to)
     if ((parts & has_rest) != 0 && ! takeText (from, to.rest)) return false;
     if ((parts & has_read) != 0)
     {
-        if (! takeWhole (from, count) || count > from.size()) return false;
+        if (! takeWhole (from, count) || count > most_roles) return false;   // a reading takes two bytes at least, and far more memory
         for (std::uint64_t i = 0; i < count; ++i)
             if (! takeReading (from, state, to.read.emplace_back())) return false;
     }
     if ((parts & has_feed) != 0)
     {
-        if (! takeWhole (from, count) || count > from.size()) return false;
+        if (! takeWhole (from, count) || count > from.size() || static_cast<double> (count) > budgets().values) return false;
         to.feed.emplace (count);
         if (state.feed.size() < count) state.feed.resize (count);
         for (std::uint64_t i = 0; i < count; ++i)

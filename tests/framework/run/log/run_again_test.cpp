@@ -348,6 +348,13 @@ TEST_CASE ("a packed log with a changed or a missing byte is read up to there, o
         ++ends[read (changed)];
     }
     CHECK (ends["log/value"] > 0);
+
+    // 30 000 readings of a role in 60 KB: each would take as much memory as a true one.
+    std::string many ("\0\4\xb0\xea\1\0\1a\0", 9);
+    for (int i = 1; i < 30'000; ++i)
+        many += std::string (2, '\0');
+    REQUIRE (many.size() == 60'007);
+    CHECK (read (bytes.substr (0, head) + "\xe7\xd4\3" + many) == "log/value");
 }
 
 TEST_CASE ("every reading is read back bit for bit", "[runlog]")
