@@ -4,8 +4,8 @@
 
     lab_coverage.py [--runs 2000] [--seed SEED] [METHOD...]
 
-Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials) or staircase (80 trials, 1 up, 2 down), logistic, normal or
-weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals held the true threshold (or d', or
+Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials), staircase or psi (both 80 trials in two intervals; 1 up, 2
+down), logistic, normal or weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals held the true threshold (or d', or
 exponent), and the true width (or criterion). A profile interval holds the truth if the profile at the truth is high enough. The test lab_fit compares this with the
 interval."""
 
@@ -17,7 +17,7 @@ import numpy as np
 from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._draw import Draw
-from tactus.lab._procedures import StaircaseTrack
+from tactus.lab._procedures import PsiTrack, StaircaseTrack
 
 DROP = 0.5 * 1.959963984540054 ** 2
 THRESHOLD, WIDTH = {"logistic": 10.0, "normal": 10.0, "weibull": 10.0}, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
@@ -49,8 +49,12 @@ def constant(function, draw, guess=0.0):
     return LEVELS, yes, np.full(7, 40), guess
 
 
-def staircase(function, draw):
-    track = StaircaseTrack(lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80))
+def adaptive(procedure, function, draw):
+    if procedure == "staircase":
+        track = StaircaseTrack(lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80))
+    else:
+        track = PsiTrack(lab.Psi(levels=tuple(range(2, 22)), widths=tuple(WIDTH[function] * 2.0 ** k for k in (-2, -1, 0, 1, 2)), lapses=(0.0, 0.03),
+                                 function=function, trials=80))
     levels, yes = [], []
     while (level := track.level()) is not None:
         right = draw.uniform() < float(lab.probability(function, level, THRESHOLD[function], WIDTH[function], 0.5, LAPSE))
@@ -73,10 +77,10 @@ def run(method, draw):
         low, high = lab.power_law(levels, answers).exponent_interval
         return [low <= 0.8 <= high]
     procedure, function, *how = method.split("/")
-    return (believes if how else holds)(function, *(constant if procedure == "constant" else staircase)(function, draw))
+    return (believes if how else holds)(function, *(constant(function, draw) if procedure == "constant" else adaptive(procedure, function, draw)))
 
 
-METHODS = [f"{p}/{f}" for p in ("constant", "staircase") for f in ("logistic", "normal", "weibull")]
+METHODS = [f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in ("logistic", "normal", "weibull")]
 METHODS += [f"{method}/posterior" for method in METHODS] + ["detection", "power"]
 
 
