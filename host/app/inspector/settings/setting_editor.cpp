@@ -2,6 +2,7 @@
 #include "setting_editor.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/look/tool_button.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
@@ -19,7 +20,27 @@ using Kind = SettingSheet::Kind;
 
 bool isFile (Kind k) { return k == Kind::signal || k == Kind::image || k == Kind::table; }
 
-/// A value as JSON.
+/// A value as JSON with a space between its parts, so that a field can break it into lines.
+juce::String spacedJson (const Json& value)
+{
+    if (value.is_null() || value.is_string()) return editText (value);
+    const auto text = value.dump();
+    std::string spaced;
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i)
+    {
+        spaced += text[i];
+        if (is_quoted && text[i] == '\\' && i + 1 < text.size())
+            spaced += text[++i];
+        else if (text[i] == '"')
+            is_quoted = ! is_quoted;
+        else if (! is_quoted && (text[i] == ',' || text[i] == ':'))
+            spaced += ' ';
+    }
+    return fromUtf8 (spaced);
+}
+
+/// A value as JSON. Of a long one, it shows the beginning until the user asks for all of it.
 class JsonText final : public Block
 {
 public:
@@ -32,28 +53,50 @@ public:
         field.onApply = [this] (const juce::String& text) {
             binding.set (text.trim().isEmpty() ? std::nullopt : std::optional (parseText (text)), false);
         };
+        all.onClick = [this] {
+            shows_all = true;
+            refresh (nullptr);
+            resized();
+            if (onHeight) onHeight();
+            takeFocus (field);
+        };
         addAndMakeVisible (field);
+        addChildComponent (all);
     }
 
     int heightFor (int) override
     {
+        if (is_short) return 152 + button_height;
         if (length > 160) return 152;
         return length > 40 ? 80 : 32;
     }
 
     void refresh (const graph::Node*) override
     {
-        const auto text = editText (binding.get());
+        const auto text = spacedJson (binding.get());
         length = text.length();
-        field.show (text);
+        is_short = ! shows_all && length > most_shown;
+        field.setReadOnly (is_short);
+        field.show (is_short ? text.substring (0, most_shown).trimEnd() + fromUtf8 (" \xe2\x80\xa6") : text);
+        all.setButtonText (filled (TRANS ("Edit all %1 characters"), length));
+        all.setVisible (is_short);
     }
 
-    void resized() override { field.setBounds (getLocalBounds().reduced (0, 2)); }
+    void resized() override
+    {
+        auto area = getLocalBounds();
+        if (is_short) all.setBounds (area.removeFromBottom (button_height).withWidth (std::min (getWidth(), all.bestWidth())).reduced (0, 2));
+        field.setBounds (area.reduced (0, 2));
+    }
 
 private:
+    static constexpr int most_shown = 2000, button_height = 28;
+
     Binding binding;
     TextField field;
+    ToolButton all { TRANS ("Edit all"), ToolButton::Kind::framed, TRANS ("Opens the whole value. A field with a very long text is slow.") };
     int length = 0;
+    bool is_short = false, shows_all = false;
 };
 
 /// Three numbers.
@@ -206,6 +249,7 @@ public:
         body->onHeight = [this] {
             if (onHeight) onHeight();
         };
+        text.onHeight = body->onHeight;
         addChildComponent (*body);
         addChildComponent (text);
         addAndMakeVisible (as_text);
@@ -230,7 +274,7 @@ public:
                     problem = fromUtf8 (where.empty() ? "" : where + ": ") + fromUtf8 (read.error().text);
         }
         body->refresh (node);
-        text.refresh (node);
+        if (as_text.getToggleState()) text.refresh (node);
         repaint();
     }
 
@@ -260,6 +304,7 @@ private:
 
     void choose()
     {
+        if (as_text.getToggleState()) text.refresh (nullptr);   // while it is hidden, it is not kept up to date, because a large value takes long
         body->setVisible (! as_text.getToggleState());
         text.setVisible (as_text.getToggleState());
         resized();

@@ -456,6 +456,45 @@ TEST_CASE ("a setting can be edited as JSON", "[inspector]")
     CHECK_FALSE (rig.node ("warble").settings.contains ("modes"));
 }
 
+TEST_CASE ("of a long value as JSON, the inspector shows the beginning and its length, and all of it on demand, with spaces to break its lines at",
+           "[inspector]")
+{
+    InspectorRig rig ("nodule_under_skin.json");
+    rig.select ("skin");
+    const auto field = [&] {
+        TextField* shown = nullptr;
+        for (auto* f : rig.all<TextField>())
+            if (f->getText().startsWithChar ('{') && f->getParentComponent()->isVisible()) shown = f;
+        REQUIRE (shown != nullptr);
+        return shown;
+    };
+    REQUIRE (press (rig, "JSON"));
+    const auto before = rig.node ("skin").settings["surface"];
+    REQUIRE (before.dump().size() > 10'000);
+    CHECK (field()->isReadOnly());
+    CHECK (field()->getText().length() <= 2002);
+    field()->apply();   // as when it loses the keyboard
+    CHECK_FALSE (rig.document->isChanged());
+
+    std::string offer;
+    for (const auto* b : rig.all<ToolButton>())
+        if (b->getButtonText().startsWith ("Edit all") && b->isVisible()) offer = b->getButtonText().toStdString();
+    REQUIRE (press (rig, offer));
+    const auto whole = field()->getText();
+    CHECK (offer == "Edit all " + std::to_string (whole.length()) + " characters");
+    CHECK_FALSE (field()->isReadOnly());
+    CHECK (Json::parse (whole.toStdString()) == before);
+    int longest = 0;
+    for (const auto& word : juce::StringArray::fromTokens (whole, " ", {}))
+        longest = std::max (longest, word.length());
+    CHECK (longest < 40);   // JUCE lays out a longer word again for each of its lines
+    write (field(), whole.replace ("\"mu\": ", "\"mu\":  ").toStdString());
+    CHECK (rig.node ("skin").settings["surface"] == before);
+    write (field(), R"({"mesh": "a \"new\", one: of\\", "mu": 0.5})");
+    CHECK (rig.node ("skin").settings["surface"]["mesh"] == "a \"new\", one: of\\");
+    CHECK (field()->getText() == R"({"mesh": "a \"new\", one: of\\", "mu": 0.5})");
+}
+
 TEST_CASE ("a law is plotted as one line across the plot", "[inspector]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
