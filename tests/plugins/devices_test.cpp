@@ -60,7 +60,7 @@ public:
     {
         std::vector<NodeType> all;
         for (std::size_t i = 0; i < entry->get_node_count(); ++i)
-            all.push_back (plugin::readNode (entry->get_node (i), "devices", object).value());
+            all.push_back (plugin::readNode (entry->get_node (i), "devices", object, 0, {}).value());
         return all;
     }
 

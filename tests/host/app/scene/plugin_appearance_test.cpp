@@ -27,7 +27,7 @@ struct Guest
         described.node.appearance = &looks;
     }
 
-    Result<NodeType> read() { return plugin::readNode (&described.node, "guest.tactus", nullptr, {}); }
+    Result<NodeType> read() { return plugin::readNode (&described.node, "guest.tactus", nullptr, 0, {}); }
 };
 }   // namespace
 
