@@ -27,7 +27,7 @@ echo "the shared library exports the $(wc -l <"$work/symbols") functions of the 
 
 examples=$work/examples
 cp -r docs/examples "$examples"
-for example in embed embed_c own_node pictures_c; do
+for example in embed embed_c own_node pictures_c steps; do
     cmake -S "$examples/$example" -B "$work/$example" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
     cmake --build "$work/$example" >/dev/null
     "$work/$example/$example" "$source/graphs/dry_wood.json" >"$work/$example.txt"

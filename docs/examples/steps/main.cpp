@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A simulator with steps of 5 ms gets the force of a graph at 4 kHz: steps dry_wood.json. See docs/steps.md for the rules and their delays.
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/device/step_motion.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/run/stepper.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+// The tool, as the graph sees it.
+struct Tool final : tactus::Device
+{
+    void prepare (double) override {}
+    tactus::Reading read() noexcept override { return motion.move (reading, std::exchange (is_new, false)); }
+    void write (const tactus::Effort& effort) noexcept override { motion.take (effort); }
+    void withhold() noexcept override { motion.withhold(); }
+
+    void moveTo (const tactus::Vec3& position)
+    {
+        reading.position = position;
+        is_new = true;
+    }
+
+    tactus::StepMotion motion { tactus::StepMotion::Readings::linear, tactus::StepMotion::Efforts::last };
+    tactus::Reading reading {};
+    bool is_new = false;
+};
+
+int main (int argc, char** argv)
+{
+    const auto loaded = tactus::loadGraph (argc > 1 ? argv[1] : "dry_wood.json");
+    Tool* tool = nullptr;   // which the run owns
+    tactus::Run run { tactus::catalogue(), {}, [&] (auto&&...) {
+                         auto made = std::make_unique<Tool>();
+                         tool = made.get();
+                         return tactus::Run::RoleDevice { std::move (made), { .max_force = 5.0 } };
+                     } };
+    auto messages = loaded.messages;
+    if (! tactus::hasErrors (messages)) messages = run.load (loaded.graph);
+    if (! tactus::hasErrors (messages)) run.openDevices (loaded.graph, messages);
+    for (const auto& m : messages)
+        std::fprintf (stderr, "%s\n", describe (m).c_str());
+    if (tactus::hasErrors (messages) || tool == nullptr) return 1;
+
+    tactus::Stepper steps { run };
+    steps.add (tool->motion);
+    constexpr double dt = 0.005;
+    tactus::Vec3 position { 0, 0, 0.001 }, velocity = tactus::Vec3::Zero();
+    for (int k = 0; k < 200; ++k)
+    {
+        tool->moveTo (position);
+        const auto ticks = steps.step (dt);   // 20
+        const auto force = tool->motion.effort().force;
+        velocity += dt / 0.5 * (force + tactus::Vec3 { 0.2, 0, -0.5 } - 20.0 * velocity);   // 500 g, pushed and dragged: the physics of the simulator
+        position += dt * velocity;
+        if (k % 20 == 0) std::printf ("%5.3f s  %zu ticks  z %7.4f mm  %7.4f %7.4f %7.4f N\n", k * dt, ticks, 1e3 * position.z(), force.x(), force.y(), force.z());
+    }
+}
