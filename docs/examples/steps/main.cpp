@@ -56,6 +56,7 @@ int main (int argc, char** argv)
         const auto force = tool->motion.effort().force;
         velocity += dt / 0.5 * (force + tactus::Vec3 { 0.2, 0, -0.5 } - 20.0 * velocity);   // 500 g, pushed and dragged: the physics of the simulator
         position += dt * velocity;
-        if (k % 20 == 0) std::printf ("%5.3f s  %zu ticks  z %7.4f mm  %7.4f %7.4f %7.4f N\n", k * dt, ticks, 1e3 * position.z(), force.x(), force.y(), force.z());
+        if (k % 20 == 0)
+            std::printf ("%5.3f s  %zu ticks  z %7.4f mm  %7.4f %7.4f %7.4f N\n", k * dt, ticks, 1e3 * position.z(), force.x(), force.y(), force.z());
     }
 }
