@@ -9,8 +9,8 @@
 #include <tactus/plan/rules/examine.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace tactus::python
@@ -137,10 +137,9 @@ bool PointRun::goBack (const CompileOptions& options, Messages& messages)
         if (hasErrors (messages)) return true;
         for (std::size_t i = 0; i < flat.nodes.size(); ++i)
         {
-            const auto from = flat.nodes[i].values, to = i + 1 < flat.nodes.size() ? flat.nodes[i + 1].values : flat.values.size();
-            const auto same = [] (double a, double b) { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); };
-            if (! std::equal (flat.values.begin() + from, flat.values.begin() + to, before.values.begin() + from, same) && ! set (flat, i))
-                return goes_back = false;
+            const auto first = flat.nodes[i].values, end = i + 1 < flat.nodes.size() ? flat.nodes[i + 1].values : flat.values.size();
+            const auto valuesOf = [&] (const plan::Flat& f) { return std::as_bytes (std::span (f.values).subspan (first, end - first)); };
+            if (! std::ranges::equal (valuesOf (flat), valuesOf (before)) && ! set (flat, i)) return goes_back = false;
         }
         return true;
     }

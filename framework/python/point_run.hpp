@@ -31,7 +31,7 @@ struct Job
     const DeviceOption* deviceOf (const std::string& role) const;
 };
 
-/// What is known of a point once it is rendered.
+/// Result of a point.
 struct Outcome
 {
     std::vector<double> numbers {}, rows {};   ///< rows: tick by tick

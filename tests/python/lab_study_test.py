@@ -405,7 +405,7 @@ class Report(Quiet):
         self.assertEqual([tuple(c) for c in colours], [(68, 1, 84), (253, 231, 37), _study_report.GREY])
 
 
-KILLS = int(os.environ.get("TACTUS_KILLS", "4"))
+KILLS = int(os.environ.get("TACTUS_KILLS", "3"))
 
 
 def descendants(pid):

@@ -241,7 +241,7 @@ class Prepared:
 
     def keys(self, numbers: Iterable[int]) -> Any:
         """The addresses of the results of some points, shape (n,)."""
-        return np.frombuffer(b"".join([self.key(self.design.at(i)) for i in numbers]), "S16")
+        return np.fromiter((self.key(self.design.at(i)) for i in numbers), "S16")
 
     def __getstate__(self) -> Dict[str, Any]:
         state = {key: value for key, value in self.__dict__.items() if key not in ("design", "_hash")}   # a worker gets points, and no keys

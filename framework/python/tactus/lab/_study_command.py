@@ -151,7 +151,10 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Make, int
             raise
         finally:
             for pool in pools:
-                pool.shutdown(wait=True, cancel_futures=True)
+                pool.shutdown(wait=False, cancel_futures=True)
+            for child in multiprocessing.active_children():
+                child.join(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
+            end()
     elif kind == "dask":
         yield from _dask(workers, address)
     else:
