@@ -4,10 +4,10 @@
 
     lab_coverage.py [--runs 2000] [--seed SEED] [METHOD...]
 
-Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials), staircase or psi (both 80 trials in two intervals; 1 up, 2
-down), logistic, normal or weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals held the true threshold (or d', or
-exponent), and the true width (or criterion). A profile interval holds the truth if the profile at the truth is high enough. The test lab_fit compares this with the
-interval."""
+Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials), staircase or psi (both 80 trials in two intervals;
+1 up, 2 down), logistic, normal or weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals
+held the true threshold (or d', or exponent), and the true width (or criterion). A profile interval holds the truth if the profile at the truth is high
+enough. The test lab_fit compares this with the interval."""
 
 import argparse
 import math
