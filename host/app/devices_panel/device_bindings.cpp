@@ -119,6 +119,7 @@ juce::String DeviceBindings::refusedAddress (const std::string& role) const
 /// Binds a role in a step that can be undone. Redo brings back the binding that undo has left, so a limit that was changed in between stays.
 void DeviceBindings::bindTo (const std::string& role, const BindingChoice& choice)
 {
+    refused_addresses.erase (role);
     const auto profile = choice.numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice.numbers);
     const auto before = boundNow (role);
     edit ([role, to = choice.description, profile] (DeviceSession& s) {
@@ -142,6 +143,7 @@ void DeviceBindings::bindTo (const std::string& role, const BindingChoice& choic
 /// Gives a role an earlier device; null: that of the graph. Returns the binding before. Its guard stays, unless one of the two is of another kind.
 Json DeviceBindings::putDevice (const std::string& role, Json binding)
 {
+    refused_addresses.erase (role);
     const auto before = boundNow (role);
     edit ([&] (DeviceSession& s) {
         if (binding.is_null()) return s.unbind (role);

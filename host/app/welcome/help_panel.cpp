@@ -147,7 +147,8 @@ void addPorts (Column& column, const std::shared_ptr<NameColumn>& names, const j
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
     Keys { NEEDS_TRANS ("Esc"),
-           NEEDS_TRANS ("closes what is open, such as a menu or a field; if nothing is, or a real device runs, ramps all forces to zero") },
+           NEEDS_TRANS ("closes what is open, such as a field or the help; if nothing is, over a menu or the palette, or if a real device runs, "
+                        "ramps all forces to zero first") },
     Keys { NEEDS_TRANS ("Shift+Esc"), NEEDS_TRANS ("emergency stop: no forces until REARM or START, while the graph keeps running") },
     Keys { NEEDS_TRANS ("F5"), NEEDS_TRANS ("starts the graph") },
     Keys { NEEDS_TRANS ("F6, Shift+F6"), NEEDS_TRANS ("goes to the next or the previous panel") },

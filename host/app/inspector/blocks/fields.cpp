@@ -83,15 +83,22 @@ TextField::TextField()
             letGoOfFocus (*field);
     };
     onEscapeKey = [this] {
-        setText (shown, false);
+        put (shown);
         letGoOfFocus (*this);
     };
+}
+
+void TextField::put (const juce::String& text)
+{
+    if (getText() != text) setText (text, false);
+    before_typing = getText();
 }
 
 void TextField::show (const juce::String& text)
 {
     shown = text;
-    if (! hasKeyboardFocus (true) && getText() != text) setText (text, false);
+    const bool is_typed = getText() != before_typing;   // and not yet applied: JUCE tells a field only later that it has lost the focus
+    if (! hasKeyboardFocus (true) && ! is_typed) put (text);
 }
 
 void TextField::apply()
@@ -101,11 +108,12 @@ void TextField::apply()
     const auto text = getText();
     if (text == shown) return;
     const auto before = std::exchange (shown, text);
+    before_typing = text;
     const juce::Component::SafePointer<TextField> field (this);   // what is applied may delete the field
     if (onApply) onApply (text);
     if (field == nullptr || ! refused) return;
     shown = before;
-    if (! hasKeyboardFocus (true)) setText (before, false);
+    if (! hasKeyboardFocus (true)) put (before);
 }
 
 void TextField::refuse()

@@ -39,14 +39,16 @@ class TextField final : public juce::TextEditor
 public:
     TextField();
 
-    void show (const juce::String&);   ///< no effect while the user is typing
+    void show (const juce::String&);   ///< no effect on what the user has typed until it is applied
     void apply();
     void refuse();   ///< call it in onApply: the text stays for another try while the field has the keyboard, else the text from before comes back
 
     std::function<void (const juce::String&)> onApply;
 
 private:
-    juce::String shown;
+    void put (const juce::String&);
+
+    juce::String shown, before_typing;
     bool refused = false;
 };
 

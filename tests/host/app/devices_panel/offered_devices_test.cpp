@@ -124,4 +124,7 @@ TEST_CASE ("a device is added by its address, and a wrong address is refused and
     CHECK_FALSE (r.hint.contains ("--"));   // the window has no options
     CHECK_FALSE (r.hint.startsWith (":"));
     CHECK (r.home.textOf ("session.json") == before);
+    CHECK (r.panel.bindings().refusedAddress ("stylus") == juce::String (address));
+    r.panel.bindings().bind ("stylus", "simulated tool");
+    CHECK (r.panel.bindings().refusedAddress ("stylus").isEmpty());
 }

@@ -246,3 +246,15 @@ TEST_CASE ("one Esc in an open number field takes back what is typed, and gives 
     CHECK (w.graph().root.find ("board")->params == before);
     w.view->run().letGo();
 }
+
+TEST_CASE ("a click on the empty canvas applies what is being typed about the graph", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    w.view->canvas().select ({});
+    WindowRig::settle();
+    d.type ("about", "It squeaks");
+    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), juce::Point<float> (4.0f, 4.0f)));
+    WindowRig::settle();
+    CHECK (w.graph().about == "It squeaks");
+}
