@@ -159,8 +159,8 @@ std::string noState (const NodeType& type) { return type.serialize ? "" : "its s
 std::string stateFault (const NodeType& type, unsigned seed)
 {
     NodeDice dice { seed };
-    Kept one { type }, other { type };
-    auto &saved = *one.rig, &restored = *other.rig;
+    Kept one { type }, clone { type };
+    auto &saved = *one.rig, &restored = *clone.rig;
     const auto tickBoth = [&] (bool same) {
         randomTameInputs (saved, dice);
         if (same)
@@ -177,7 +177,7 @@ std::string stateFault (const NodeType& type, unsigned seed)
     Stage::enter ("save");
     type.serialize (one.node.get(), archive);
     if (archive.isRefused()) return archive.refusal();
-    if (const auto why = other.restore (bytes); ! why.empty()) return "its own state is refused: " + why;
+    if (const auto why = clone.restore (bytes); ! why.empty()) return "its own state is refused: " + why;
     for (int k = 0; k < 50; ++k)
     {
         tickBoth (true);
@@ -189,8 +189,8 @@ std::string stateFault (const NodeType& type, unsigned seed)
         for (int n = 0; n < 4; ++n)
             damaged[at (dice.below (static_cast<int> (damaged.size())))] = static_cast<std::byte> (dice.below (256));
         const auto cut_off = std::span (damaged).first (at (dice.below (static_cast<int> (damaged.size()))));
-        if (other.restore (cut_off).empty()) return "a state that is cut off is not refused";
-        if (! other.restore (damaged).empty() && ! other.restore (bytes).empty()) return "its own state is refused after a damaged one";   // as a run does
+        if (clone.restore (cut_off).empty()) return "a state that is cut off is not refused";
+        if (! clone.restore (damaged).empty() && ! clone.restore (bytes).empty()) return "its own state is refused after a damaged one";   // as a run does
         tickBoth (false);
     }
     return {};
