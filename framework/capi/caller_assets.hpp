@@ -22,7 +22,7 @@ struct AssetReader
 
 /// The assets that the caller supplies; all others are read from files. Numbers that are the same as before give the same object, so that
 /// a contact with a mesh survives an edit of the graph. [main thread]
-class CallerAssets final : public readers::FileAssets
+class CallerAssets : public readers::FileAssets
 {
 public:
     explicit CallerAssets (AssetReader r) : reader (r) {}

@@ -1,24 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""check, limits, fit, devices, logs and replays from Python: the same numbers as the commands, as objects with units, intervals and verdicts."""
+"""check, limits, fit, convert, devices, logs and replays from Python: the same numbers as the commands, as objects with units, intervals and verdicts."""
 
+import _thread
 import copy
 import csv
 import json
 import math
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
+import wave
 
 import numpy as np
 import tactus
 from support import PROGRAM, ROOT, TestCase
 from tactus import lab
 from tactus._library import live
-from waiting import eventually
+from waiting import eventually, while_busy
 
 try:
     live()
@@ -112,10 +116,53 @@ class Reports(Case):
         self.assertIn("95 % interval", fits[0]._repr_html_())
 
     def test_devices_are_those_of_the_command(self):
-        told = [d for d in self.said("devices") if d.get("driver") not in ("audio", "evdev")]
+        told = [d for d in self.said("devices") if d.get("driver") != "audio"]
         found = tactus.devices()
         self.assertEqual(list(found), told)
         self.assertIn("<table>", found._repr_html_())
+
+    def test_a_conversion_is_that_of_the_command(self):
+        clip, wav, pen = ROOT / "graphs/assets/heartbeat.haptic", self.folder / "a.wav", self.folder / "pen.events"
+        pen.write_text("".join(f"E: 0.0{t}0000 {event}\n" for t in (0, 1) for event in
+                               (f"0003 0000 {1000 + 200 * t}", "0003 0001 500", "0003 0018 1024", "0000 0000 0")))
+        for source, name, options, words in ((clip, "a.ahap", {}, []), (clip, "a.hjif", {}, []), (clip, "a.csv", {"rate": 500.0}, ["--rate", "500"]),
+                                             (clip, "a.wav", {}, []), (clip, "b.ahap", {"split": True}, ["--split"]), (wav, "d.hjif", {}, []),
+                                             (pen, "pen.csv", {"options": {"force": 2.0}}, ["--force", "2 N"])):
+            with self.subTest(name=name):
+                made = tactus.convert(source, self.folder / name, **options)
+                told = subprocess.run([PROGRAM, "convert", source, f"c_{name}", *words], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+                for file in map(pathlib.Path, made.files):
+                    self.assertEqual(file.read_bytes(), (self.folder / f"c_{file.name}").read_bytes())
+                said = [sentence.replace(str(self.folder / name), f"c_{name}") for file in made.json["files"] for sentence in
+                        [*(f"{loss['where']}: {loss['text']}" for loss in file["losses"]), *file["differences"]]]
+                self.assertEqual(said, re.findall(r"  loss: (.*)", told))
+                self.assertEqual(len(said), len(made.losses) + len(made.differences))
+                self.assertIn("wrote", made._repr_html_())
+        self.fails("output/is_input", tactus.convert, clip, clip)
+        self.fails("wav/not_a_wav", tactus.convert, pen.rename(wav), self.folder / "e.ahap")
+        self.fails("clip/unknown_kind", tactus.convert, clip, self.folder / "d.xyz")
+        self.fails("api/option", tactus.convert, clip, self.folder / "d.hjif", split=True)
+        self.fails("api/option", tactus.convert, clip, self.folder / "d.hjif", options={"pitch": 1e-6})
+        self.fails("file/unreadable", tactus.convert, self.folder / "none.ahap", self.folder / "d.hjif")
+
+    def test_pictures_and_recordings_are_read(self):
+        self.assertEqual(tactus.check("pebbled_leather").json, self.said("check", "pebbled_leather"))
+        t = np.arange(8000) / 8000.0
+        ring = 20000.0 * np.exp(-8.0 * t) * np.sin(2.0 * np.pi * 440.0 * t)
+        with wave.open(str(self.folder / "bell.wav"), "wb") as file:
+            file.setparams((1, 2, 8000, 0, "NONE", ""))
+            file.writeframes(ring.astype("<i2").tobytes())
+        told = self.said("fit", "modes", "bell.wav", "-o", "bell.json")
+        self.assertEqual(tactus.fit("modes", self.folder / "bell.wav").json["parameters"], told["parameters"])
+        self.assertTrue(any(p["unit"] == "Hz" and abs(p["value"] - 440.0) < 0.5 for p in told["parameters"]), told["parameters"])
+
+    def test_ctrl_c_ends_a_wait_at_once(self):
+        graph = tactus.Graph("granite_wall")
+        with self.assertRaises(KeyboardInterrupt):
+            while_busy(_thread.interrupt_main)
+            tactus.limits(graph, steps=400)   # takes minutes
+        self.assertTrue(eventually(lambda: not any(thread.name.startswith("ThreadPool") for thread in threading.enumerate())))
+        self.assertEqual(tactus.limits(graph, steps=2).columns[0][:9], "stiffness")
 
     def test_mistakes_have_a_place_a_cause_and_a_remedy(self):
         x, force = strokes(200)
@@ -125,7 +172,7 @@ class Reports(Case):
                          ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"load": -1})),
                          ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, columns={"depth": "a"})),
                          ("api/option", lambda: tactus.fit("wood", {"position": x, "force": force})),
-                         ("fit/wav", lambda: tactus.fit("modes", "bell.wav")),
+                         ("wav/unreadable", lambda: tactus.fit("modes", "bell.wav")),
                          ("feed/shape", lambda: tactus.fit("friction", {"position": x, "force": force[1:]})),
                          ("argument/type", lambda: tactus.fit("friction", 3)),
                          ("device/unknown_role", lambda: tactus.check("granite_wall", devices={"pen": "tactus_board"})),

@@ -22,7 +22,7 @@ import sys
 
 LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
-HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers": {"base", "devices"}, "tools": {"base", "code", "devices"},
+HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers": {"base", "devices"}, "tools": {"base", "code", "devices", "drivers"},
         "cli": {"base", "code", "devices", "drivers", "tools"}, "app": {"base", "code", "devices", "drivers", "tools"}}
 DRIVERS = ["base/platform/peer_lock.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
            "devices/hid/calibration.hpp", "devices/hid/vibration_tracker.hpp"]

@@ -26,12 +26,12 @@ from ._plot import plot
 from ._plugins import compile_node, load_plugins
 from ._presets import presets
 from ._records import Records
-from ._reports import Check, Condition, Devices, Fit, FitValue, Interval, Limits, check, devices, fit, limits
+from ._reports import Check, Condition, Conversion, Devices, Fit, FitValue, Interval, Limits, check, convert, devices, fit, limits
 from ._sweep import Point, sweep
 
 __version__ = _tactus.version()
 
-__all__ = ["Check", "Condition", "Devices", "Effort", "Engine", "Error", "Event", "Fit", "FitValue", "Graph", "Health", "Interval", "Limits", "Log",
+__all__ = ["Check", "Condition", "Conversion", "Devices", "Effort", "Engine", "Error", "Event", "Fit", "FitValue", "Graph", "Health", "Interval", "Limits", "Log",
            "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal", "Status", "TactusWarning", "check", "choice",
-           "compile_node", "devices", "fit", "limits", "load_plugins", "nodes", "play", "plot", "presets", "read_log", "replay", "scalar",
+           "compile_node", "convert", "devices", "fit", "limits", "load_plugins", "nodes", "play", "plot", "presets", "read_log", "replay", "scalar",
            "set_limits", "sweep", "vector"]

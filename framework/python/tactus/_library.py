@@ -55,7 +55,7 @@ def live() -> ctypes.CDLL:
         except OSError as why:
             fail("live/library", name, f"real devices, checks and fits need this library, and it cannot be loaded: {why}",
                  "install the Debian package libtactus-live0, or what the message names")
-        for function in ("messages_create", "graph_load", "graph_parse", "session_open", "nodes_json", "check", "limits", "fit", "devices"):
+        for function in ("messages_create", "graph_load", "graph_parse", "session_open", "nodes_json", "check", "limits", "fit", "convert", "devices"):
             getattr(library, "tactus_" + function).restype = ctypes.c_void_p
         for function in ("messages_count", "session_events", "session_record_count", "session_probe_count", "session_collect",
                          "session_health_count"):

@@ -9,6 +9,8 @@ import importlib
 import json
 import math
 import os
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -17,7 +19,7 @@ from . import _checks
 from ._checks import Array, Path
 from ._graph import Graph
 from ._library import Messages, Opened, live, texts
-from ._messages import fail
+from ._messages import Message, fail
 from ._records import table_of, to_json
 from ._views import plain
 
@@ -185,6 +187,25 @@ class Fit:
         return figure
 
 
+class Conversion:
+    """A file in another format. json: what the library says. files: those that were written. losses: what the formats cannot hold, as messages.
+    differences: how far the written clips are from the one that was read, as sentences. notes: what the reader left out or guessed."""
+
+    def __init__(self, report: Dict[str, Any]):
+        self.json = report
+        self.files = [str(file["name"]) for file in report["files"]]
+        self.losses, self.notes = ([Message(False, m["id"], m["where"], m["text"], m["remedy"]) for m in found]
+                                   for found in ([loss for file in report["files"] for loss in file["losses"]], report["notes"]))
+        self.differences = [str(sentence) for file in report["files"] for sentence in file["differences"]]
+
+    def __repr__(self) -> str:
+        return f"<tactus.Conversion to {', '.join(map(plain, self.files))}: {len(self.losses)} losses; {plain('; '.join(self.differences), 200)}>"
+
+    def _repr_html_(self) -> str:
+        lines = [*(f"wrote {name}" for name in self.files), *(f"lost: {loss.where}: {loss.text}" for loss in self.losses), *self.differences]
+        return "<ul>" + "".join(f"<li>{_text(line)}</li>" for line in lines) + "</ul>"
+
+
 class Devices(List[Dict[str, Any]]):
     """Devices as `tactus devices` lists them in JSON: a dict for each."""
 
@@ -205,8 +226,7 @@ def check(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = N
 
     graph: a tactus.Graph, a file, or the name of a preset. devices: by role, the id of a profile, a file, "gesture:circle" or "trace:FILE.csv"; set: values
     of parameters; rate: in Hz; duration: of the motion in s; sweep: the devices sweep their workspaces; speed: of strokes, in m/s; alpha, beta, gamma:
-    samples and quanta per period, as in docs/check.md. Pictures and WAV files that a graph names are not decoded: such a graph is an Error. Takes seconds;
-    other threads run meanwhile."""
+    samples and quanta per period, as in docs/check.md. Takes seconds; other threads run meanwhile."""
     return Check(_examined("tactus_check", graph, devices, set, {"rate": rate, "duration": duration, "sweep": _checks.truth("sweep", sweep) or None,
                                                                  "speed": speed, "alpha": alpha, "beta": beta, "gamma": gamma}))
 
@@ -227,10 +247,9 @@ def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Option
         signs: Optional[Mapping[str, str]] = None, options: Optional[Mapping[str, Amount]] = None) -> Fit:
     """Fits the model of a node to a recording, as `tactus fit` does, with the same numbers.
 
-    kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV file, or arrays by the name of the column, each
+    kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV or WAV file, or arrays by the name of the column, each
     of shape (n,); names may have units, as in "force [mN]". columns: the name of the column of a role, "" if it was not recorded; units: what 1 in it means,
-    "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them. A WAV file is not read:
-    pass its samples as {"t": …, "channel 1": …}."""
+    "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them."""
     name = _checks.text("kind", kind, "give a kind, such as 'friction'").encode()
     given = _options({"columns": columns, "units": units, "signs": signs, **_checks.mapping("options", options, "{'load': '2 N'}")})
     if isinstance(recording, (str, os.PathLike)):
@@ -242,9 +261,22 @@ def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Option
     return Fit(_asked("tactus_fit", name, None, ctypes.byref(table), given))
 
 
+@_checks.arguments
+def convert(source: Path, target: Path, *, rate: Optional[float] = None, calibration: Optional[Path] = None, split: bool = False,
+            options: Optional[Mapping[str, float]] = None) -> Conversion:
+    """Converts a haptic clip (AHAP, .haptic, HJIF, CSV, clips of Tactus) into another format, or a pen recording into a trace, as `tactus convert` does, with
+    the same bits.
+
+    source, target: files, whose extensions choose the formats; a target that exists is replaced. rate: of samples or rows, in Hz. calibration: an actuator
+    calibration file of Meta. split: an .ahap into two files. options: of a pen: "pitch", "depth", "lift" (m), "force" (N), "full-pressure"."""
+    given = _options({"rate": rate, "calibration": None if calibration is None else _checks.path("calibration", calibration),
+                      "split": _checks.truth("split", split) or None, **_checks.mapping("options", options, "{'force': 2.0}")})
+    return Conversion(_asked("tactus_convert", os.fsencode(_checks.path("source", source)), os.fsencode(_checks.path("target", target)), given))
+
+
 def devices() -> Devices:
-    """Lists HID devices, serial ports, and profiles of devices that can only be simulated. `tactus devices` also lists event devices and sound cards. Nothing
-    is opened."""
+    """Lists HID devices, serial ports, event devices, and profiles of devices that can only be simulated. `tactus devices` also lists sound cards, which
+    tactus.play cannot open. Nothing is opened."""
     return Devices(_asked("tactus_devices"))
 
 
@@ -258,8 +290,7 @@ def _examined(function: str, graph: Union[Graph, Path], devices: Optional[Mappin
     roles = _checks.mapping("devices", devices, "{'stylus': 'tactus_board'}")
     given = {"devices": [f"{role}={_checks.text(f'devices[{role!r}]', what, 'give the id of a profile')}" for role, what in roles.items()],
              "set": dict(_checks.mapping("set", values, "{'drag.mu': 0.3}")) or None, **options}
-    with Opened(graph) as handle:
-        found: Dict[str, Any] = _asked(function, handle, _options(given))
+    found: Dict[str, Any] = _asked(function, _options(given), graph=graph)
     return found
 
 
@@ -267,17 +298,30 @@ def _options(given: Mapping[str, Any]) -> bytes:
     return to_json({key: dict(value) if isinstance(value, Mapping) else value for key, value in given.items() if value is not None}, "options").encode()
 
 
-def _asked(function: str, *arguments: Any) -> Any:
-    """What a function of the library returns as JSON."""
-    library = live()
-    with Messages() as messages:
-        text = getattr(library, function)(*arguments, messages.handle)
+def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = None) -> Any:
+    """What a function of the library returns as JSON. Python handles Ctrl-C only between its own instructions, so another thread calls the function. After
+    Ctrl-C, that call ends by itself within seconds, and frees what it uses; the end of the program waits for it."""
+    with ExitStack() as used:
+        if graph is not None:
+            arguments = (used.enter_context(Opened(graph)), *arguments)
+        messages = used.enter_context(Messages())
+        thread = ThreadPoolExecutor(1)
+        answer = thread.submit(getattr(live(), function), *arguments, messages.handle)
+        thread.shutdown(wait=False)
+        used.callback(_free, answer)
         try:
-            found = json.loads(ctypes.string_at(text)) if text else None
-        finally:
-            library.tactus_text_free(ctypes.c_void_p(text))
-        messages.check(found is not None)
-    return found
+            text = answer.result()
+        except KeyboardInterrupt:
+            live().tactus_limits_interrupt()
+            rest = used.pop_all()
+            answer.add_done_callback(lambda _: rest.close())
+            raise
+        messages.check(bool(text))
+        return json.loads(ctypes.string_at(text))
+
+
+def _free(answer: "Future[Any]") -> None:
+    live().tactus_text_free(ctypes.c_void_p(answer.result()))
 
 
 def _intervals(ranges: Mapping[str, Any]) -> Dict[str, Optional[Interval]]:

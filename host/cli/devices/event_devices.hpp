@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tactus/text/json.hpp>
+#include <host/tools/reports/event_devices.hpp>
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace tactus::host
 {
-
-/// An event device with force feedback, as `tactus devices` lists it: a wheel, a joystick or a pad.
-struct ListedEvents
-{
-    std::string path;
-    bool may_open = false;
-    Json json;          ///< for --json
-    std::string text;   ///< three lines
-};
-
-/// The event devices of this computer. None where the driver `evdev` was not built.
-std::vector<ListedEvents> listEventDevices();
 
 /// An open event device whose readings are shown. It gets no force.
 class ProbedEvents

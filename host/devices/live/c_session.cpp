@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C API of live sessions (tactus_live.h).
+#include "decoding_assets.hpp"
 #include "live_session.hpp"
 #include <tactus/tactus_live.h>
 
@@ -141,7 +142,7 @@ struct tactus_session
     void tellStops();
 
     const long owner = thisProcess();   // after fork(), the child has this memory, but neither the threads nor the devices
-    tactus::capi::CallerAssets assets;
+    DecodingAssets assets;
     StopSwitch stops;   // [any thread]
     tactus::capi::ProbeQueue probes;
     tactus_recorder recorder;

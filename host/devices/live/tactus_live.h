@@ -113,8 +113,8 @@ TACTUS_API tactus_result tactus_plugins_compile (const char* header, const char*
 
 /* Each function returns what the command of the same name prints with the option --json; free it with tactus_text_free. NULL if there are errors.
  * `options` is NULL, or a JSON object whose keys are the long options of the command, without the dashes: {"rate": 1000, "set": {"drag.mu": 0.3}}. A
- * list or an object stands for an option that may be given more than once. They take seconds, and use all processors. Pictures and recordings that a
- * graph names are not decoded, so such a graph is refused (library.md). Other threads may use other objects meanwhile. */
+ * list or an object stands for an option that may be given more than once. They take seconds, and use all processors. Other threads may use
+ * other objects meanwhile. */
 
 /** `tactus check`. Options: devices (a list of ROLE=…), set, rate, duration, sweep, speed, alpha, beta, gamma. A broken condition is no error: see
  *  docs/check.md for what is judged and what is not. [main thread] */
@@ -123,6 +123,10 @@ TACTUS_API char* tactus_check (const tactus_graph*, const char* options, tactus_
 /** `tactus limits`. Options: devices, set, rate, duration, role, x, y, steps. With steps, also the points of the regions, as `columns` and `rows`, which
  *  `tactus limits --out FILE.json` writes. [main thread] */
 TACTUS_API char* tactus_limits (const tactus_graph*, const char* options, tactus_messages*);
+
+/** Ends the searches of tactus_limits that compute points of regions at this time, which may take minutes: they fail (api/interrupted). The other functions
+ *  end by themselves within seconds. [any thread] */
+TACTUS_API void tactus_limits_interrupt (void);
 
 /** Columns of numbers of the caller. */
 typedef struct tactus_columns
@@ -133,13 +137,18 @@ typedef struct tactus_columns
     size_t rows;
 } tactus_columns;
 
-/** `tactus fit KIND`. The recording is a CSV file, or `columns`; then `recording` is only its name in messages, and may be NULL. WAV files are not read.
- *  Options: columns, units and signs, objects by role, and those that the kind has, as SI numbers or texts with a unit. The JSON has the report of
+/** `tactus fit KIND`. The recording is a CSV or WAV file, or `columns`; then `recording` is only its name in messages, and may be NULL. Options: columns, units and signs, objects by role, and those that the kind has, as SI numbers or texts with a unit. The JSON has the report of
  *  `tactus fit --json`, and `graph`, the text of the preset, `picture`, the recorded and fitted curves, `details` and `snippets`. [main thread] */
 TACTUS_API char* tactus_fit (const char* kind, const char* recording, const tactus_columns* columns, const char* options, tactus_messages*);
 
-/** `tactus devices`: a list of HID devices, serial ports, and profiles that can only be simulated. Event devices and sound cards are in the list of the
- *  command only. Nothing is opened. [main thread] */
+/** `tactus convert`: a haptic clip into another format, or a pen recording into a trace, by the extensions of the files. Options:
+ *  calibration, rate (Hz), split; for a pen also pitch, depth, lift (m), force (N) and full-pressure, as numbers. An output that exists is replaced, unless it
+ *  is an input. The JSON has `seconds`, `tracks` and `events` or `rows`, `notes` of the reader, and `files`, each with its `name`, `losses` and
+ *  `differences`. [main thread] */
+TACTUS_API char* tactus_convert (const char* in, const char* out, const char* options, tactus_messages*);
+
+/** `tactus devices`: a list of HID devices, serial ports, event devices, and profiles that can only be simulated. The command also lists sound cards, which
+ *  sessions of this library cannot open. Nothing is opened. [main thread] */
 TACTUS_API char* tactus_devices (tactus_messages*);
 
 /* ---------------------------------------------------------------------------- While it plays */

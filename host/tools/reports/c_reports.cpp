@@ -2,6 +2,7 @@
 // The C API of examinations (tactus_live.h).
 #include "check_report.hpp"
 #include "connected_devices.hpp"
+#include "conversion.hpp"
 #include "limits_report.hpp"
 #include "refusal.hpp"
 
@@ -9,14 +10,18 @@
 
 #include <framework/capi/handles.hpp>
 #include <host/base/command_line/command.hpp>
+#include <host/devices/live/decoding_assets.hpp>
 #include <host/tools/fitting/fit_options.hpp>
+#include <host/tools/fitting/recording_file.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 using namespace tactus::host;
@@ -30,6 +35,8 @@ using tactus::capi::misuse;
 
 namespace
 {
+std::atomic<std::uint64_t> interruptions = 0;
+
 /// An option of a function, and what reads it.
 struct Option
 {
@@ -56,6 +63,14 @@ Option text (const char* name, std::string& to)
     return { name, [name, &to] (const Json& v) {
                 if (! v.is_string()) refuseOption (name, v.dump() + " is not a text", "give a text");
                 to = v.asString();
+            } };
+}
+
+Option truth (const char* name, bool& to)
+{
+    return { name, [name, &to] (const Json& v) {
+                if (! v.is_boolean()) refuseOption (name, v.dump() + " is neither true nor false", "give true or false");
+                to = v.get<bool>();
             } };
 }
 
@@ -153,12 +168,7 @@ FitKind kindOf (const std::string& id)
 /// The columns of the caller, or those of a file.
 tactus::Table tableOf (const std::string& recording, const tactus_columns* columns)
 {
-    if (columns == nullptr)
-    {
-        if (recording.ends_with (".wav") || recording.ends_with (".WAV"))
-            refuse (Message::error ("fit/wav", recording, "this function reads no WAV", "give its samples as columns: t, and \"channel 1\""));
-        return orRefuse (readRecording (recording));
-    }
+    if (columns == nullptr) return orRefuse (readRecordingOrWav (recording));
     tactus::Table table;
     table.columns = tactus::capi::list (columns->names, columns->count);
     table.values.assign (columns->values, columns->values + columns->rows * columns->count);
@@ -177,16 +187,13 @@ char* tactus_check (const tactus_graph* graph, const char* options, tactus_messa
         CheckedGraph::Options of_graph;
         CheckOptions how;
         auto known = shared (of_graph, how.duration_s);
-        known.push_back ({ "sweep", [&] (const Json& v) {
-                              if (! v.is_boolean()) refuseOption ("sweep", "this is neither true nor false", "give true or false");
-                              how.sweep = v.get<bool>();
-                          } });
+        known.push_back (truth ("sweep", how.sweep));
         known.push_back (number ("speed", how.judge.speed, 1e-6, 1e3));
         known.push_back (number ("alpha", how.judge.factors.alpha, 1e-3, 1e6));
         known.push_back (number ("beta", how.judge.factors.beta, 1e-3, 1e6));
         known.push_back (number ("gamma", how.judge.factors.gamma, 1e-3, 1e6));
         read (options, known);
-        tactus::capi::CallerAssets assets { {} };
+        DecodingAssets assets { {} };
         CheckedGraph checked { graphOf (*graph), "", assets, of_graph };
         const auto json = CheckReport (checked, how).json();
         add (messages, checked.takeWarnings());
@@ -211,7 +218,10 @@ char* tactus_limits (const tactus_graph* graph, const char* options, tactus_mess
         known.push_back (text ("y", how.y));
         known.push_back (number ("steps", steps, 2.0, 400.0));
         read (options, known);
-        tactus::capi::CallerAssets assets { {} };
+        how.checkOn = [begun = interruptions.load()] {
+            if (interruptions != begun) refuse (Message::error ("api/interrupted", "", "the search was interrupted", "call the function again"));
+        };
+        DecodingAssets assets { {} };
         CheckedGraph checked { graphOf (*graph), "", assets, of_graph };
         if (steps > 0.0) how.steps = static_cast<int> (steps);
         const LimitsReport report { checked, how };
@@ -219,6 +229,8 @@ char* tactus_limits (const tactus_graph* graph, const char* options, tactus_mess
         return tactus::writeJson (steps > 0.0 ? report.jsonWithRows() : report.json());
     });
 }
+
+void tactus_limits_interrupt (void) { ++interruptions; }
 
 char* tactus_fit (const char* kind, const char* recording, const tactus_columns* columns, const char* options, tactus_messages* messages)
 {
@@ -235,7 +247,7 @@ char* tactus_fit (const char* kind, const char* recording, const tactus_columns*
         if (! given || ! given->is_object()) refuseOption ("options", "this is not a JSON object", "give an object, or NULL");
         const auto settings = orRefuse (readFitSettings (which, *given));
         auto made = orRefuse (fitRecording (which, tableOf (name, columns), name, settings));
-        tactus::capi::CallerAssets assets { {} };
+        DecodingAssets assets { {} };
         orRefuse (checkFitted (made, name, assets));
         add (messages, std::move (made.warnings));
         auto json = jsonOf (made, name, "");
@@ -244,6 +256,34 @@ char* tactus_fit (const char* kind, const char* recording, const tactus_columns*
         json["graph"] = tactus::writeGraph (made.preset);
         json["picture"] = toJson (made.report.picture);
         return json.dump (2);
+    });
+}
+
+char* tactus_convert (const char* in, const char* out, const char* options, tactus_messages* messages)
+{
+    if (in == nullptr || out == nullptr)
+    {
+        misuse ("a file is NULL");
+        return nullptr;
+    }
+    return examined (messages, [&] {
+        ConversionOptions how { .in = in, .out = out };
+        std::vector known { text ("calibration", how.calibration), number ("rate", how.rate_hz, 1.0, 1e6) };
+        known.push_back (truth ("split", how.split));
+        const std::pair<const char*, double EvemuOptions::*> pen[] {
+            { "pitch", &EvemuOptions::pitch },
+            { "force", &EvemuOptions::full_force },
+            { "depth", &EvemuOptions::full_depth },
+            { "lift", &EvemuOptions::lift },
+            { "full-pressure", &EvemuOptions::full_pressure },
+        };
+        for (const auto& [name, member] : pen)
+            known.push_back ({ name, [&how, name = name, member = member] (const Json& v) {
+                                  number (name, how.pen.*member, 1e-12, 1e12).read (v);
+                                  how.pen_option = name;
+                              } });
+        read (options, known);
+        return convert (how).json().dump (2);
     });
 }
 

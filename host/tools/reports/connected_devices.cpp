@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "connected_devices.hpp"
+#include "event_devices.hpp"
 
 #include <host/devices/hid/physics.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
@@ -134,6 +135,8 @@ Json listedJson (const hid::LoadedProfiles& profiles)
         all.push_back (jsonOf (l));
     for (const auto& port : hid::serialPorts())
         all.push_back (jsonOf (port, profiles));
+    for (auto& l : listEventDevices())
+        all.push_back (std::move (l.json));
     for (const auto& profile : knownByNumbers (profiles))
         all.push_back (numbersJsonOf (*profile));
     return all;

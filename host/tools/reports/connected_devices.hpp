@@ -34,8 +34,8 @@ std::string_view verifiedOf (const hid::Profile&);
 Json jsonOf (const Listed&);
 Json jsonOf (const hid::SerialPort&, const hid::LoadedProfiles&);
 
-/// HID devices, serial ports, and the profiles of devices that cannot be opened, as `tactus devices --json` lists them. The command adds event devices and
-/// sound cards.
+/// HID devices, serial ports, event devices, and the profiles of devices that cannot be opened, as `tactus devices --json` lists them. The command adds
+/// sound cards, which libtactus_live cannot open.
 Json listedJson (const hid::LoadedProfiles&);
 
 /// The profiles of devices that Tactus knows but cannot open.

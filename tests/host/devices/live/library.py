@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks what libtactus_live is made of: library.py LIBTACTUS_LIVE LIBTACTUS
 
-- It needs only hidapi and the system's libraries, and libtactus does not even need hidapi.
+- It needs only the libraries of devices and pictures, and those of the system; libtactus needs only the latter.
 - It exports each function of tactus.h and tactus_live.h, and besides only what fused code calls.
 - It contains no LLVM bitcode (docs/decisions/mit_below_gpl.md)."""
 
@@ -35,7 +35,7 @@ def declared(header):
 
 
 live, plain = sys.argv[1:3]
-check(needed(live) <= SYSTEM | {"libhidapi-hidraw.so.0"}, f"libtactus_live needs {sorted(needed(live))}")
+check(needed(live) <= SYSTEM | {"libhidapi-hidraw.so.0", "libevdev.so.2", "libspng.so.0", "libturbojpeg.so.0"}, f"libtactus_live needs {sorted(needed(live))}")
 check(needed(plain) <= SYSTEM, f"libtactus needs {sorted(needed(plain))}")
 
 exported = {line.split()[-1].split("@")[0] for line in output("nm", "-D", "--defined-only", live).splitlines()}
