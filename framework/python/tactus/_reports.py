@@ -9,7 +9,7 @@ import importlib
 import json
 import math
 import os
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -310,12 +310,14 @@ def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = Non
         thread.shutdown(wait=False)
         used.callback(_free, answer)
         try:
-            text = answer.result()
+            while not wait([answer], 0.05).done:   # not every system wakes a thread that waits without an end
+                pass
         except KeyboardInterrupt:
             live().tactus_limits_interrupt()
             rest = used.pop_all()
             answer.add_done_callback(lambda _: rest.close())
             raise
+        text = answer.result()
         messages.check(bool(text))
         return json.loads(ctypes.string_at(text))
 
