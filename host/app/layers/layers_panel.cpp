@@ -268,8 +268,8 @@ void LayersPanel::add (const std::string& type, const std::filesystem::path& cli
 /// Scrolls so that the last layer is in view, and the unmixed signals behind it.
 void LayersPanel::showNewest()
 {
-    const int hidden = std::max (0, static_cast<int> (strips.size()) * LayerStrip::width - scroll.getViewWidth());
-    scroll.setViewPosition ((hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width, scroll.getViewPositionY());
+    const int hidden = std::max (0, static_cast<int> (strips.size()) * strip_width - scroll.getViewWidth());
+    scroll.setViewPosition ((hidden + strip_width - 1) / strip_width * strip_width, scroll.getViewPositionY());
 }
 
 void LayersPanel::addMixerNow()
@@ -356,7 +356,7 @@ void LayersPanel::openMenu()
 
 void LayersPanel::drag (int layer, int x, bool let_go)
 {
-    const int to = std::clamp ((x + LayerStrip::width / 2) / LayerStrip::width, 0, static_cast<int> (strips.size()));
+    const int to = std::clamp ((x + strip_width / 2) / strip_width, 0, static_cast<int> (strips.size()));
     drop_at = let_go ? -1 : to;
     repaint();
     const int place = to > layer ? to - 1 : to;
@@ -396,7 +396,7 @@ void LayersPanel::paintOverChildren (juce::Graphics& g)
     }
     if (drop_at < 0) return;
     g.setColour (themeOf (*this).accent);
-    g.fillRect (scroll.getX() + drop_at * LayerStrip::width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
+    g.fillRect (scroll.getX() + drop_at * strip_width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
 }
 
 void LayersPanel::layOutHead (juce::Rectangle<int> head)
@@ -468,7 +468,10 @@ void LayersPanel::resized()
     placeIn (parent, names);
     placeIn (parent, kinds);
     placeIn (parent, { &more, total.get() });
-    const int bar = scroll.getScrollBarThickness(), all_strips = static_cast<int> (strips.size() + past.size()) * LayerStrip::width;
+    const int bar = scroll.getScrollBarThickness(), count = static_cast<int> (strips.size() + past.size());
+    const int room = (area.getWidth() - head_width - MixStrip::width) / std::max (count, 1);
+    strip_width = std::clamp (room, LayerStrip::width, LayerStrip::widest);
+    const int all_strips = count * strip_width;
     if (is_narrow)   // the strips, the mix and the head scroll together
     {
         scroll.setBounds (area);
@@ -483,7 +486,7 @@ void LayersPanel::resized()
     const int width = all_strips;
     const auto size = sizeInView (area, { width, LayerStrip::least_height }, bar);
     // The row is so wide that, scrolled to its end, the first strip in view is whole.
-    const int hidden = std::max (0, width - size.seen_width), whole = (hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width;
+    const int hidden = std::max (0, width - size.seen_width), whole = (hidden + strip_width - 1) / strip_width * strip_width;
     row.setSize (hidden == 0 ? width : whole + size.seen_width, size.height);
     placeStrips();
 }
@@ -492,8 +495,8 @@ void LayersPanel::placeStrips()
 {
     int x = 0;
     const auto place = [&] (juce::Component& strip) {
-        strip.setBounds (x, 0, LayerStrip::width, row.getHeight());
-        x += LayerStrip::width;
+        strip.setBounds (x, 0, strip_width, row.getHeight());
+        x += strip_width;
     };
     for (auto& s : strips)
         place (*s);

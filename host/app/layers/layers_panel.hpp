@@ -95,7 +95,7 @@ private:
     std::vector<std::unique_ptr<UnmixedStrip>> past;
     std::unique_ptr<MixStrip> total;
     double refreshed_ms = 0.0;
-    int refreshes = 0, drop_at = -1;
+    int refreshes = 0, drop_at = -1, strip_width = LayerStrip::width;
     bool file_over = false;   // a clip file is being dragged over the desk
 };
 

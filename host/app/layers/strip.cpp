@@ -298,6 +298,7 @@ void LayerStrip::refresh (const Traces::Client& traces, double dt_s, bool with_s
         repaint (peak_area);
     }
     if (! with_spectrum || spectrum_area.isEmpty()) return;
+    has_spectrum = ! found.empty();
     spectrum = feed.meter.rms() > 0.0 ? bandsOfPort (found, gain) : Bands {};
     repaint (spectrum_area);
 }
@@ -317,7 +318,7 @@ void LayerStrip::paint (juce::Graphics& g)
     const auto dot = juce::Rectangle<float> (7.0f, 7.0f).withCentre ({ chip.getX() - 5.0f, chip.getCentreY() });
     wired ? g.fillEllipse (dot) : g.drawEllipse (dot.reduced (0.5f), 1.0f);
 
-    if (! spectrum_area.isEmpty())
+    if (has_spectrum && ! spectrum_area.isEmpty())
     {
         const auto box = spectrum_area.toFloat();
         g.setColour (theme.canvas);
@@ -362,7 +363,7 @@ void LayerStrip::resized()
     auto right = area.removeFromRight (60);
     peak_area = area.getHeight() >= 60 ? right.removeFromBottom (16).withTrimmedTop (2) : juce::Rectangle<int>();
     meter_area = right.withTrimmedLeft (4);
-    fader.setBounds (area.reduced (4, 0));
+    fader.setBounds (area.withSizeKeepingCentre (std::min (area.getWidth() - 8, 40), area.getHeight()));
 }
 
 /// The gain of the layer, with the button for sends next to it. A layer that is sent has one more line, with the gain of the send.

@@ -43,7 +43,8 @@ public:
 class LayerStrip final : public juce::Component
 {
 public:
-    static constexpr int width = 120, least_height = 180;   ///< a lower strip would have a fader that is too short to set
+    static constexpr int width = 120, widest = 168;   ///< a strip is wider where there is room, for long names
+    static constexpr int least_height = 180;          ///< a lower strip would have a fader that is too short to set
 
     LayerStrip (std::shared_ptr<const MixerContext>, int layer);
 
@@ -102,6 +103,7 @@ private:
     double unity_peak = 0.0;      // the greatest level that the meter has shown in this run, at a gain of 1
     std::size_t fader_step = 0;   // the position of the history after the last change by the fader
     Bands spectrum;
+    bool has_spectrum = false;   // the run has room for it
     juce::Rectangle<int> meter_area, spectrum_area, peak_area;
     graph::Id fed_by = 0;
     double gain = 1.0;

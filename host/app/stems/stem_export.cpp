@@ -55,7 +55,11 @@ void StemExport::attend()
     if (! job.isRunning()) return;
     if (! desk.question.isOpen() || desk.question.title() != title) return;   // another question comes first
     const auto result = job.take();
-    if (! result) return desk.question.say (filled (TRANS ("%1 %"), juce::roundToInt (100.0 * job.share())));
+    if (! result)
+    {
+        const double done = job.share();
+        return desk.question.say (done < 1.0 ? filled (TRANS ("%1 %"), juce::roundToInt (100.0 * done)) : TRANS ("Writing the files"));
+    }
     desk.question.cancel();
     if (! *result) return desk.notify (fromUtf8 (messageText (result->error())));
     auto text = filled (TRANS ("%1 files are in %2"), (*result)->files.size(), fromUtf8 (folder.string()));

@@ -62,6 +62,7 @@ Result<WrittenStems> StemJob::render (const graph::Graph& g, const Catalogue& ca
         course.share = static_cast<double> (k) / static_cast<double> (ticks);
         if (course.is_cancelled) return Message::error ("run/interrupted", {}, "cancelled; nothing was written", "export the stems again to get them");
     }
+    course.share = 1.0;
     return stems.write (folder, g.name);
 }
 

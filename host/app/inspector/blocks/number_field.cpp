@@ -187,6 +187,7 @@ void NumberField::openEditor()
     editor = std::make_unique<juce::TextEditor>();
     editor->setFont (lookOf (*this).font (12.0f));
     editor->setJustification (juce::Justification::centredRight);
+    editor->setIndents (4, 0);   // else, the text is too low in a field of this height
     editor->setText (refused_text.isEmpty() ? juce::String (value.toText()) : refused_text, false);
     editor->onReturnKey = [this] { apply (true); };
     editor->onEscapeKey = [this] {
