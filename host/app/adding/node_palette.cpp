@@ -106,7 +106,7 @@ void openNodePalette (const Desk& desk, Palette& palette, const std::vector<Pres
 void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, PaletteSearch search,
                   std::function<void (const std::string&)> chosen)
 {
-    const auto at = palette.getParentComponent()->getMouseXYRelative();
+    const auto at = canvas.view().toPixels (canvas.commands().pointerOrCentre()).toInt() + canvas.getPosition();
     const auto choose = [&canvas, chosen = std::move (chosen)] (const std::string& type) {
         takeFocus (canvas);   // first: what is chosen may open the palette again
         chosen (type);

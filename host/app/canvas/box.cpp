@@ -83,8 +83,8 @@ std::vector<const FacePort*> shownParams (const graph::Node& node, const Face& f
 }   // namespace
 
 Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired,
-           const std::function<Json (const FacePort&)>& valueNow, const std::function<std::string (const FacePort&)>& driver, bool has_plot,
-           const TextWidth& widthOf)
+           const std::function<Json (const FacePort&)>& valueNow, const std::function<std::string (const FacePort&)>& driver,
+           const std::function<std::string (const FacePort&)>& depth, bool has_plot, const TextWidth& widthOf)
 {
     const auto params = shownParams (node, face, wired);
     Box box;
@@ -97,12 +97,14 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
         const float right = i < face.outputs.size() ? textWidth (readableName (face.outputs[i])) : 0.0f;
         box.width = std::max (box.width, left + right + (left > 0.0f && right > 0.0f ? gap : 0.0f) + 2 * Box::padding);
     }
-    std::vector<std::string> values, drivers;
+    std::vector<std::string> values, drivers, depths;
     for (const auto* p : params)
     {
         drivers.push_back (driver (*p));
+        depths.push_back (depth (*p));
         values.push_back (drivers.back().empty() ? valueText (valueNow (*p), *p) : std::string());
-        const float shown = drivers.back().empty() ? textWidth (values.back()) : std::max (textWidth (drivers.back()), textWidth (longestLive (*p)));
+        float shown = drivers.back().empty() ? textWidth (values.back()) : std::max (textWidth (drivers.back()), textWidth (longestLive (*p)));
+        if (! depths.back().empty()) shown += Box::before_depth + textWidth (depths.back());
         box.width = std::max (box.width, textWidth (readableName (*p)) + shown + gap + 2 * Box::padding);
     }
     box.width = toGrid (box.width);
@@ -120,7 +122,7 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     for (std::size_t i = 0; i < params.size(); ++i, y += Box::row_height)
     {
         const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
-        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i], readableName (*params[i]), drivers[i] });
+        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i], readableName (*params[i]), drivers[i], depths[i] });
     }
     if (has_plot)
     {

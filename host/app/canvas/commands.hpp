@@ -106,14 +106,17 @@ public:
 private:
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
 
-    /// The node that was added last, and where the pointer was.
+    /// The node that was added last, its place, and where the pointer was.
     struct Added
     {
         graph::Id node = 0;
         juce::Point<int> pointer;
+        juce::Point<float> at {};
+        bool is_chosen = false;   ///< the place is that of the pointer
     };
 
     void moveClear (graph::Id made, const NodeRequest&);
+    void placeAddedNode();
     void modulate (const Plug& from, const Plug& to, graph::Command& joined) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;

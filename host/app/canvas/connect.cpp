@@ -3,6 +3,7 @@
 #include "canvas.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/controlled_param.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/param_now.hpp>
@@ -36,7 +37,9 @@ class WireChoices
 public:
     static constexpr std::array roles { Role::output, Role::input, Role::param };
 
-    WireChoices (const Scene& s, const SceneNode& n) : scene (s), node (n)
+    /// `controlAt`: the name of the control that sets a param, as "drag.mu", or empty.
+    WireChoices (const Scene& s, const SceneNode& n, std::function<std::string (const std::string&)> controlAt)
+        : scene (s), node (n), nameOfControl (std::move (controlAt))
     {
         for (const auto& w : scene.wires())
             wired.insert (w.text);
@@ -98,15 +101,18 @@ private:
         if (! checkWireByComponent ((leaves ? own : there).end(), (leaves ? there : own).end())) return;
         const auto text = wireText (*own.port, there.node->name + '.' + there.port->id);
         if (wired.contains (text)) return;
-        const auto& about = (leaves ? there : own).port->about;
-        add ({ { text, {}, about },
-               { there.node->name, text, {}, about + ' ' + there.node->type },
+        const auto& param = leaves ? there : own;
+        const auto& about = param.port->about;
+        const auto control = param.port->role == Role::param ? nameOfControl (param.node->name + '.' + param.port->id) : std::string();
+        add ({ { text, {}, control.empty() ? about : control + ": " + about },
+               { there.node->name, text + ' ' + control, {}, about + ' ' + there.node->type },
                idOf (*own.port),
                { there.node->id, there.port->role, there.port->id } });
     }
 
     const Scene& scene;
     const SceneNode& node;
+    std::function<std::string (const std::string&)> nameOfControl;
     std::set<std::string, std::less<>> wired;
     std::vector<WireChoice> found;
 };
@@ -117,7 +123,10 @@ void CanvasCommands::wireFromSelection()
     const auto nodes = selectedNodes();
     if (nodes.size() != 1 || ! canvas.onChoose) return;
     const auto& node = *nodes.front();
-    WireChoices made (canvas.scene(), node);
+    WireChoices made (canvas.scene(), node, [this] (const std::string& param) {
+        const auto by = controlOf (document.graph(), canvas.address (param));
+        return by ? by->name : std::string();
+    });
     made.addWires();
     for (const auto role : WireChoices::roles)
         for (const auto& own : node.face->of (role))
@@ -153,7 +162,12 @@ void CanvasCommands::wireFromSelection()
         const auto own = choice == choices->end() ? ScenePort {} : canvas.scene().findPort (choice->own);
         if (! own) return;
         const bool leaves = own.port->role == Role::output;
-        if (const auto other = canvas.scene().findPort (choice->other)) return leaves ? join (own, other) : join (other, own);
+        if (const auto other = canvas.scene().findPort (choice->other))
+        {
+            auto& commands = *this;   // this function is gone once join() asks for a component
+            leaves ? join (own, other) : join (other, own);
+            return commands.placeAddedNode();
+        }
         if (choice->other.node != 0) return;
         constexpr float gap = 3 * Box::grid, wide = 26 * Box::grid;   // of a new node
         const auto box = own.node->bounds();
@@ -183,12 +197,14 @@ void CanvasCommands::exposeFromSelection()
     });
 }
 
-/// Wires run from left to right, so what is not wired yet gets into a row, as far as the view shows it: a hand at the left.
+/// Wires run from left to right, so what is not wired yet gets into a row, as far as the view shows it: a hand or another source at the left.
 juce::Point<float> CanvasCommands::placeFor (const std::string& type, const NodeRequest& request) const
 {
     const auto below = freePlace (canvas.scene(), request.at);
     if (request.start || request.wire != 0) return below;
-    const auto beside = placeInRow (canvas.scene(), request.at, type == "device.position");
+    const auto* sheet = canvas.types().find (type);
+    const bool is_source = sheet != nullptr && sheet->inputs.empty() && ! sheet->outputs.empty();
+    const auto beside = placeInRow (canvas.scene(), request.at, is_source);
     const auto window = canvas.getLocalBounds().toFloat();
     if (beside == request.at) return beside;
     if (! canvas.isFitted()) return window.contains (canvas.view().toPixels (beside)) ? beside : below;
@@ -220,13 +236,35 @@ void CanvasCommands::moveClear (graph::Id made, const NodeRequest& request)
         perform (placeNodes (document.graph(), canvas.patch(), { { made, to } }), graph::Step::joined);
 }
 
+/// The node that was added last, after its first wire: moves it to where this wire is short, unless the user chose its place with the pointer and the
+/// wire runs to the right.
+void CanvasCommands::placeAddedNode()
+{
+    const auto* node = canvas.scene().find (added.node);
+    if (node == nullptr || node->at != added.at) return;
+    const auto index = static_cast<int> (node - canvas.scene().nodes().data());
+    const auto& wires = canvas.scene().wires();
+    const auto touches = [&] (const SceneWire& w) { return w.start == index || w.end == index; };
+    const auto wire = std::ranges::find_if (wires, touches);
+    if (std::ranges::count_if (wires, touches) != 1 || (added.is_chosen && wire->from.x < wire->to.x)) return;
+    auto then = graphWithPlaces();
+    if (! graph::apply (then, graph::SetNodeKey { canvas.patch(), node->name, "ui" })) return;
+    const auto scene = canvas.sceneOf (then);
+    const auto* moved = scene->find (added.node);
+    if (moved == nullptr || moved->at == node->at) return;
+    perform (placeNodes (document.graph(), canvas.patch(), { { added.node, moved->at } }), graph::Step::joined);
+    canvas.bringIntoView (moved->bounds());
+}
+
 void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& request)
 {
     graph::Id made = 0;
     const auto at = placeFor (type, request);
     if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
     moveClear (made, request);
-    added = { made, canvas.getMouseXYRelative() };
+    const auto* put = canvas.scene().find (made);
+    const auto pointer = canvas.getMouseXYRelative();
+    added = { made, pointer, put == nullptr ? at : put->at, at == request.at && canvas.getLocalBounds().contains (pointer) };
     canvas.show (canvas.patch(), made);
     canvas.endEdit();   // undoing the edit brings back the view from before
     if (request.wire != 0)

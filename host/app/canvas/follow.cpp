@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-bool hasSameTexts (const Socket& x, const Socket& y) { return x.value == y.value && x.driver == y.driver && x.label == y.label; }
+bool hasSameTexts (const Socket& x, const Socket& y) { return x.value == y.value && x.driver == y.driver && x.depth == y.depth && x.label == y.label; }
 
 bool isSame (const SceneNode& a, const SceneNode& b)
 {

@@ -2,6 +2,7 @@
 #include "scene.hpp"
 #include "arrange.hpp"
 
+#include <host/app/inspector/modulation.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantities.hpp>
@@ -105,8 +106,14 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
             return outer == outside.end() ? std::string() : outer->second;
         };
         const auto valueNow = [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; };
+        const auto depth = [&, is_modulated = std::ranges::any_of (wires_to[node.name], &graph::Wire::add)] (const FacePort& p) {
+            std::string text;
+            for (const auto& m : is_modulated ? modulationsOf (graph, seen.name, node.name, p, catalogue) : std::vector<Modulation> {})
+                text += (text.empty() ? "" : " ") + sizeOf (m).toStdString();
+            return text;
+        };
         made.curve = curves.of (graph, seen, node, *made.face);
-        made.box = boxOf (node, *made.face, wired, valueNow, driver, made.curve != nullptr, widthOf);
+        made.box = boxOf (node, *made.face, wired, valueNow, driver, depth, made.curve != nullptr, widthOf);
         indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
 }

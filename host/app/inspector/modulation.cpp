@@ -98,12 +98,13 @@ std::vector<Modulation> modulationsAt (const graph::Graph& g, const std::string&
     return port == nullptr ? std::vector<Modulation> {} : modulationsOf (g, patch, rest, *port, catalogue);
 }
 
-juce::String textOf (const Modulation& m)
+juce::String sizeOf (const Modulation& m)
 {
-    const auto size = fromUtf8 (shownQuantity (rounded (std::abs (m.depth)), m.unit));
     const auto sign = m.is_one_sided ? fromUtf8 (m.depth < 0.0 ? "\xe2\x88\x92" : "+") : fromUtf8 ("\xc2\xb1");
-    return filled (TRANS ("%1 by %2"), sign + size, m.from);
+    return sign + fromUtf8 (shownQuantity (rounded (std::abs (m.depth)), m.unit));
 }
+
+juce::String textOf (const Modulation& m) { return filled (TRANS ("%1 by %2"), sizeOf (m), m.from); }
 
 std::optional<graph::Command> changeDepth (const graph::Graph& g, const Modulation& m, double to)
 {

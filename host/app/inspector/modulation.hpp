@@ -33,7 +33,10 @@ std::vector<Modulation> modulationsOf (const graph::Graph&, const std::string& p
 /// The same for the path of a param, such as "grain/wave.amplitude". None for a path into another file, or into several instances.
 std::vector<Modulation> modulationsAt (const graph::Graph&, const std::string& path, const Catalogue&);
 
-/// "±8 mN by lfo.out", or "+8 mN by env.out".
+/// "±8 mN", or "+8 mN" from a source that is never below 0.
+juce::String sizeOf (const Modulation&);
+
+/// "±8 mN by lfo.out".
 juce::String textOf (const Modulation&);
 
 /// Gives a modulation another depth, in SI units of the parameter, in the unit in which its gain is written. Empty if its wire is gone or has no gain

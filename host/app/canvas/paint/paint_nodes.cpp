@@ -168,9 +168,16 @@ private:
     }
 
     /// Paints the value of a param. A value that a wire sets is dimmed, because the user cannot set it. It shows the value while the graph runs, else
-    /// where it comes from.
+    /// where it comes from. What modulates the value follows it.
     void value (const SceneNode& node, const Socket& s, juce::Rectangle<float> row, float alpha) const
     {
+        if (! s.depth.empty())
+        {
+            const auto depth = fromUtf8 (s.depth);
+            g.setColour (theme.axes[1].withMultipliedAlpha (alpha));
+            g.drawText (depth, row, juce::Justification::centredRight, false);
+            row.removeFromRight (look.font (Box::label_size).getStringWidthFloat (depth) + Box::before_depth);
+        }
         g.setColour ((s.driver.empty() ? theme.text : theme.dim).withMultipliedAlpha (alpha));
         const auto now = s.driver.empty() ? highlights.live.driven.end() : highlights.live.driven.find ({ node.id, s.port->id });
         const auto& text = now == highlights.live.driven.end() ? (s.driver.empty() ? s.value : s.driver) : now->second;

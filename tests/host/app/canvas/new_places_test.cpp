@@ -333,3 +333,40 @@ TEST_CASE ("the first node is where the double click was", "[app][canvas]")
         w.key ("ctrl + z");
     }
 }
+
+TEST_CASE ("an oscillator that keys add and wire gets a free place at the left of what it feeds, in one step", "[app][canvas][places][keyboard]")
+{
+    for (const auto& words : { "grain amp", "roughness", "board stiff" })
+    {
+        INFO (words);
+        WindowRig w ("dry_wood.json", 1600, 1000);
+        auto& canvas = w.view->canvas();
+        const auto choose = [&] (const char* key, const char* text) {
+            w.key (key);
+            w.stage->type (text);
+            w.key ("return");
+            WindowRig::settle();
+        };
+        canvas.grabKeyboardFocus();
+        choose ("spacebar", "lfo");
+        const auto position = w.view->document().history().position();
+        const auto* lfo = w.graph().root.find ("lfo");
+        REQUIRE (lfo != nullptr);
+        const auto id = lfo->id;
+        const auto others = placesIn (canvas.scene());
+        choose ("w", words);
+        const auto& wires = canvas.scene().wires();
+        const auto wire = std::ranges::find (wires, "lfo.out", &SceneWire::source);
+        REQUIRE (wire != wires.end());
+        CHECK (wire->add);
+        CHECK (wire->from.x < wire->to.x);
+        CHECK (overlaps (canvas.scene(), { id }) == std::vector<std::string> {});
+        CHECK (hiddenWires (canvas.scene(), { id }) == std::vector<std::string> {});
+        CHECK (isInView (canvas, canvas.scene().find (id)->bounds()));
+        for (const auto& [other, at] : others)
+            if (other != id) CHECK (canvas.scene().find (other)->at == at);
+        CHECK (w.view->document().history().position() == position + 1);
+        w.key ("ctrl + z");
+        CHECK (placesIn (canvas.scene()) == others);
+    }
+}
