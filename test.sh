@@ -20,7 +20,8 @@
 #                       RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
-#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, and films the first minute;
+#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, exports stems that sox and ffprobe open,
+#                       copies a graph from one window to another, and films the first minute;
 #                       with --update, also copies the film and the pictures used in the pages to docs/host/
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
@@ -61,7 +62,7 @@ case $mode in ''|--all|--daily|--long|--tidy|--install) packages+=(clang-tidy-14
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
 case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe python3-nbsphinx python3-ipykernel pandoc libjs-mathjax doxygen) ;; esac
 [ "$mode" = --figures ] && packages+=(valgrind)
-[ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg fonts-dejavu-core)
+[ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg sox fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
 [ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix wine64 xauth)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
@@ -173,6 +174,8 @@ if [ "$mode" = --screens ]; then
     say "Walking through the host"
     rm -rf build/screens
     /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host build/screens
+    say "Composing with the keyboard, and copying between two windows"
+    /usr/bin/python3 -B tests/host/app/screens/compose.py build/release/bin/tactus-host build/screens
     say "Filming the first minute"
     /usr/bin/python3 -B tests/host/app/screens/film.py build/release/bin/tactus-host build/screens
     if [ "${2:-}" = --update ]; then
