@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_rig.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
@@ -11,6 +12,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskRig;
 
 TEST_CASE ("the description of a preset has two lines below the list, or is a tooltip, however low the panel is", "[app][presets]")
 {
@@ -78,4 +80,32 @@ TEST_CASE ("the picture of a preset is drawn again after its file has been writt
     const auto second = drawn (2);
     CHECK (second != first);
     CHECK (second->peak < 0.9 * first->peak);
+}
+
+TEST_CASE ("the browser searches by words, and Return opens a preset", "[app][presets]")
+{
+    DeskRig r;
+    auto& browser = r.make<PresetBrowser> (presetsPanel);
+    r.panel->reload();
+    browser.setSize (232, 600);
+    const auto all = browser.rows().size();
+    CHECK (all >= 30);
+    browser.search ("metal ring");
+    CHECK (browser.rows().size() < all);
+    REQUIRE_FALSE (browser.rows().empty());
+    browser.search ({});
+    CHECK (browser.rows().size() == all);
+    CHECK (browser.rows().front().heading.isEmpty());   // a single section needs no heading
+
+    Preset opened;
+    bool is_own = true;
+    browser.onOpen = [&] (const Preset& p, bool own) {
+        opened = p;
+        is_own = own;
+    };
+    auto* list = dynamic_cast<juce::ListBox*> (browser.getChildComponent (2));
+    REQUIRE (list != nullptr);
+    list->getModel()->returnKeyPressed (0);
+    CHECK (opened.name == browser.rows().front().preset->name);
+    CHECK_FALSE (is_own);
 }

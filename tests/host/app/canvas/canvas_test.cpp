@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/model/clipboard.hpp>
+#include <host/app/model/with_prefix.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -410,4 +411,20 @@ TEST_CASE ("every preset can be drawn, and a box around it selects all nodes", "
         const auto picture = rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds());
         CHECK (picture.getWidth() == 1200);
     }
+}
+
+TEST_CASE ("while nothing runs, a port says what it is, also at its label, and while it runs, a card does", "[app][words]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto at = rig.port ("drag", Role::output, "force");
+    CHECK (rig.canvas->tooltipAt (at) == "drag.force  [N]  force on the tool");
+    CHECK (rig.canvas->tooltipAt (at - juce::Point<float> (24.0f * rig.canvas->view().zoom, 0.0f)).startsWith ("drag.force"));
+    CHECK (rig.canvas->tooltipAt (rig.nowhere()).isEmpty());
+    const auto damping = rig.canvas->tooltipAt (rig.port ("board", Role::param, "damping"));
+    CHECK (damping.contains (juce::String::fromUTF8 ("[N\xc2\xb7s/m]")));   // as in the fields
+    CHECK (withPrefix (0.3, "N*s/m") == "0.30 N\xc2\xb7s/m");
+    LiveState running;
+    running.runs = true;
+    rig.canvas->showLive (running);
+    CHECK (rig.canvas->tooltipAt (at).isEmpty());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The clipboard between two windows, and text that strangers put there.
-#include "host/app/support/window_rig.hpp"
+// The clipboard between two graphs, and text that strangers put there.
+#include "host/app/support/desk_stage.hpp"
 
 #include <host/app/compose/banks.hpp>
 #include <host/app/model/clipboard.hpp>
@@ -14,14 +14,15 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 using tactus::test::Sketch;
 
 namespace
 {
-void copyAll (WindowRig& w)
+void copyAll (DeskStage& w)
 {
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + a");
     w.key ("ctrl + c");
 }
@@ -37,7 +38,7 @@ bool hasMotorLayers (const graph::Graph& g, std::size_t layers)
 TEST_CASE ("a graph that is copied in one window becomes a layer in another one, with its knobs, in one undo step", "[app][canvas][clipboard]")
 {
     {
-        WindowRig first ("velvet.json");
+        DeskStage first ("velvet.json");
         copyAll (first);
     }
     const auto text = textFromClipboard();
@@ -47,41 +48,24 @@ TEST_CASE ("a graph that is copied in one window becomes a layer in another one,
     CHECK (alone.graph.devices.size() == 1);
     CHECK_FALSE (alone.graph.controls.empty());
 
-    WindowRig w ("dry_wood.json");
+    DeskStage w ("dry_wood.json");
     const auto before = writeGraph (w.graph());
     const auto knobs = w.graph().controls.size();
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + shift + v");
-    WindowRig::settle();
-    INFO (w.view->statusText());
+    OnStage::settle();
+    INFO (w.status.text());
     CHECK (w.graph().root.find ("velvet") != nullptr);
     CHECK (hasMotorLayers (w.graph(), 4));
     CHECK (w.graph().controls.size() == knobs + alone.graph.controls.size());
-    CHECK (w.view->statusText().contains ("Velvet"));
+    CHECK (w.status.text().contains ("Velvet"));
     w.key ("ctrl + z");
     CHECK (writeGraph (w.graph()) == before);
 
     w.key ("ctrl + v");   // the nodes themselves
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (std::ranges::count (w.graph().root.nodes, "device.force", &graph::Node::type) == 2);
-    CHECK (w.view->statusText().contains ("Ctrl+Shift+V"));
-}
-
-TEST_CASE ("a preset becomes a layer from the list of nodes", "[app][canvas][clipboard]")
-{
-    WindowRig w ("dry_wood.json");
-    w.view->canvas().grabKeyboardFocus();
-    w.key ("spacebar");
-    w.stage->type ("bronze b");
-    w.key ("return");
-    WindowRig::settle();
-    INFO (w.view->statusText());
-    CHECK (w.graph().root.find ("bronze_bell") != nullptr);
-    CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
-    w.key ("spacebar");
-    w.stage->type ("lfo");
-    w.key ("return");
-    CHECK (std::ranges::count (w.graph().root.nodes, "signal.lfo", &graph::Node::type) == 1);
+    CHECK (w.status.text().contains ("Ctrl+Shift+V"));
 }
 
 TEST_CASE ("relative files of copied nodes are found from the other graph's folder", "[app][canvas][clipboard]")
@@ -95,14 +79,14 @@ TEST_CASE ("relative files of copied nodes are found from the other graph's fold
     REQUIRE (saveGraph (s.graph, folder / "a" / "one.json"));
     REQUIRE (saveGraph (Sketch {}.node ("x", "signal.constant").graph, folder / "b" / "two.json"));
     {
-        WindowRig first ((folder / "a" / "one.json").string());
+        DeskStage first ((folder / "a" / "one.json").string());
         copyAll (first);
         first.key ("ctrl + v");   // in the same graph, the path stays as it is
         REQUIRE (first.graph().root.nodes.size() == 2);
         CHECK (first.graph().root.nodes[1].settings.at ("clip") == Json ("heart.haptic"));
     }
-    WindowRig w ((folder / "b" / "two.json").string());
-    w.view->canvas().grabKeyboardFocus();
+    DeskStage w ((folder / "b" / "two.json").string());
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + v");
     REQUIRE (w.graph().root.find ("beat") != nullptr);
     CHECK (w.graph().root.find ("beat")->settings.at ("clip") == Json ("../a/heart.haptic"));
@@ -110,7 +94,7 @@ TEST_CASE ("relative files of copied nodes are found from the other graph's fold
 
 TEST_CASE ("text of strangers in the clipboard changes nothing, and the window says why", "[app][canvas][clipboard]")
 {
-    WindowRig w ("dry_wood.json");
+    DeskStage w ("dry_wood.json");
     const auto before = writeGraph (w.graph());
     std::string deep (100'000, '['), wide = R"({"format":"tactus-graph","version":2,"nodes":{)";
     for (int i = 0; i < 400'000; ++i)
@@ -124,10 +108,10 @@ TEST_CASE ("text of strangers in the clipboard changes nothing, and the window s
         {
             INFO (text.substr (0, 80) << " " << key);
             copyToClipboard (text);
-            w.view->canvas().grabKeyboardFocus();
+            w.canvas.grabKeyboardFocus();
             w.key (key);
             CHECK (writeGraph (w.graph()) == before);
-            CHECK (w.view->statusText().contains ("Nothing to paste"));
+            CHECK (w.status.text().contains ("Nothing to paste"));
         }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of params on a node: their order, and what wires set.
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 
 #include "support/sketch.hpp"
 
@@ -13,10 +13,12 @@
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using host::test::DeskStage;
 using host::test::Hand;
+using host::test::OnStage;
 using host::test::readTexts;
 using host::test::waitFor;
-using host::test::WindowRig;
+
 using tactus::test::Sketch;
 
 namespace
@@ -153,86 +155,79 @@ TEST_CASE ("what a wire sets is named on the node, follows the run, and is not s
 
 TEST_CASE ("while the graph runs, the node and the inspector show what a wire sets a param to", "[app][inspector][rows]")
 {
-    const TemporaryFolder folder;
     auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
     g.controls.clear();
     g.root.nodes.push_back (Sketch::makeNode ("level", "signal.constant", { { "value", "0.5 mm" } }));
     g.root.wires.push_back (*graph::parseWire ("level.out -> drag.d_max"));
-    REQUIRE (saveGraph (g, folder / "driven.json"));
-    WindowRig w ((folder / "driven.json").string(), 1280, 1000);
-    auto& canvas = w.view->canvas();
+    DeskStage w (g, 1280, 1000);
+    auto& canvas = w.canvas;
     canvas.select ({ w.graph().root.find ("drag")->id });
-    WindowRig::settle();
+    OnStage::settle();
     auto* field = dynamic_cast<NumberField*> (w.titled (juce::String (readable ("d_max"))));
     REQUIRE (field != nullptr);
     CHECK (field->isDriven());
     CHECK (field->spokenValue() == "level.out");
-    CHECK (reads (w.view->part<Inspector>(), "from level.out"));
+    CHECK (reads (w.inspector, "from level.out"));
 
-    const auto before = w.view->document().version();
+    const auto before = w.document.version();
     const auto middle = w.middleOf (*field);
     w.stage->drag (middle, middle + juce::Point<float> (50.0f, 0.0f));
     w.stage->doubleClick (middle);
     CHECK_FALSE (field->isEditing());
     CHECK_FALSE (field->type ("0.3 mm"));
-    CHECK (w.view->document().version() == before);
+    CHECK (w.document.version() == before);
 
-    canvas.grabKeyboardFocus();
-    w.key ("F5");
+    w.playback.start ({});
     const auto shown = [] (int um) { return juce::String (um) + juce::String::fromUTF8 (" \xc2\xb5m"); };
-    INFO (messagesOf (w.view->run()));
+    INFO (messagesOf (w.playback.run()));
     REQUIRE (waitFor ([&] { return field->spokenValue() == shown (500); }));
     REQUIRE (waitFor ([&] { return reads (canvas, shown (500)); }));
-    w.view->document().perform (graph::SetParam { {}, "level", "value", Json ("0.6 mm") });
+    w.document.perform (graph::SetParam { {}, "level", "value", Json ("0.6 mm") });
     CHECK (waitFor ([&] { return field->spokenValue() == shown (600); }));
     CHECK (reads (canvas, shown (600)));
-    w.view->run().stop();
+    w.playback.run().stop();
     CHECK (waitFor ([&] { return field->spokenValue() == "level.out"; }));
     CHECK (reads (canvas, "level.out"));
 
-    w.view->document().perform (graph::RemoveWire { {}, w.graph().root.wires.back().id });
-    WindowRig::settle();
+    w.document.perform (graph::RemoveWire { {}, w.graph().root.wires.back().id });
+    OnStage::settle();
     CHECK_FALSE (field->isDriven());
     CHECK (field->type ("0.3 mm"));
     CHECK (w.graph().root.find ("drag")->params["d_max"] == "0.3 mm");
-    w.view->run().letGo();
+    w.playback.run().letGo();
 }
 
 TEST_CASE ("a param that is driven from outside of its subgraph is marked inside, on the node and in the inspector", "[app][canvas][rows]")
 {
-    const TemporaryFolder folder;
     Sketch s;
     auto& inside = s.subgraph ("rub");
     s.add (inside, "drag", "friction.elasto_plastic");
     inside.expose.params.emplace_back ("grip", *graph::parseEndpoint ("drag.mu"));
     s.node ("level", "signal.constant", { { "value", 0.4 } }).node ("part", "graph:rub").wire ("level.out -> part.grip");
-    REQUIRE (saveGraph (s.graph, folder / "nested.json"));
-    WindowRig w ((folder / "nested.json").string(), 1280, 1000);
-    auto& canvas = w.view->canvas();
+    DeskStage w (s.graph, 1280, 1000);
+    auto& canvas = w.canvas;
     const auto& part = canvas.scene().nodes()[1];
     REQUIRE (part.name == "part");
     w.stage->doubleClick (w.stage->getLocalPoint (&canvas, canvas.view().toPixels (part.at + juce::Point<float> (40.0f, 14.0f))));
-    WindowRig::settle();
+    OnStage::settle();
     REQUIRE (canvas.seen().path == "part/");
     CHECK (reads (canvas, "level.out"));
     canvas.select ({ canvas.scene().nodes().front().id });
-    WindowRig::settle();
+    OnStage::settle();
     auto* field = dynamic_cast<NumberField*> (w.titled (juce::String::fromUTF8 ("Parameter \xce\xbc, friction coefficient")));
     if (field == nullptr) field = dynamic_cast<NumberField*> (w.titled ("mu"));
     REQUIRE (field != nullptr);
     CHECK (field->isDriven());
     CHECK_FALSE (field->type ("0.3"));
-    canvas.grabKeyboardFocus();
-    w.key ("F5");
-    INFO (messagesOf (w.view->run()));
+    w.playback.start ({});
+    INFO (messagesOf (w.playback.run()));
     CHECK (waitFor ([&] { return field->spokenValue() == "0.4"; }));
     CHECK (waitFor ([&] { return reads (canvas, "0.4"); }));
-    w.view->run().letGo();
+    w.playback.run().letGo();
 }
 
 TEST_CASE ("each of 60 params that wires set shows its value while the graph runs", "[app][canvas][rows]")
 {
-    const TemporaryFolder folder;
     Sketch s;
     constexpr int count = 60;
     for (int i = 0; i < count; ++i)
@@ -241,11 +236,9 @@ TEST_CASE ("each of 60 params that wires set shows its value while the graph run
         s.node ("level" + n, "signal.constant", { { "value", 0.4 } }).node ("drag" + n, "friction.elasto_plastic");
         s.wire ("level" + n + ".out -> drag" + n + ".mu");
     }
-    REQUIRE (saveGraph (s.graph, folder / "many.json"));
-    WindowRig w ((folder / "many.json").string(), 1280, 1000);
-    w.view->canvas().grabKeyboardFocus();
-    w.key ("F5");
-    INFO (messagesOf (w.view->run()));
-    CHECK (waitFor ([&] { return w.view->canvas().highlighted().live.driven.size() == count; }));
-    w.view->run().letGo();
+    DeskStage w (s.graph, 1280, 1000);
+    w.playback.start ({});
+    INFO (messagesOf (w.playback.run()));
+    CHECK (waitFor ([&] { return w.canvas.highlighted().live.driven.size() == count; }));
+    w.playback.run().letGo();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups of nodes within groups, made with the mouse and the keyboard.
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
 #include <host/app/problems/unfelt.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -12,16 +12,15 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
 
 namespace
 {
-struct GroupBench : WindowRig
+struct GroupBench : DeskStage
 {
-    GroupBench (int width, int height) : WindowRig ("dry_wood.json", width, height) { canvas().grabKeyboardFocus(); }
+    GroupBench (int width, int height) : DeskStage ("dry_wood.json", width, height) {}
 
-    Canvas& canvas() { return view->canvas(); }
-    const Scene& scene() { return canvas().scene(); }
+    const Scene& scene() { return canvas.scene(); }
     std::string text() { return writeGraph (graph()); }
 
     const SceneNode& node (const std::string& name)
@@ -34,22 +33,22 @@ struct GroupBench : WindowRig
 
     bool isInView (juce::Rectangle<float> area)
     {
-        const auto& v = canvas().view();
-        return canvas().getLocalBounds().toFloat().contains (juce::Rectangle<float> (v.toPixels (area.getTopLeft()), v.toPixels (area.getBottomRight())));
+        const auto& v = canvas.view();
+        return canvas.getLocalBounds().toFloat().contains (juce::Rectangle<float> (v.toPixels (area.getTopLeft()), v.toPixels (area.getBottomRight())));
     }
 
-    void select (const std::vector<std::string>& names)
+    void click (const std::vector<std::string>& names)
     {
-        canvas().select ({});
+        canvas.select ({});
         for (const auto& name : names)
         {
-            const auto at = canvas().view().toPixels (node (name).at + juce::Point<float> (20.0f, Box::header_height / 2));
-            const auto on_stage = stage->getLocalPoint (&canvas(), at);
-            REQUIRE (stage->getComponentAt (on_stage.roundToInt()) == &canvas());
-            stage->click (on_stage, juce::ModifierKeys::leftButtonModifier, canvas().selection().empty() ? 0 : juce::ModifierKeys::shiftModifier);
+            const auto at = canvas.view().toPixels (node (name).at + juce::Point<float> (20.0f, Box::header_height / 2));
+            const auto on_stage = stage->getLocalPoint (&canvas, at);
+            REQUIRE (stage->getComponentAt (on_stage.roundToInt()) == &canvas);
+            stage->click (on_stage, juce::ModifierKeys::leftButtonModifier, canvas.selection().empty() ? 0 : juce::ModifierKeys::shiftModifier);
         }
         settle();
-        REQUIRE (canvas().selection().size() == names.size());
+        REQUIRE (canvas.selection().size() == names.size());
     }
 
     /// What the canvas shows of the graph alone.
@@ -57,8 +56,8 @@ struct GroupBench : WindowRig
     {
         stage->move ({ 2.0f, 2.0f });   // away from every wire
         settle();
-        canvas().select ({});
-        return canvas().createComponentSnapshot (canvas().getLocalBounds());
+        canvas.select ({});
+        return canvas.createComponentSnapshot (canvas.getLocalBounds());
     }
 
     /// What the Problems panel is told about the graph.
@@ -108,7 +107,7 @@ bool isSamePicture (const juce::Image& a, const juce::Image& b)
 
 TEST_CASE ("groups within groups show their ports at every depth, are no problem, and stay in view", "[app][canvas][groups][undo]")
 {
-    const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
+    const auto [width, height] = GENERATE (std::pair { 1368, 656 }, std::pair { 1048, 376 });
     GroupBench w (width, height);
     const bool has_moved_view = GENERATE (false, true);
     const auto text = w.text();
@@ -123,28 +122,28 @@ TEST_CASE ("groups within groups show their ports at every depth, are no problem
     };
     std::vector<Level> levels;
     std::vector<std::string> members { "board", "drag", "touch", "grain", "grain_felt" };
-    const auto begin = w.view->document().history().position();
+    const auto begin = w.document.history().position();
     for (std::size_t depth = 1; members.size() > 1; ++depth, members.pop_back())
     {
         INFO ("depth " << depth);
-        if (has_moved_view) w.stage->wheel (w.middleOf (w.canvas()), -0.2f, false);
-        w.select (members);
+        if (has_moved_view) w.stage->wheel (w.middleOf (w.canvas), -0.2f, false);
+        w.click (members);
         w.key ("g");
         const auto name = depth == 1 ? std::string ("group") : "group_" + std::to_string (depth);
-        CHECK (w.view->document().history().position() == begin + depth);
+        CHECK (w.document.history().position() == begin + depth);
         CHECK (w.isInView (w.node (name).bounds()));
-        CHECK (w.canvas().selection() == Selection { w.node (name).id });
+        CHECK (w.canvas.selection() == Selection { w.node (name).id });
         for (const auto& other : w.scene().nodes())
             if (other.name != name) CHECK_FALSE (other.bounds().intersects (w.node (name).bounds()));
         CHECK (w.problems() == problems);
         CHECK (w.force() == force);
         levels.push_back ({ w.text(), w.picture(), {} });
 
-        w.select ({ name });
+        w.click ({ name });
         w.key ("return");
-        REQUIRE (w.canvas().patch() == name);
+        REQUIRE (w.canvas.patch() == name);
         CHECK (w.scene().nodes().size() == members.size());
-        CHECK (w.canvas().view().zoom >= View::readable);
+        CHECK (w.canvas.view().zoom >= View::readable);
         for (const auto& n : w.scene().nodes())
             CHECK (w.isInView (n.bounds()));
         // Each port of the node outside is a label inside, and none is missing.
@@ -170,7 +169,7 @@ TEST_CASE ("groups within groups show their ports at every depth, are no problem
     {
         w.key ("ctrl + z");
         CHECK (w.text() == (i == 0 ? text : levels[i - 1].text));
-        CHECK (w.canvas().breadcrumbs().size() <= i);
+        CHECK (w.canvas.breadcrumbs().size() <= i);
         CHECK (w.problems() == problems);
         CHECK (w.force() == force);
     }
@@ -182,7 +181,7 @@ TEST_CASE ("groups within groups show their ports at every depth, are no problem
         CHECK (w.force() == force);
         const auto name = i == 0 ? std::string ("group") : "group_" + std::to_string (i + 1);
         CHECK (w.isInView (w.node (name).bounds()));
-        w.select ({ name });
+        w.click ({ name });
         w.key ("return");
         CHECK (isSamePicture (w.picture(), levels[i].inside));
     }

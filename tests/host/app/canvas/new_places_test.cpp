@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where nodes go that the window adds by itself: to free places where their wires are short and cross no node.
 #include "host/app/support/canvas_rig.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
 #include <host/app/canvas/actions.hpp>
 #include <host/app/canvas/arrange.hpp>
 #include <host/app/fit_panel/fit_panel.hpp>
+#include <host/app/layers/layers_panel.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/problems/unfelt.hpp>
@@ -18,8 +19,9 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
+using tactus::host::test::DeskStage;
 using tactus::host::test::latestStep;
-using tactus::host::test::WindowRig;
+using tactus::host::test::waitFor;
 
 namespace
 {
@@ -76,7 +78,7 @@ bool isInView (const Canvas& canvas, juce::Rectangle<float> area)
 }
 
 /// Without its hand, or its motors.
-std::filesystem::path withoutDevices (const TemporaryFolder& folder, const char* preset, const std::string& type)
+graph::Graph withoutDevices (const char* preset, const std::string& type)
 {
     auto g = CanvasRig::preset (preset);
     std::vector<std::string> gone;
@@ -84,9 +86,7 @@ std::filesystem::path withoutDevices (const TemporaryFolder& folder, const char*
         if (n.type == type) gone.push_back (n.name);
     for (const auto& name : gone)
         REQUIRE (graph::apply (g, graph::RemoveNode { {}, name }));
-    const auto file = folder / "open.json";
-    REQUIRE (saveGraph (g, file));
-    return file;
+    return g;
 }
 }   // namespace
 
@@ -153,17 +153,16 @@ TEST_CASE ("a new hand or motor gets a free place in every preset, and its wires
 
 TEST_CASE ("Add a hand, Add a motor and Wire in the Problems panel leave the other nodes where they are", "[app][canvas][places][problems]")
 {
-    const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
+    const auto [width, height] = GENERATE (std::pair { 1368, 920 }, std::pair { 1048, 640 });
     const std::string type = GENERATE ("device.position", "device.force");
     const bool has_moved_view = GENERATE (false, true);
-    TemporaryFolder folder;
-    WindowRig w (withoutDevices (folder, "dry_wood", type).string(), width, height);   // an absolute path
-    auto& canvas = w.view->canvas();
+    DeskStage w (withoutDevices ("dry_wood", type), width, height);
+    auto& canvas = w.canvas;
+    auto& list = w.show<ProblemList> (problemsPanel);
     if (has_moved_view) canvas.view().origin += juce::Point<float> (3000.0f, 0.0f);
     const auto before = placesIn (canvas.scene());
     const auto text = writeGraph (w.graph());
-    WindowRig::settle (300);
-    w.click ("Problems " + juce::String (w.view->part<ProblemList>().messages().size()));
+    REQUIRE (waitFor ([&] { return ! list.messages().empty(); }));
     w.click (type == "device.position" ? "Add a hand" : "Add a motor");
     REQUIRE (canvas.scene().nodes().size() > before.size());
     Selection made;
@@ -176,17 +175,18 @@ TEST_CASE ("Add a hand, Add a motor and Wire in the Problems panel leave the oth
     CHECK (hiddenWires (canvas.scene(), made) == std::vector<std::string> {});
     for (const auto id : made)
         CHECK (isInView (canvas, canvas.scene().find (id)->bounds()));
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK (writeGraph (w.graph()) == text);
 }
 
 TEST_CASE ("a fit that is added to the graph gets a free place and its wires, in view, as one undo", "[app][canvas][places][fit]")
 {
-    const auto [width, height] = GENERATE (std::pair { 1600, 1000 }, std::pair { 1280, 720 });
+    const auto [width, height] = GENERATE (std::pair { 1368, 920 }, std::pair { 1048, 640 });
     const bool has_moved_view = GENERATE (false, true);
-    WindowRig w ("dry_wood.json", width, height);
-    auto& canvas = w.view->canvas();
+    DeskStage w ("dry_wood.json", width, height);
+    auto& fit = w.show<FitPanel> (fitPanel);
+    auto& canvas = w.canvas;
     if (has_moved_view) canvas.view().origin += juce::Point<float> (3000.0f, 0.0f);
     Random random { 3 };
     std::ostringstream rows;
@@ -202,14 +202,12 @@ TEST_CASE ("a fit that is added to the graph gets a free place and its wires, in
     std::ofstream (w.home / "strokes.csv") << rows.str();
     const auto before = placesIn (canvas.scene());
     const auto text = writeGraph (w.graph());
-    const auto position = w.view->document().history().position();
-    w.view->desk().fitRecording (w.home / "strokes.csv");
-    for (int i = 0; i < 4000 && ! w.view->part<FitPanel>().fitted(); ++i)
-        WindowRig::settle (5);
-    REQUIRE (w.view->part<FitPanel>().fitted());
+    const auto position = w.document.history().position();
+    w.desk.fitRecording (w.home / "strokes.csv");
+    REQUIRE (waitFor ([&] { return fit.fitted().has_value(); }));
     w.click ("Add to this graph");
-    CHECK (latestStep (w.view->document()).starts_with ("add fit"));
-    CHECK (w.view->document().history().position() == position + 1);
+    CHECK (latestStep (w.document).starts_with ("add fit"));
+    CHECK (w.document.history().position() == position + 1);
     Selection made;
     for (const auto& n : canvas.scene().nodes())
     {
@@ -292,10 +290,11 @@ TEST_CASE ("new boxes go between what feeds them and what they feed, clear of bo
 
 TEST_CASE ("a mixer before the motor leaves the motor in view", "[app][canvas][layers]")
 {
-    WindowRig w ("dry_wood.json", 1920, 1080);
-    auto& canvas = w.view->canvas();
+    DeskStage w ("dry_wood.json", 1688, 1000);
+    w.show<LayersPanel> (layersPanel);
+    auto& canvas = w.canvas;
+    canvas.frameStart();
     REQUIRE (canvas.isFitted());
-    w.click ("Layers");
     w.click ("Add a mixer before the motor");
     for (const auto& n : canvas.scene().nodes())
     {
@@ -305,68 +304,4 @@ TEST_CASE ("a mixer before the motor leaves the motor in view", "[app][canvas][l
         CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
     }
     CHECK (canvas.isFitted());
-}
-
-TEST_CASE ("the first node is where the double click was", "[app][canvas]")
-{
-    WindowRig w;
-    w.key ("ctrl + n");
-    auto& canvas = w.view->canvas();
-    for (const auto& part : { juce::Point<float> (0.3f, 0.4f), juce::Point<float> (0.85f, 0.2f), juce::Point<float> (0.97f, 0.97f) })
-    {
-        w.key ("ctrl + n");
-        const auto at = canvas.getLocalBounds().toFloat().getRelativePoint (part.x, part.y);
-        const auto on_canvas = canvas.view().toCanvas (at);
-        w.stage->doubleClick (w.stage->getLocalPoint (&canvas, at));
-        WindowRig::settle();
-        REQUIRE (w.titled ("Palette") != nullptr);
-        w.stage->type ("plane");
-        WindowRig::settle();
-        w.key ("return");
-        WindowRig::settle();
-        REQUIRE (canvas.scene().nodes().size() == 1);
-        const auto b = canvas.scene().nodes().front().bounds();
-        INFO (part.toString() << ": " << on_canvas.toString() << " " << b.toString());
-        CHECK (b.expanded (1.0f).contains (on_canvas));
-        const juce::Rectangle<float> pixels (canvas.view().toPixels (b.getTopLeft()), canvas.view().toPixels (b.getBottomRight()));
-        CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
-        w.key ("ctrl + z");
-    }
-}
-
-TEST_CASE ("an oscillator that keys add and wire gets a free place at the left of what it feeds, in one step", "[app][canvas][places][keyboard]")
-{
-    for (const auto& words : { "grain amp", "roughness", "board stiff" })
-    {
-        INFO (words);
-        WindowRig w ("dry_wood.json", 1600, 1000);
-        auto& canvas = w.view->canvas();
-        const auto choose = [&] (const char* key, const char* text) {
-            w.key (key);
-            w.stage->type (text);
-            w.key ("return");
-            WindowRig::settle();
-        };
-        canvas.grabKeyboardFocus();
-        choose ("spacebar", "lfo");
-        const auto position = w.view->document().history().position();
-        const auto* lfo = w.graph().root.find ("lfo");
-        REQUIRE (lfo != nullptr);
-        const auto id = lfo->id;
-        const auto others = placesIn (canvas.scene());
-        choose ("w", words);
-        const auto& wires = canvas.scene().wires();
-        const auto wire = std::ranges::find (wires, "lfo.out", &SceneWire::source);
-        REQUIRE (wire != wires.end());
-        CHECK (wire->add);
-        CHECK (wire->from.x < wire->to.x);
-        CHECK (overlaps (canvas.scene(), { id }) == std::vector<std::string> {});
-        CHECK (hiddenWires (canvas.scene(), { id }) == std::vector<std::string> {});
-        CHECK (isInView (canvas, canvas.scene().find (id)->bounds()));
-        for (const auto& [other, at] : others)
-            if (other != id) CHECK (canvas.scene().find (other)->at == at);
-        CHECK (w.view->document().history().position() == position + 1);
-        w.key ("ctrl + z");
-        CHECK (placesIn (canvas.scene()) == others);
-    }
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers on a node.
-#include "host/app/support/window_rig.hpp"
-
 #include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/model/quantity_text.hpp>
@@ -12,7 +10,6 @@
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
-using host::test::WindowRig;
 
 TEST_CASE ("a node shows six digits of a long number, and an edit of it that changes nothing keeps them all", "[app][canvas]")
 {
@@ -85,44 +82,6 @@ TEST_CASE ("a damping on a node can be dragged, and typed with the unit that it 
     editor->onReturnKey();
     CHECK (rig.hint == "");
     CHECK (damping() == "0.45 N*s/m");
-}
-
-TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, another value or an undo", "[app][canvas][words]")
-{
-    WindowRig w ("templates/stroke.json");
-    auto& canvas = w.view->canvas();
-    const auto place = [&] (const std::string& name, const std::string& param) {
-        const auto& node = *std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
-        const juce::Point<float> in_node { node.box.width - 20.0f, node.box.find (Role::param, param)->at.y };
-        return w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.at + in_node));
-    };
-    const auto at = place ("wall", "damping");
-    const auto type = [&] (const juce::String& text) {
-        w.stage->doubleClick (at);
-        WindowRig::settle();
-        w.key ("ctrl + a");
-        w.stage->type (text);
-        w.key ("return");
-        w.stage->move (at.translated (1.0f, 0.0f));
-        WindowRig::settle();
-    };
-    type ("5 kg");
-    CHECK (w.view->statusText().contains ("kg does not fit"));
-    w.stage->move (place ("drag", "mu"));   // to see what the other numbers are
-    WindowRig::settle();
-    CHECK (w.view->statusText().contains ("kg does not fit"));
-    w.key ("escape");
-    CHECK_FALSE (w.view->statusText().contains ("kg"));
-
-    type ("5 kg");
-    CHECK (w.view->statusText().contains ("kg does not fit"));
-    type ("0.5");
-    CHECK_FALSE (w.view->statusText().contains ("kg"));
-    type ("5 kg");
-    w.stage->click (w.stage->getLocalPoint (&canvas, juce::Point<float> (4.0f, 4.0f)));   // closes the field
-    CHECK (w.view->statusText().contains ("kg does not fit"));
-    w.key ("ctrl + z");
-    CHECK_FALSE (w.view->statusText().contains ("kg"));
 }
 
 TEST_CASE ("a vector is typed on its node, with or without parentheses and commas", "[app][canvas]")

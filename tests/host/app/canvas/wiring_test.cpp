@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Wires that are drawn, dropped, moved and removed with the mouse, and nodes that are inserted into them.
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
+#include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
@@ -9,7 +11,10 @@
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using host::test::DeskStage;
 using host::test::Hand;
+using host::test::latestStep;
+using host::test::OnStage;
 
 TEST_CASE ("a wire can be drawn from an output to a matching input, or from the input to the output", "[app][canvas]")
 {
@@ -215,4 +220,51 @@ TEST_CASE ("shift-dragging moves a wire to another input or removes it", "[app][
     rig.hand().drag (rig.port ("board", Role::input, "position"), rig.port ("grain", Role::input, "position"), shift);
     CHECK (rig.hasWire ("hand.position -> grain.position"));
     CHECK_FALSE (rig.hasWire ("hand.position -> board.position"));
+}
+
+TEST_CASE ("moving a wire to another port is one step, and the history names wires and nodes", "[app][undo]")
+{
+    DeskStage w ("layered_cloth.json", 1600, 900);
+    auto& canvas = w.canvas;
+    auto& document = w.document;
+    canvas.frameAll();
+    const auto port = [&] (const std::string& node, Role role, const std::string& id) {
+        for (const auto& n : canvas.scene().nodes())
+            if (n.name == node) return w.stage->getLocalPoint (&canvas, canvas.view().toPixels (n.placeOf (*n.box.find (role, id))));
+        FAIL ("no node " << node);
+        return juce::Point<float>();
+    };
+    const auto texts = [&] {
+        std::vector<std::string> all;
+        for (const auto& wire : canvas.scene().wires())
+            all.push_back (wire.text);
+        return all;
+    };
+    const auto before = writeGraph (w.graph());
+    const auto position = document.history().position();
+    w.stage->drag (port ("table", Role::input, "position"), port ("threads", Role::input, "position"), juce::ModifierKeys::leftButtonModifier,
+                   juce::ModifierKeys::shiftModifier);
+    OnStage::settle();
+    CHECK (document.history().position() <= position + 1);
+    w.stage->drag (port ("drag", Role::input, "position"), port ("table", Role::input, "position"), juce::ModifierKeys::leftButtonModifier,
+                   juce::ModifierKeys::shiftModifier);
+    OnStage::settle();
+    CHECK (std::ranges::count (texts(), "hand.position -> drag.position") == 0);
+    CHECK (std::ranges::count (texts(), "hand.position -> table.position") == 1);
+    CHECK (latestStep (document) == "re-plug wire hand.position -> table.position");
+    document.goTo (position);
+    CHECK (writeGraph (w.graph()) == before);
+
+    // Back where it was: not a step.
+    w.stage->drag (port ("drag", Role::input, "position"), port ("drag", Role::input, "position").translated (2.0f, 2.0f),
+                   juce::ModifierKeys::leftButtonModifier, juce::ModifierKeys::shiftModifier);
+    CHECK (document.history().position() == position);
+
+    canvas.select ({ w.graph().root.find ("touch")->id });
+    w.key ("delete");
+    CHECK (latestStep (document) == "delete touch");
+    w.key ("ctrl + z");
+    w.stage->drag (port ("table", Role::output, "force"), port ("felt", Role::input, "in"));
+    OnStage::settle();
+    CHECK (latestStep (document) == "table.force -> felt.in");
 }

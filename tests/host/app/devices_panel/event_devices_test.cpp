@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Wheels and pads at event devices, in the Devices panel. The device is that of tests/plugins/objects/moving_stick.cpp.
+#include "host/app/support/on_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 
+#include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <host/app/devices_panel/devices_panel.hpp>
@@ -13,8 +14,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::OnStage;
 using tactus::host::test::Stage;
-using tactus::host::test::WindowRig;
 
 namespace
 {
@@ -24,7 +25,7 @@ std::vector<ConnectedEvents> listed()
 }
 
 /// The Devices panel on a screen, with a board to feel.
-struct Bench
+struct Bench : OnStage
 {
     Bench()
     {
@@ -58,26 +59,25 @@ struct Bench
         return tactus::test::eventually ({}, [&] {
             run.poll();
             panel->refresh();
-            WindowRig::settle (5);
+            OnStage::settle (5);
             return isSo();
         });
     }
 
     juce::Component& part (const juce::String& title)
     {
-        auto* found = WindowRig::titledIn (*panel, title);
+        auto* found = OnStage::titledIn (*panel, title);
         REQUIRE (found != nullptr);
         return *found;
     }
-    juce::Point<float> middleOf (juce::Component& c) { return stage->getLocalPoint (&c, c.getLocalBounds().getCentre()).toFloat(); }
 
     void type (const juce::String& label, const juce::String& text)
     {
         stage->click (middleOf (part (label)));
-        WindowRig::settle();
+        OnStage::settle();
         stage->type (text);
         stage->key ("return");
-        WindowRig::settle();
+        OnStage::settle();
     }
 
     juce::String text()
@@ -101,7 +101,6 @@ struct Bench
     DeviceSetup setup { hid::thisComputer(), deviceProfiles(), listed };
     LiveRun run { document, catalogue() };
     std::unique_ptr<DevicesPanel> panel;
-    std::unique_ptr<Stage> stage;
     juce::String hint;
 };
 }   // namespace
@@ -125,13 +124,13 @@ TEST_CASE ("an event device is chosen and calibrated in the window, runs, and it
 {
     Bench b;
     const auto offers = [&] {
-        auto* box = dynamic_cast<juce::ComboBox*> (WindowRig::titledIn (*b.panel, "device"));
+        auto* box = dynamic_cast<juce::ComboBox*> (OnStage::titledIn (*b.panel, "device"));
         for (int i = 0; box != nullptr && i < box->getNumItems(); ++i)
             if (box->getItemText (i).startsWith ("Moving stick")) return i;
         return -1;
     };
     REQUIRE (b.until ([&] { return offers() >= 0; }));   // the scan has found it
-    WindowRig::chooseFrom (*b.stage, b.middleOf (b.part ("device")), offers(), juce::ModifierKeys::leftButtonModifier);
+    OnStage::chooseFrom (*b.stage, b.middleOf (b.part ("device")), offers(), juce::ModifierKeys::leftButtonModifier);
     CHECK (b.binding() == Json { { "driver", "evdev" }, { "port", "Moving stick" } });
     REQUIRE (b.until ([&] { return b.text().contains ("Connected."); }));
 

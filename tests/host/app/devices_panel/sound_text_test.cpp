@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_stage.hpp"
+
+#include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/devices_panel/sound_text.hpp>
+#include <host/devices/audio/card.hpp>
 
 #include <support/property.hpp>
 
@@ -7,6 +11,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskStage;
+using tactus::host::test::waitFor;
 
 TEST_CASE ("a route is typed as on the command line, and keys that cannot be typed are preserved", "[app][sessions]")
 {
@@ -42,4 +48,23 @@ TEST_CASE ("the channels of a role are typed as a list", "[app][sessions]")
         }
         RC_ASSERT (readChannelsText (textOfChannels (channels), {}) == channels);
     });
+}
+
+TEST_CASE ("the lists of sound cards say if none was found", "[app][sessions]")
+{
+    DeskStage w ("dry_wood.json", 1600, 1000);
+    w.show<DevicesPanel> (devicesPanel);
+    const auto cards = audio::soundCards().list();
+    const auto isThere = [&] (auto channels) {
+        return std::ranges::any_of (cards, [&] (const audio::ListedCard& c) { return ! (c.*channels).empty() || ! c.trouble.empty(); });
+    };
+    const auto check = [&] (const char* list, bool has_any) {
+        INFO (list);
+        const auto* box = dynamic_cast<juce::ComboBox*> (w.titled (list));
+        REQUIRE (box != nullptr);
+        CHECK (waitFor ([&] { return box->getText() == (has_any ? "automatic" : "automatic (none found)"); }));
+    };
+    check ("audio system", ! cards.empty());
+    check ("output", isThere (&audio::ListedCard::outputs));
+    check ("input", isThere (&audio::ListedCard::inputs));
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the hand is, in the window: a role's workspace in the Devices panel, the box that its device can reach in the scene, and the clutch by a key.
-// The force steps nowhere.
+// Where the hand is: a role's workspace in the Devices panel, and the box that its device can reach in the scene. The force steps nowhere.
 
+#include "host/app/support/desk_stage.hpp"
+#include "host/app/support/film_steps.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 
 #include <host/app/devices_panel/axes_text.hpp>
 #include <host/app/devices_panel/devices_panel.hpp>
@@ -11,44 +11,37 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskRig;
+using tactus::host::test::DeskStage;
 using tactus::host::test::latestStep;
-using tactus::host::test::WindowRig;
+using tactus::host::test::OnStage;
+using tactus::host::test::stepsChecked;
 
 namespace
 {
-template <typename T>
-T* partIn (juce::Component& c)
+/// The panel and the hand with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
+struct Bench : DeskStage
 {
-    if (auto* part = dynamic_cast<T*> (&c)) return part;
-    for (auto* child : c.getChildren())
-        if (auto* part = partIn<T> (*child)) return part;
-    return nullptr;
-}
-
-constexpr double ramp_s = 0.05, strongest = 4.0;
-
-/// The window with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
-struct Bench : WindowRig
-{
-    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : DeskStage (preset, 1600, 1000), role (std::move (of))
     {
-        click ("Devices");
-        panel().bindings().bind (role, "simulated PHANTOM 1.0");
+        show<DevicesPanel> (devicesPanel);
+        showHand();
+        panel().bind (role, "simulated PHANTOM 1.0");
         set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
         set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
         REQUIRE (binding().contains ("hand"));
         click ("3D");
-        view->run().film().keep (FilmTape::longest_s);
+        run().film().keep (FilmTape::longest_s);
     }
-    ~Bench() { view->run().letGo(); }
     Bench (const Bench&) = delete;
     Bench& operator= (const Bench&) = delete;
 
     const std::string role;
 
-    DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
-    SceneView& scene() { return *partIn<SceneView> (*view); }
-    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
+    LiveRun& run() { return playback.run(); }
+    DevicesPanel& panel() { return dynamic_cast<DevicesPanel&> (*DeskRig::panel->component); }
+    SceneView& scene() { return hand->scene(); }
+    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
     Json binding() const { return saved()["roles"][role]; }
@@ -62,25 +55,23 @@ struct Bench : WindowRig
 
     void start()
     {
-        view->canvas().grabKeyboardFocus();
-        key ("F5");
-        REQUIRE (until ([&] { return view->run().tool() && force() > 0.0 && ticks() > 0; }));
+        playback.start ({});
+        REQUIRE (until ([&] { return run().tool() && force() > 0.0 && ticks() > 0; }));
     }
-    double force() { return view->run().tool() ? view->run().tool()->force.norm() : 0.0; }
-    Vec3 origin() { return view->run().workspaceOf (role)->offset; }
+    double force() { return run().tool() ? run().tool()->force.norm() : 0.0; }
+    Vec3 origin() { return run().workspaceOf (role)->offset; }
 
     /// A capture that never triggers ends with the run.
     void watchRun (const char* port)
     {
-        const auto names = view->run().capture (port, port, { .level = 1e9 });
+        const auto names = run().capture (port, port, { .level = 1e9 });
         REQUIRE (names);
     }
-    bool isSameRun() { return view->run().isCapturing(); }
+    bool isSameRun() { return run().isCapturing(); }
 
     /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
     juce::TextEditor& field (const juce::String& label)
     {
-        click ("Devices");
         auto* found = dynamic_cast<juce::TextEditor*> (titledIn (panel(), label));
         REQUIRE (found != nullptr);
         const auto isReached = [&] {
@@ -98,7 +89,6 @@ struct Bench : WindowRig
 
     bool says (const juce::String& text)
     {
-        click ("Devices");
         stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), 100.0f, true);   // to its top
         settle();
         juce::StringArray words;
@@ -107,7 +97,7 @@ struct Bench : WindowRig
         return words.joinIntoString (" ").replace ("  ", " ").contains (text);
     }
 
-    std::uint64_t ticks() { return view->run().film().end(); }
+    std::uint64_t ticks() { return run().film().end(); }
 
     void type (const juce::String& label, const juce::String& text)
     {
@@ -117,26 +107,6 @@ struct Bench : WindowRig
         stage->type (text);
         key ("return");
         settle();
-    }
-
-    /// The ticks since a place, without those that the tape has lost. Where the tool jumps, there is no force, and it rises along the ramp.
-    std::size_t checkSteps()
-    {
-        const auto film = view->run().film().last (60.0);
-        const double dt = 1.0 / film.rate_hz;
-        std::size_t jumps = 0;
-        for (std::size_t i = 1; i < film.ticks.size(); ++i)
-        {
-            const auto &before = film.ticks[i - 1], &now = film.ticks[i];
-            if (now.tick != before.tick + 1) continue;
-            const bool has_jumped = (now.position - before.position).norm() > 1e-3;   // 4 m/s, at 4 kHz
-            jumps += has_jumped ? 1 : 0;
-            const double most = strongest * dt / ramp_s * (1.0 + 1e-9);
-            if (has_jumped && (before.force.norm() > 0.0 || now.force.norm() > most)) FAIL ("a step of the force at tick " << now.tick);
-            // It rises no faster than along the ramp, apart from what the hand does: at 2 N/mm and a speed far below 1 m/s.
-            if (now.force.norm() - before.force.norm() > most + 2000.0 * dt * 0.5) FAIL ("the force rises in a step at tick " << now.tick);
-        }
-        return jumps;
     }
 };
 }   // namespace
@@ -155,7 +125,7 @@ TEST_CASE ("axes are typed as three letters, or as rows of numbers", "[app][sess
 TEST_CASE ("a role's workspace is typed in the Devices panel, saved with the session, and each edit is one undo", "[app][sessions][undo]")
 {
     Bench w;
-    auto& document = w.view->document();
+    auto& document = w.document;
     const auto graph = writeGraph (w.graph());
     const auto before = document.history().position();
     w.type ("scale", "2");
@@ -172,20 +142,20 @@ TEST_CASE ("a role's workspace is typed in the Devices panel, saved with the ses
     // A mistake changes nothing, and is no step.
     w.type ("axes", "x x z");
     CHECK (w.workspace() == mirrored);
-    CHECK (w.view->statusText().contains ("axes"));
+    CHECK (w.status.text().contains ("axes"));
     CHECK (document.history().position() == before + 4);
 
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK_FALSE (w.workspace().contains ("clutch"));
     w.key ("ctrl + z");
     CHECK_FALSE (w.workspace().contains ("axes"));
     CHECK (w.field ("axes").getText().isEmpty());
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + y");
     CHECK (w.workspace()["axes"] == Json { "-x", "y", "z" });
     w.type ("max force", "1 N");   // a limit is not taken back
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     for (int i = 0; i < 3; ++i)
         w.key ("ctrl + z");
     CHECK (w.workspace().is_null());
@@ -198,13 +168,12 @@ TEST_CASE ("a role's workspace is typed in the Devices panel, saved with the ses
 TEST_CASE ("the choice of a device is one undo, which leaves the edits before it and every limit alone", "[app][sessions][undo]")
 {
     Bench w;
-    auto& document = w.view->document();
-    w.click ("Devices");
-    auto* device = dynamic_cast<juce::ComboBox*> (WindowRig::titledIn (w.panel(), "device"));
+    auto& document = w.document;
+    auto* device = dynamic_cast<juce::ComboBox*> (OnStage::titledIn (w.panel(), "device"));
     REQUIRE (device != nullptr);
     // An edit of the graph, by the keyboard: friction is bypassed.
-    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.select ({ w.graph().root.find ("drag")->id });
+    w.canvas.grabKeyboardFocus();
     w.key ("b");
     REQUIRE (w.graph().root.find ("drag")->bypass);
     const auto edited = writeGraph (w.graph());
@@ -222,7 +191,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
     CHECK (latestStep (document) == "device of stylus");
 
     w.type ("max force", "1 N");
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK (document.history().position() == before);
     auto with_limit = bound;
@@ -235,10 +204,9 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
     CHECK (w.binding() == with_limit);
 
     // Back to the device of the graph, which has its own limits; undo brings back the device with the limit that it had.
-    w.click ("Devices");
-    w.panel().bindings().bind ("stylus", "as in the graph");
+    w.panel().bind ("stylus", "as in the graph");
     CHECK_FALSE (w.saved()["roles"].contains ("stylus"));
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK (w.binding() == with_limit);
     w.key ("ctrl + y");
@@ -248,7 +216,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
 
     // The same device again is no step.
     const auto position = document.history().position();
-    w.panel().bindings().bind ("stylus", target.toStdString());
+    w.panel().bind ("stylus", target.toStdString());
     CHECK (document.history().position() == position);
     for (int i = 0; i < 2; ++i)
         w.key ("ctrl + z");
@@ -262,28 +230,27 @@ TEST_CASE ("a workspace that is typed while the graph runs moves the tool withou
     w.watchRun ("hand.position.x");
     w.type ("offset", "[0, 0, \"-1 mm\"]");
     CHECK (w.until ([&] { return w.force() > 0.0 && w.origin() == Vec3 (0.0, 0.0, -0.001); }));
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK (w.until ([&] { return w.force() > 0.0 && w.origin().isZero (0.0); }));
     CHECK (w.isSameRun());
-    w.checkSteps();
+    stepsChecked (w.run());
 
     // A turn begins another run.
     w.type ("axes", "-x y z");
-    CHECK (w.until ([&] { return ! w.isSameRun() && w.view->run().isRunning() && w.force() > 0.0; }));
-    w.checkSteps();
+    CHECK (w.until ([&] { return ! w.isSameRun() && w.playback.run().isRunning() && w.force() > 0.0; }));
+    stepsChecked (w.run());
 }
 
 TEST_CASE ("with two hands, moving a workspace restarts the run, because the guard of the other hand would not know of it",
            "[app][sessions][safety]")
 {
     Bench w { "two_fingers.json", "thumb" };
-    w.view->canvas().grabKeyboardFocus();
-    w.key ("F5");
-    REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.ticks() > 0; }));
+    w.playback.start ({});
+    REQUIRE (w.until ([&] { return w.playback.run().isRunning() && w.ticks() > 0; }));
     w.watchRun ("creak.value");
     w.type ("offset", "[0, 0, \"-1 mm\"]");
-    CHECK (w.until ([&] { return ! w.isSameRun() && w.view->run().isRunning() && w.origin() == Vec3 (0.0, 0.0, -0.001); }));
+    CHECK (w.until ([&] { return ! w.isSameRun() && w.playback.run().isRunning() && w.origin() == Vec3 (0.0, 0.0, -0.001); }));
 }
 
 TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves it while the graph runs", "[app][scene][sessions][undo]")
@@ -321,7 +288,7 @@ TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves 
     CHECK (differs() > 2);
 
     w.watchRun ("hand.position.x");
-    const auto position = w.view->document().history().position();
+    const auto position = w.document.history().position();
     const auto area = w.scene().getLocalBounds().toFloat();
     const auto handle = scene::Overlay::handle (w.scene().camera(), area, reach, 2);
     REQUIRE (handle);
@@ -337,122 +304,31 @@ TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves 
     CHECK (z == Approx (metres).epsilon (0.1));   // nearer by, a pixel is less
     CHECK (w.origin() == Vec3 (0.0, 0.0, z));
     CHECK (w.until ([&] { return w.scene().reaches().front().middle.z() == z; }));
-    CHECK (w.view->document().history().position() == position + 1);
-    CHECK (latestStep (w.view->document()) == "offset of stylus");
+    CHECK (w.document.history().position() == position + 1);
+    CHECK (latestStep (w.document) == "offset of stylus");
 
-    w.view->canvas().grabKeyboardFocus();
+    w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
     CHECK_FALSE (w.workspace().contains ("offset"));
     CHECK (w.until ([&] { return w.force() > 0.0 && w.origin().isZero (0.0); }));
     CHECK (w.isSameRun());
-    w.checkSteps();
+    stepsChecked (w.run());
 
     // Moved by the mouse, the tool is no device of the session.
-    w.view->run().moveBy (LiveRun::Hand::pointer());
+    w.playback.run().moveBy (LiveRun::Hand::pointer());
     CHECK (w.until ([&] { return w.scene().reaches().empty(); }));
 }
 
 TEST_CASE ("a device whose box is not known has handles at its origin", "[app][scene][sessions]")
 {
     Bench w;
-    w.panel().bindings().bind ("stylus", "gesture circle");
+    w.panel().bind ("stylus", "gesture circle");
     REQUIRE (w.until ([&] { return ! w.scene().reaches().empty() && ! w.scene().reaches().front().hasBox(); }));
     const auto handle = scene::Overlay::handle (w.scene().camera(), w.scene().getLocalBounds().toFloat(), w.scene().reaches().front(), 0);
     REQUIRE (handle);
     const auto from = w.stage->getLocalPoint (&w.scene(), handle->getEnd());
     w.stage->drag (from, from + (handle->getEnd() - handle->getStart()));
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (w.workspace()["offset"][0].get<double>() > 0.0);   // also while nothing runs
     CHECK (w.workspace()["offset"][1].get<double>() == 0.0);
-}
-
-TEST_CASE ("S moves the workspace with the hand while it is held, and the force does not step", "[app][sessions][safety]")
-{
-    Bench w;
-    w.start();
-    w.view->canvas().grabKeyboardFocus();
-    const auto hold = [&] {   // a key that is held is repeated
-        w.stage->key ("s");
-        WindowRig::settle (10);
-        w.stage->keyUp();   // as some systems do between two repetitions
-        w.stage->key ("s");
-    };
-    REQUIRE (w.until ([&] {
-        hold();
-        return w.force() == 0.0;
-    }));
-    CHECK (w.view->statusText().contains ("until you release S"));
-    SafetyStrip* strip = nullptr;
-    for (auto* child : w.view->getChildren())
-        if (auto* found = dynamic_cast<SafetyStrip*> (child)) strip = found;
-    REQUIRE (strip != nullptr);
-    CHECK (w.until ([&] {
-        hold();
-        return strip->guardText().contains ("its workspace is being moved");
-    }));
-    CHECK_FALSE (strip->isAlarmed());   // it is what the person wants
-    const auto after = [&] (std::uint64_t more) {
-        return w.until ([&, from = w.ticks()] {
-            hold();
-            return w.ticks() > from + more;
-        });
-    };
-    REQUIRE (after (10));
-    const auto place = w.view->run().tool()->position;
-    for (int i = 0; i < 10; ++i)
-    {
-        REQUIRE (after (100));
-        CHECK (w.force() == 0.0);
-        CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
-    }
-    w.stage->keyUp();
-    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip->guardText().contains ("being moved"); }));
-    CHECK (w.origin().norm() > 1e-4);
-    CHECK (w.checkSteps() == 0);   // nor does the tool jump
-    CHECK_FALSE (w.workspace().contains ("offset"));
-
-    SECTION ("in the scene, too, until something else gets the keyboard")
-    {
-        w.scene().grabKeyboardFocus();
-        w.stage->key ("s");
-        REQUIRE (w.until ([&] { return w.force() == 0.0; }));
-        auto& field = w.field ("scale");
-        w.stage->click (w.middleOf (field));
-        CHECK (w.until ([&] { return w.force() > 0.0; }));
-        w.stage->key ("s");   // is text now
-        CHECK (field.getText() == "s");
-        CHECK_FALSE (w.view->statusText().contains ("until you release S"));
-        w.key ("escape");
-    }
-    SECTION ("but not without a device of the session")
-    {
-        w.panel().bindings().bind ("stylus", "as in the graph");
-        REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
-        w.view->canvas().grabKeyboardFocus();
-        w.stage->key ("s");
-        CHECK (w.view->statusText().contains ("bind one"));
-        WindowRig::settle (100);
-        CHECK (w.until ([&] { return w.force() > 0.0; }));   // the stroke presses again
-    }
-    SECTION ("and a STOP stops")
-    {
-        w.stage->key ("s");
-        w.key ("shift + escape");
-        w.stage->keyUp();
-        REQUIRE (w.until ([&] { return w.view->run().isStoppedForGood() && w.force() == 0.0; }));
-        WindowRig::settle (200);
-        CHECK (w.force() == 0.0);
-    }
-}
-
-TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
-{
-    WindowRig w ("dry_wood.json");
-    w.view->canvas().grabKeyboardFocus();
-    w.key ("F1");
-    REQUIRE (w.view->part<HelpPanel>().isOpen());
-    bool is_listed = false;
-    for (const auto& seen : host::test::readTexts (w.view->part<HelpPanel>()))
-        is_listed = is_listed || seen.text.contains ("S, held");
-    CHECK (is_listed);
 }

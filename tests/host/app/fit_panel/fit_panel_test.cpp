@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_rig.hpp"
 #include "host/app/support/seen_text.hpp"
 
 #include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/fit_panel/fit_table.hpp>
-#include <host/app/window/main_view.hpp>
 
-#include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <tactus/kit/random.hpp>
@@ -18,28 +17,22 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskRig;
 
 namespace
 {
-struct FitRig
+struct FitRig : DeskRig
 {
-    juce::ScopedJuceInitialiser_GUI gui;
-    Look look;
-    struct AsDefault
+    explicit FitRig (const std::string& preset = {}) : DeskRig (preset)
     {
-        explicit AsDefault (Look& l) { juce::LookAndFeel::setDefaultLookAndFeel (&l); }
-        ~AsDefault() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
-    } as_default { look };
-    TemporaryFolder home;
-    MainView view { catalogue() };
-
-    FitRig()
-    {
-        view.setSize (1280, 720);
-        view.begin ({ home.path(), true });
+        make<FitPanel> (fitPanel).setSize (1280, 680);
+        desk.openMade = [this] (const graph::Graph& g, const std::string& step, const std::function<void()>& then) {
+            document.open (g, {}, step);
+            then();
+        };
     }
 
-    FitPanel& panel() { return view.part<FitPanel>(); }
+    FitPanel& panel() { return dynamic_cast<FitPanel&> (*DeskRig::panel->component); }
 
     std::filesystem::path write (const std::string& name, const std::string& text)
     {
@@ -78,20 +71,20 @@ std::string strokedRows (bool with_load)
 TEST_CASE ("fit panel: a recording opens with the kind that its columns suggest, and the fit opens as a graph", "[app][fit]")
 {
     FitRig rig;
-    rig.view.desk().fitRecording (rig.write ("strokes.csv", strokedRows (true)));
+    rig.desk.fitRecording (rig.write ("strokes.csv", strokedRows (true)));
     REQUIRE (rig.panel().isOpen());
     CHECK (rig.panel().kind() == FitKind::friction);
-    const auto before = rig.view.document().identity();
+    const auto before = rig.document.identity();
     rig.finish();
     REQUIRE (rig.panel().fitted());
     CHECK (rig.panel().fitted()->report.is_good);
     CHECK (rig.panel().fitted()->report.at ("mu").value == Approx (0.4).epsilon (0.02));
-    CHECK (rig.view.document().identity() == before);   // nothing changes until it is accepted
+    CHECK (rig.document.identity() == before);   // nothing changes until it is accepted
 
     rig.panel().acceptAsGraph();
     CHECK_FALSE (rig.panel().isOpen());
-    CHECK (rig.view.document().identity() != before);
-    const auto* drag = rig.view.document().graph().root.find ("drag");
+    CHECK (rig.document.identity() != before);
+    const auto* drag = rig.document.graph().root.find ("drag");
     REQUIRE (drag);
     CHECK (drag->params.at ("mu").get<double>() == Approx (0.4).epsilon (0.02));
 }
@@ -110,7 +103,7 @@ TEST_CASE ("fit panel: time, velocity, normal force and friction are strokes, wh
         before = v;
         text << 1e-3 * i << "," << v << ",2," << -0.8 * d / 1e-4 + 0.02 * random.normal() << "\n";
     }
-    rig.view.desk().fitRecording (rig.write ("strokes.csv", text.str()));
+    rig.desk.fitRecording (rig.write ("strokes.csv", text.str()));
     CHECK (rig.panel().kind() == FitKind::friction);
     CHECK (rig.panel().columns().choice().names.at ("position") == integrated_position);
     rig.finish();
@@ -131,43 +124,42 @@ TEST_CASE ("fit panel: time, velocity, normal force and friction are strokes, wh
 
 TEST_CASE ("fit panel: the fitted node can be added to the open graph as one undo step", "[app][fit]")
 {
-    FitRig rig;
-    rig.view.open (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
-    const auto nodes = rig.view.document().graph().root.nodes.size();
-    rig.view.desk().fitRecording (rig.write ("strokes.csv", strokedRows (true)));
+    FitRig rig ("dry_wood.json");
+    const auto nodes = rig.document.graph().root.nodes.size();
+    rig.desk.fitRecording (rig.write ("strokes.csv", strokedRows (true)));
     rig.finish();
     REQUIRE (rig.panel().fitted());
     rig.panel().acceptIntoGraph();
-    const auto& graph = rig.view.document().graph();
+    const auto& graph = rig.document.graph();
     REQUIRE (graph.root.nodes.size() == nodes + 1);
     CHECK (graph.root.nodes.back().type == "friction.elasto_plastic");
     CHECK (graph.root.nodes.back().name != "drag");   // the graph has one already
-    CHECK (rig.view.canvas().selection().count (graph.root.nodes.back().id) == 1);
-    rig.view.document().undo();
-    CHECK (rig.view.document().graph().root.nodes.size() == nodes);
+    CHECK (rig.canvas.selection().count (graph.root.nodes.back().id) == 1);
+    rig.document.undo();
+    CHECK (rig.document.graph().root.nodes.size() == nodes);
 }
 
 TEST_CASE ("fit panel: Cancel and Esc change nothing, also while a fit runs", "[app][fit]")
 {
     FitRig rig;
     const auto file = rig.write ("strokes.csv", strokedRows (false));
-    const auto before = rig.view.document().history().position();
+    const auto before = rig.document.history().position();
     for (const bool waits : { false, true })
     {
-        rig.view.desk().fitRecording (file);
+        rig.desk.fitRecording (file);
         REQUIRE (rig.panel().isFitting());
         if (waits) rig.finish();
-        rig.view.keyPressed (juce::KeyPress::createFromDescription ("escape"));
+        rig.DeskRig::panel->escape();
         CHECK_FALSE (rig.panel().isOpen());
         CHECK_FALSE (rig.panel().isFitting());
     }
-    CHECK (rig.view.document().history().position() == before);
+    CHECK (rig.document.history().position() == before);
 }
 
 TEST_CASE ("fit panel: another kind or amount starts a new fit, and the panel shows what is wrong", "[app][fit]")
 {
     FitRig rig;
-    rig.view.desk().fitRecording (rig.write ("strokes.csv", strokedRows (false)));
+    rig.desk.fitRecording (rig.write ("strokes.csv", strokedRows (false)));
     rig.finish();
     REQUIRE (rig.panel().fitted());
     CHECK (rig.panel().fitted()->report.at ("mu").value == Approx (0.8).epsilon (0.02));   // of 1 N
@@ -190,16 +182,16 @@ TEST_CASE ("fit panel: another kind or amount starts a new fit, and the panel sh
 TEST_CASE ("fit panel: the panel reports a file that is not a recording, or whose columns suggest no kind", "[app][fit]")
 {
     FitRig rig;
-    rig.view.desk().fitRecording (rig.write ("text.csv", "this is\nno table\n"));
+    rig.desk.fitRecording (rig.write ("text.csv", "this is\nno table\n"));
     REQUIRE (rig.panel().isOpen());
     CHECK (rig.panel().problem().isNotEmpty());
-    rig.view.desk().fitRecording (rig.write ("letters.csv", "a,b\n1,2\n3,4\n"));
+    rig.desk.fitRecording (rig.write ("letters.csv", "a,b\n1,2\n3,4\n"));
     CHECK_FALSE (rig.panel().kind());
     CHECK (rig.panel().problem().contains ("Choose"));
     rig.panel().choose (FitKind::friction);
     CHECK_FALSE (rig.panel().isFitting());
     CHECK (rig.panel().problem().contains ("position, force"));
-    rig.view.desk().fitRecording (rig.home / "missing.csv");
+    rig.desk.fitRecording (rig.home / "missing.csv");
     CHECK (rig.panel().problem().isNotEmpty());
 }
 
@@ -208,7 +200,7 @@ TEST_CASE ("fit panel: columns and units can be chosen, and a wrong unit is said
     FitRig rig;
     auto text = strokedRows (true);
     text.replace (0, text.find ('\n'), "a,b,c");
-    rig.view.desk().fitRecording (rig.write ("letters.csv", text));
+    rig.desk.fitRecording (rig.write ("letters.csv", text));
     auto& panel = rig.panel();
     panel.choose (FitKind::friction);
     panel.columns().chooseColumn ("position", "a");
@@ -279,7 +271,7 @@ TEST_CASE ("fit panel: a key is guessed by its snap or by the column of its cont
 {
     FitRig rig;
     const auto kindOf = [&] (const std::string& rows) {
-        rig.view.desk().fitRecording (rig.write ("recording.csv", rows));
+        rig.desk.fitRecording (rig.write ("recording.csv", rows));
         return rig.panel().kind();
     };
     CHECK (kindOf (keyRows (0.3, "x_um,force_gf,actuated", true)) == FitKind::key_switch);
@@ -302,7 +294,7 @@ TEST_CASE ("fit panel: a doubt about a fit is a reason for a poor verdict, which
         const double phase = 3.14159265358979 * i / 60.0, depth = 1e-3 * std::max (0.0, std::sin (phase));
         text << depth << "," << 5000.0 * depth * (1.0 + 0.2 * std::cos (phase)) << "," << i * 1e-4 << "\n";
     }
-    rig.view.desk().fitRecording (rig.write ("impact.csv", text.str()));
+    rig.desk.fitRecording (rig.write ("impact.csv", text.str()));
     REQUIRE (rig.panel().kind() == FitKind::shock);
     bool is_doubted = false;
     for (const char* mass : { "", "20 kg", "0.1 g" })
@@ -329,7 +321,7 @@ TEST_CASE ("fit panel: a press that snaps is said, and the depth of the touch ca
         const double depth = 0.005 * std::min (i, 800 - i);
         text << depth << "," << (depth > 1.2 && depth < 1.5 ? 0.4 : 1.0) * std::max (0.0, depth - 0.5) << "\n";
     }
-    rig.view.desk().fitRecording (rig.write ("key.csv", text.str()));
+    rig.desk.fitRecording (rig.write ("key.csv", text.str()));
     CHECK (rig.panel().kind() == FitKind::key_switch);   // it snaps on its way to the stop, and comes back
     rig.panel().choose (FitKind::curve);
     rig.finish();
@@ -354,7 +346,7 @@ TEST_CASE ("fit panel: a height and the force on the sensor are guessed, fitted 
         const double depth = 0.005 * std::min (i, 800 - i);   // mm
         text << i * 1e-3 << "," << -depth << "," << -400.0 * depth - 50.0 * depth * depth << "\n";
     }
-    rig.view.desk().fitRecording (rig.write ("press.csv", text.str()));
+    rig.desk.fitRecording (rig.write ("press.csv", text.str()));
     CHECK (rig.panel().kind() == FitKind::curve);
     rig.finish();
     INFO (rig.panel().problem());
@@ -380,7 +372,7 @@ TEST_CASE ("fit panel: the time of the blow can be given for a ring, and a time 
         const double t = i / 8000.0 - 0.01;
         text << t + 0.01 << "," << (t < 0.0 ? 0.0 : std::exp (-30.0 * t) * std::sin (2.0 * 3.14159265358979 * 220.0 * t)) << "\n";
     }
-    rig.view.desk().fitRecording (rig.write ("ring.csv", text.str()));
+    rig.desk.fitRecording (rig.write ("ring.csv", text.str()));
     rig.finish();
     auto& panel = rig.panel();
     REQUIRE (panel.kind() == FitKind::modes);
@@ -405,32 +397,16 @@ TEST_CASE ("fit panel: the time of the blow can be given for a ring, and a time 
     CHECK (panel.fitted()->report.at ("mode 1 amplitude").value == Approx (found));
 }
 
-TEST_CASE ("fit panel: a CSV file that is dropped on the window opens the panel, other files do not", "[app][fit]")
-{
-    FitRig rig;
-    const auto file = juce::String (rig.write ("strokes.csv", strokedRows (true)).string());
-    CHECK (rig.view.isInterestedInFileDrag ({ file }));
-    CHECK_FALSE (rig.view.isInterestedInFileDrag ({ "picture.png" }));
-    CHECK_FALSE (rig.view.isInterestedInFileDrag ({ file, file }));
-    rig.view.filesDropped ({ file }, 600, 300);
-    CHECK (rig.panel().isOpen());
-    rig.finish();
-    CHECK (rig.panel().fitted());
-    rig.panel().close();
-    rig.view.open (file.toStdString());   // as named on the command line
-    CHECK (rig.panel().isOpen());
-}
-
 TEST_CASE ("fit panel: it is drawn in both themes at each size", "[app][fit]")
 {
     FitRig rig;
-    rig.view.desk().fitRecording (rig.write ("strokes.csv", strokedRows (true)));
+    rig.desk.fitRecording (rig.write ("strokes.csv", strokedRows (true)));
     rig.finish();
     for (const auto* theme : { &Theme::dark(), &Theme::light() })
         for (const auto& [width, height] : { std::pair { 1280, 720 }, std::pair { 1024, 700 }, std::pair { 640, 480 } })
         {
             rig.look.setTheme (*theme);
-            rig.view.setSize (width, height);
+            rig.panel().setSize (width, height);
             const auto picture = rig.panel().createComponentSnapshot (rig.panel().getLocalBounds());
             CHECK (picture.getPixelAt (picture.getWidth() / 2, picture.getHeight() / 2) != picture.getPixelAt (2, 2));
         }
@@ -447,7 +423,7 @@ TEST_CASE ("fit panel: a recording of numbers near the smallest is fitted or ref
         line << t << "," << x << "," << 1e-310 * std::tanh (1e4 * x) << "\n";
         rows += line.str();
     }
-    rig.view.desk().fitRecording (rig.write ("tiny.csv", rows));
+    rig.desk.fitRecording (rig.write ("tiny.csv", rows));
     rig.finish();
     CHECK ((rig.panel().fitted().has_value() || rig.panel().problem().isNotEmpty()));
 }

@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The signs of the columns of a recording, in the whole window.
+// The signs of the columns of a recording.
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 
 #include <host/app/fit_panel/fit_panel.hpp>
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/run/views/safety_strip.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <fstream>
-#include <host/app/look/fitted_text.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
+using tactus::host::test::waitFor;
 
 namespace
 {
-/// Waits for the fit of the panel, which must come about or not.
-void finishFit (WindowRig& w, bool is_possible)
+/// The panel as it covers the window, below its strip.
+struct FitStage : DeskStage
 {
-    auto& panel = w.view->part<FitPanel>();
-    for (int i = 0; i < 4000 && panel.isFitting(); ++i)
-        WindowRig::settle (5);
+    explicit FitStage (int width = 1280, int height = 720) : DeskStage ("dry_wood.json", width, height)
+    {
+        show<FitPanel> (fitPanel).setBounds (stage->getLocalBounds().withTrimmedTop (SafetyStrip::height));
+    }
+    FitPanel& panel() { return dynamic_cast<FitPanel&> (*DeskRig::panel->component); }
+};
+
+/// Waits for the fit of the panel, which must come about or not.
+void finishFit (FitStage& w, bool is_possible)
+{
+    auto& panel = w.panel();
+    REQUIRE (waitFor ([&] { return ! panel.isFitting(); }, 5));
     INFO (panel.problem());
     REQUIRE (panel.fitted().has_value() == is_possible);
 }
 
 /// A tool that presses from a height of 30 mm down to 22 mm.
-std::filesystem::path writeHeights (WindowRig& w)
+std::filesystem::path writeHeights (FitStage& w)
 {
     const auto file = w.home / "press.csv";
     std::ofstream out (file);
@@ -38,13 +50,13 @@ std::filesystem::path writeHeights (WindowRig& w)
     return file;
 }
 
-bool isSaid (WindowRig& w, const char* text)
+bool isSaid (FitStage& w, const char* text)
 {
-    const auto texts = tactus::host::test::readTexts (w.view->part<FitPanel>());
+    const auto texts = tactus::host::test::readTexts (w.panel());
     return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
 }
 
-bool isTurned (WindowRig& w, const char* title)
+bool isTurned (FitStage& w, const char* title)
 {
     const auto* sign = dynamic_cast<juce::Button*> (w.titled (title));
     REQUIRE (sign != nullptr);
@@ -54,9 +66,9 @@ bool isTurned (WindowRig& w, const char* title)
 
 TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and each sign can be turned by a click", "[app][fit]")
 {
-    WindowRig w ("dry_wood.json");
-    auto& panel = w.view->part<FitPanel>();
-    w.view->desk().fitRecording (writeHeights (w));
+    FitStage w;
+    auto& panel = w.panel();
+    w.desk.fitRecording (writeHeights (w));
     CHECK (panel.kind() == FitKind::curve);
     finishFit (w, true);
     CHECK (panel.fitted()->report.is_good);
@@ -87,9 +99,9 @@ TEST_CASE ("fit panel: a height that falls as the tool presses is a press, and e
 
 TEST_CASE ("fit panel: a minus in a unit turns the sign, and the button shows it", "[app][fit]")
 {
-    WindowRig w ("dry_wood.json");
-    auto& panel = w.view->part<FitPanel>();
-    w.view->desk().fitRecording (writeHeights (w));
+    FitStage w;
+    auto& panel = w.panel();
+    w.desk.fitRecording (writeHeights (w));
     finishFit (w, true);
     panel.columns().turn ("depth");
     finishFit (w, false);
@@ -103,7 +115,7 @@ TEST_CASE ("fit panel: a minus in a unit turns the sign, and the button shows it
     finishFit (w, true);
     CHECK (panel.fitted()->report.picture.curves.front().x.back() == Approx (8e-3).epsilon (0.02));
     unit->giveAwayKeyboardFocus();
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (isTurned (w, "Sign of depth"));
     panel.columns().chooseColumn ("depth", "force_N");   // another column begins with its own sign
     CHECK (panel.columns().choice().turned.empty());
@@ -113,11 +125,11 @@ TEST_CASE ("fit panel: at 1024 by 700 and 200 %, the table and the legend are wh
 {
     const auto [width, height] = GENERATE (std::pair (512, 350), std::pair (640, 360), std::pair (1280, 720));
     INFO (width << " x " << height);
-    WindowRig w ("dry_wood.json", width, height);
-    w.view->desk().fitRecording (writeHeights (w));
+    FitStage w (width, height);
+    w.desk.fitRecording (writeHeights (w));
     finishFit (w, true);
-    WindowRig::settle (50);
-    auto& panel = w.view->part<FitPanel>();
+    OnStage::settle (50);
+    auto& panel = w.panel();
     const auto texts = tactus::host::test::readTexts (panel);
     const auto area = panel.getLocalBounds().toFloat();
     CHECK (tactus::host::test::overlaps (texts, area).joinIntoString ("; ") == "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The depth of a modulator, as the dials and knobs show and change it. The reference is the run: how far the parameter moves there.
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
 #include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/modulation.hpp>
@@ -15,7 +15,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 using tactus::test::Sketch;
 
 namespace
@@ -104,11 +105,9 @@ TEST_CASE ("a depth has the unit of its parameter, and its gain keeps the one in
 
 TEST_CASE ("a dial beside a parameter shows its modulator, and a drag changes the depth or ends it, in one undo step", "[app][modulation]")
 {
-    const TemporaryFolder folder;
-    REQUIRE (saveGraph (wavy ("0.02"), folder / "wood.json"));
-    WindowRig w ((folder / "wood.json").string(), 1280, 1000);
-    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
-    WindowRig::settle();
+    DeskStage w (wavy ("0.02"), 1280, 1000);
+    w.canvas.select ({ w.graph().root.find ("drag")->id });
+    OnStage::settle();
     const auto before = writeGraph (w.graph());
     const auto ring = [&] { return dynamic_cast<DepthRing*> (w.titled ("Depth of mu by wave.out")); };
     REQUIRE (ring() != nullptr);
@@ -116,13 +115,13 @@ TEST_CASE ("a dial beside a parameter shows its modulator, and a drag changes th
     CHECK (ring()->getDescription().contains ("0.04"));
     const auto at = w.middleOf (*ring());
     w.stage->drag (at, at.translated (0.0f, -30.0f));
-    WindowRig::settle();
+    OnStage::settle();
     REQUIRE (ring() != nullptr);
     CHECK (ring()->shown().depth > 0.06);
-    CHECK (w.view->statusText().contains ("by wave.out"));
-    w.view->document().undo();
+    CHECK (w.status.text().contains ("by wave.out"));
+    w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
-    WindowRig::settle();
+    OnStage::settle();
 
     const auto again = w.middleOf (*ring());
     // Down to where the depth is 0: there, it holds for some pixels.
@@ -132,33 +131,31 @@ TEST_CASE ("a dial beside a parameter shows its modulator, and a drag changes th
     while (ring() != nullptr && ring()->shown().depth > 0.0 && y < 400.0f)
         w.stage->move (again.translated (0.0f, y += 1.0f));
     w.stage->release();
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (ring() == nullptr);
     CHECK (modulationsAt (w.graph(), "drag.mu", catalogue()).empty());
-    w.view->document().undo();
+    w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
-    WindowRig::settle();
+    OnStage::settle();
 
     w.stage->click (w.middleOf (*ring()));
-    WindowRig::settle();
+    OnStage::settle();
     w.key ("cursor up");
     CHECK (first (w.graph(), "drag.mu").depth > 0.04);
     w.key ("delete");
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (modulationsAt (w.graph(), "drag.mu", catalogue()).empty());
     CHECK (w.graph().root.find ("drag") != nullptr);   // the key was for the dial
 }
 
 TEST_CASE ("a ring around a knob shows the modulators of its targets, and a drag on it turns the depth and not the knob", "[app][modulation]")
 {
-    const TemporaryFolder folder;
     auto g = wavy ("0.02");
     REQUIRE (g.controls.size() == 1);
     REQUIRE (std::ranges::count (g.controls[0].to, "drag.mu", [] (const auto& t) { return t.path; }) == 1);
-    REQUIRE (saveGraph (g, folder / "wood.json"));
-    WindowRig w ((folder / "wood.json").string(), 1280, 1000);
-    w.view->canvas().select ({ w.graph().root.find ("board")->id });
-    WindowRig::settle();
+    DeskStage w (std::move (g), 1280, 1000);
+    w.canvas.select ({ w.graph().root.find ("board")->id });
+    OnStage::settle();
     auto* strip = dynamic_cast<KnobStrip*> (w.titled ("Controls"));
     REQUIRE (strip != nullptr);
     auto& knob = strip->knob (0);
@@ -168,10 +165,10 @@ TEST_CASE ("a ring around a knob shows the modulators of its targets, and a drag
     const auto middle = w.stage->getLocalPoint (&knob, knob.getLocalBounds().withTrimmedBottom (16).getCentre()).toFloat();
     const auto on_ring = middle.translated (-21.0f, 0.0f);
     w.stage->drag (on_ring, on_ring.translated (0.0f, -30.0f));
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (w.graph().controls[0].value == value);
     CHECK (first (w.graph(), "drag.mu").depth > 0.05);
-    w.view->document().undo();
+    w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
     w.stage->drag (middle, middle.translated (0.0f, -30.0f));
     CHECK (w.graph().controls[0].value > value);

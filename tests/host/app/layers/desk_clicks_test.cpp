@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/layers/fader.hpp>
 #include <host/app/layers/layers_panel.hpp>
+#include <host/app/look/focus.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 
@@ -11,22 +12,23 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 
 TEST_CASE ("three textures and a vibration are composed with a few clicks", "[layers]")
 {
     const auto* preset = GENERATE ("dry_wood.json", "granite_wall.json", "scissors_cloth.json");
-    WindowRig w (preset);
-    w.click ("Layers");
+    DeskStage w (preset);
+    w.show<LayersPanel> (layersPanel);
     const auto mixers = mixersOf (w.graph());
     REQUIRE (mixers.empty());
-    const auto steps = w.view->document().history().names().size();
+    const auto steps = w.document.history().names().size();
     w.click ("+ Texture");
     const auto mixer = mixersOf (w.graph()).front();
     w.click ("+ Texture");
     w.click ("+ Recorded");
     w.click ("+ Vibration");
-    CHECK (w.clicks <= 8);
+    CHECK (w.clicks == 4);
 
     const auto& graph = w.graph();
     const auto compiled = compile (graph, catalogue());
@@ -38,24 +40,23 @@ TEST_CASE ("three textures and a vibration are composed with a few clicks", "[la
     for (int i = layers - 4; i < layers; ++i)
         CHECK (wireInto (graph, mixer, i) != nullptr);
     CHECK (added.size() >= 4);
-    CHECK (w.view->document().history().names().size() == steps + 4);   // one undo step for each
+    CHECK (w.document.history().names().size() == steps + 4);   // one undo step for each
 }
 
 namespace
 {
 /// A bell with a mixer whose gains no control sets.
-std::string bellWithoutKnobs (const TemporaryFolder& folder)
+graph::Graph bellWithoutKnobs()
 {
     auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
     g.controls.clear();
-    REQUIRE (saveGraph (g, folder / "bell.json"));
-    return (folder / "bell.json").string();
+    return g;
 }
 
-std::vector<juce::Point<float>> placesIn (WindowRig& w)
+std::vector<juce::Point<float>> placesIn (DeskStage& w)
 {
     std::vector<juce::Point<float>> places;
-    for (const auto& n : w.view->canvas().scene().nodes())
+    for (const auto& n : w.canvas.scene().nodes())
         places.push_back (n.at);
     return places;
 }
@@ -68,25 +69,24 @@ NumberField* gainField (juce::Component& in)
     return nullptr;
 }
 
-void typeGain (WindowRig& w, const juce::String& text)
+void typeGain (DeskStage& w, const juce::String& text)
 {
-    auto* field = gainField (*w.view);
+    auto* field = gainField (*w.stage);
     REQUIRE (field != nullptr);
     w.stage->doubleClick (w.middleOf (*field));
-    WindowRig::settle();
+    OnStage::settle();
     REQUIRE (field->isEditing());
     w.key ("ctrl + a");
     w.stage->type (text);
     w.key ("return");
-    WindowRig::settle();
+    OnStage::settle();
 }
 }   // namespace
 
 TEST_CASE ("a value that is typed moves no node, where nodes have no places of their own", "[layers][canvas]")
 {
-    const TemporaryFolder folder;
-    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
-    w.click ("Layers");
+    DeskStage w (bellWithoutKnobs(), 1280, 900);
+    w.show<LayersPanel> (layersPanel);
     const auto before = placesIn (w);
     for (const char* gain : { "-17.31 dB", "-3.3 dB", "0.123 %" })
     {
@@ -95,32 +95,31 @@ TEST_CASE ("a value that is typed moves no node, where nodes have no places of t
         CHECK (w.graph().root.find ("desk")->params != gains);
         CHECK (placesIn (w) == before);
     }
-    w.view->document().perform (graph::RenameNode { {}, "desk", "a_desk_with_a_name_that_is_long" });
+    w.document.perform (graph::RenameNode { {}, "desk", "a_desk_with_a_name_that_is_long" });
     CHECK (placesIn (w) == before);
 
     // The first move stores where the nodes are; undone, they are where they were.
-    auto& canvas = w.view->canvas();
+    auto& canvas = w.canvas;
     canvas.select ({ canvas.scene().nodes().front().id });
     canvas.commands().nudgeSelection ({ 0.0f, 200.0f });
     REQUIRE (placesIn (w) != before);
-    w.view->document().undo();
+    w.document.undo();
     CHECK (placesIn (w) == before);
 }
 
 TEST_CASE ("a gain that is looked at in its field keeps all its digits", "[layers]")
 {
-    const TemporaryFolder folder;
-    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
-    w.click ("Layers");
-    REQUIRE (w.view->document().perform (graph::SetParam { {}, "desk", "gain", Json::array ({ 0.6037, 0.7, 0.123456 }) }));
-    WindowRig::settle();
+    DeskStage w (bellWithoutKnobs(), 1280, 900);
+    auto& panel = w.show<LayersPanel> (layersPanel);
+    REQUIRE (w.document.perform (graph::SetParam { {}, "desk", "gain", Json::array ({ 0.6037, 0.7, 0.123456 }) }));
+    OnStage::settle();
     const auto before = w.graph().root.find ("desk")->params;
-    const auto steps = w.view->document().history().position();
-    auto* field = gainField (*w.view);
+    const auto steps = w.document.history().position();
+    auto* field = gainField (*w.stage);
     REQUIRE (field != nullptr);
     const auto open = [&] {
         w.stage->doubleClick (w.middleOf (*field));
-        WindowRig::settle();
+        OnStage::settle();
         REQUIRE (field->isEditing());
     };
     for (const char* end : { "return", "escape", "tab" })
@@ -128,38 +127,40 @@ TEST_CASE ("a gain that is looked at in its field keeps all its digits", "[layer
         INFO (end);
         open();
         w.key (end);
-        WindowRig::settle();
+        OnStage::settle();
         CHECK (w.graph().root.find ("desk")->params == before);
     }
     open();
-    w.click ("Scopes");
+    letGoOfFocus (panel);   // as another tab does
+    panel.setVisible (false);
+    OnStage::settle();
     CHECK (w.graph().root.find ("desk")->params == before);
-    w.click ("Layers");
+    panel.setVisible (true);
+    OnStage::settle();
     open();
     w.key ("ctrl + a");
     w.stage->type (field->spokenValue());   // the same again, as it is shown
     w.key ("return");
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (w.graph().root.find ("desk")->params == before);
-    CHECK (w.view->document().history().position() == steps);
+    CHECK (w.document.history().position() == steps);
 }
 
 TEST_CASE ("a gain that a wire sets is dimmed on the desk, names the wire, and is not set by hand", "[layers]")
 {
-    const TemporaryFolder folder;
-    WindowRig w (bellWithoutKnobs (folder), 1280, 900);
-    w.click ("Layers");
+    DeskStage w (bellWithoutKnobs(), 1280, 900);
+    w.show<LayersPanel> (layersPanel);
     graph::Node level;
     level.name = "level";
     level.type = "signal.constant";
-    REQUIRE (w.view->document().perform (graph::AddNode { {}, level }));
-    REQUIRE (w.view->document().perform (graph::AddWire { {}, *graph::parseWire ("level.out -> desk.gain[0]") }));
-    WindowRig::settle();
-    auto* field = gainField (*w.view);
+    REQUIRE (w.document.perform (graph::AddNode { {}, level }));
+    REQUIRE (w.document.perform (graph::AddWire { {}, *graph::parseWire ("level.out -> desk.gain[0]") }));
+    OnStage::settle();
+    auto* field = gainField (*w.stage);
     REQUIRE (field != nullptr);
     CHECK (field->isDriven());
     CHECK (field->spokenValue() == "level.out");
-    const auto version = w.view->document().version();
+    const auto version = w.document.version();
     auto* strip = field->getParentComponent();
     for (auto* part : strip->getChildren())
         if (auto* fader = dynamic_cast<Fader*> (part))
@@ -169,19 +170,17 @@ TEST_CASE ("a gain that a wire sets is dimmed on the desk, names the wire, and i
             const auto at = w.middleOf (*fader);
             w.stage->drag (at, at.translated (0.0f, 30.0f));
         }
-    WindowRig::settle();
-    CHECK (w.view->document().version() == version);
+    OnStage::settle();
+    CHECK (w.document.version() == version);
 }
 
 TEST_CASE ("each of six layers of forces has a meter, and knows the level that a gain in newtons asks for", "[layers]")
 {
-    WindowRig w ("templates/stroke.json", 1280, 720, false);
-    w.click ("Layers");
+    DeskStage w ("templates/stroke.json");
+    auto& panel = w.show<LayersPanel> (layersPanel);
+    REQUIRE (w.start());
     for (int i = 0; i < 3; ++i)
         w.click ("+ Texture");
-    auto* found = dynamic_cast<LayersPanel*> (w.titled ("Layers"));
-    REQUIRE (found != nullptr);
-    auto& panel = *found;
     REQUIRE (panel.layers() == 6);
     for (std::size_t i = 0; i < 6; ++i)
     {
@@ -195,7 +194,7 @@ TEST_CASE ("each of six layers of forces has a meter, and knows the level that a
         bool is_taken = false;
         for (int k = 0; k < 200 && ! is_taken; ++k)
         {
-            WindowRig::settle (20);
+            OnStage::settle (20);
             is_taken = isTaken();
         }
         CHECK (is_taken);
@@ -203,27 +202,25 @@ TEST_CASE ("each of six layers of forces has a meter, and knows the level that a
     auto& first = panel.layer (0);   // its level is known, also while it is off
     first.typeGain ("off");
     CHECK (first.shownGain() == 0.0);
-    WindowRig::settle (300);
+    OnStage::settle (300);
     first.typeGain ("7 mN");
     CHECK (first.shownGain() != 0.0);
-    w.view->run().letGo();
 }
 
 TEST_CASE ("a layer that was added while nothing runs shows no level of another one", "[layers]")
 {
-    WindowRig w ("templates/stroke.json", 1280, 720, false);
-    w.click ("Layers");
+    DeskStage w ("templates/stroke.json");
+    auto& panel = w.show<LayersPanel> (layersPanel);
+    REQUIRE (w.start());
     for (int i = 0; i < 2; ++i)
         w.click ("+ Texture");
-    WindowRig::settle (1500);
-    w.click ("STOP");
-    WindowRig::settle (1500);
+    OnStage::settle (1500);
+    w.playback.stop();
+    OnStage::settle (1500);
     w.click ("+ Texture");
-    WindowRig::settle (300);
-    auto* panel = dynamic_cast<LayersPanel*> (w.titled ("Layers"));
-    REQUIRE (panel != nullptr);
-    REQUIRE (panel->layers() == 6);
+    OnStage::settle (300);
+    REQUIRE (panel.layers() == 6);
     const std::set<juce::String> marks { "10 N", "1 N", "0.1 N", "10 mN", "1 mN" };   // of the scale
-    for (const auto& seen : host::test::readTexts (*panel))
+    for (const auto& seen : host::test::readTexts (panel))
         if (seen.text.endsWith (" mN") || seen.text.endsWith (" N")) CHECK (marks.contains (seen.text));
 }

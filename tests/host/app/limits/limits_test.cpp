@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_rig.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/problems/fixes.hpp>
+#include <host/app/problems/problem_list.hpp>
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/limit_watch.hpp>
 #include <host/app/run/views/live_feed.hpp>
+
+#include "support/waiting.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +20,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskRig;
 
 namespace
 {
@@ -262,14 +265,15 @@ TEST_CASE ("closing stops a running check, and a series of edits ends with a che
 
 TEST_CASE ("the title of the Problems tab counts the limits that it lists", "[app][limits][problems]")
 {
-    const TemporaryFolder folder;
-    REQUIRE (saveGraph (wall ("\"damping\": 0.4"), folder / "broken.json"));
-    REQUIRE (saveGraph (wall ("\"damping\": 1"), folder / "fine.json"));
-    WindowRig w ((folder / "broken.json").string());
-    const auto hasTab = [&] (const char* text) {
-        return tactus::host::test::waitFor ([&] { return WindowRig::tabIn (*w.view, *w.stage, text).has_value(); });
+    DeskRig r (wall ("\"damping\": 0.4"));
+    r.make<ProblemList> (problemsPanel);
+    const auto comesTo = [&] (const char* text) {
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
+            r.refresh();
+            return r.panel->title().text == text;
+        });
     };
-    CHECK (hasTab ("Problems 1"));
-    w.view->open (folder / "fine.json");
-    CHECK (hasTab ("Problems"));
+    CHECK (comesTo ("Problems 1"));
+    r.document.open (wall ("\"damping\": 1"), {}, "open");
+    CHECK (comesTo ("Problems"));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/look/caret.hpp>
 
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,8 @@
 #include <vector>
 
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 
 namespace
 {
@@ -36,7 +37,7 @@ Count count (juce::Component& within)
 bool becomes (std::size_t visible, juce::Component& within)
 {
     for (int i = 0; i < 500 && count (within).visible != visible; ++i)
-        WindowRig::settle (20);
+        OnStage::settle (20);
     return count (within).visible == visible;
 }
 
@@ -51,25 +52,25 @@ juce::TextEditor* fieldIn (juce::Component& from)
 
 TEST_CASE ("only the caret of the field that has the keyboard blinks", "[app][look]")
 {
-    WindowRig w ("dry_wood.json");
-    w.view->canvas().grabKeyboardFocus();
-    WindowRig::settle (100);
-    const auto none = count (*w.view);
+    DeskStage w ("dry_wood.json");
+    w.canvas.grabKeyboardFocus();
+    OnStage::settle (100);
+    const auto none = count (*w.stage);
     CHECK (none.all > 1);
     CHECK (none.blinking == 0);
     CHECK (none.visible == 0);
 
-    auto* field = fieldIn (*w.view);
+    auto* field = fieldIn (*w.stage);
     REQUIRE (field != nullptr);
     field->grabKeyboardFocus();
-    WindowRig::settle (100);
+    OnStage::settle (100);
     REQUIRE (field->hasKeyboardFocus (false));
-    CHECK (count (*w.view).blinking == 1);
-    CHECK (becomes (0, *w.view));
-    CHECK (becomes (1, *w.view));
+    CHECK (count (*w.stage).blinking == 1);
+    CHECK (becomes (0, *w.stage));
+    CHECK (becomes (1, *w.stage));
 
-    w.view->canvas().grabKeyboardFocus();
-    WindowRig::settle (100);
-    CHECK (count (*w.view).blinking == 0);
-    CHECK (count (*w.view).visible == 0);
+    w.canvas.grabKeyboardFocus();
+    OnStage::settle (100);
+    CHECK (count (*w.stage).blinking == 0);
+    CHECK (count (*w.stage).visible == 0);
 }

@@ -1,54 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the scopes share their panel, on small and large screens.
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/over_plot.hpp>
 #include <host/app/scopes/scope_panel.hpp>
-#include <host/app/look/appearance.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::Bench;
-using tactus::host::test::Stage;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 using tactus::host::test::waitFor;
-using tactus::host::test::WindowRig;
-
-namespace
-{
-ScopePanel& scopes (WindowRig& w)
-{
-    auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));
-    REQUIRE (panel != nullptr);
-    return *panel;
-}
-}   // namespace
-
-TEST_CASE ("on a small screen and at twice the size, at least 120 pixels of each plot are in view", "[app][scopes]")
-{
-    WindowRig w ("dry_wood.json", 1024, 700);
-    for (const double scale : { 1.0, 2.0 })
-    {
-        INFO (scale);
-        applyScale (scale);
-        Stage::plugIn();
-        w.stage->setSize (juce::roundToInt (1024 / scale), juce::roundToInt (700 / scale));
-        WindowRig::settle();
-        auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));
-        REQUIRE (panel != nullptr);
-        REQUIRE_FALSE (panel->shown().empty());
-        for (const auto& v : panel->shown())
-        {
-            auto& plot = v->plot();
-            const auto seen = panel->getLocalArea (&plot, plot.getLocalBounds()).withX (0).withWidth (10).getIntersection (panel->getLocalBounds());
-            CHECK (seen.getHeight() * scale >= 120.0);
-        }
-        CHECK (w.view->canvas().getHeight() * scale >= 160.0);
-    }
-    applyScale (1.0);
-    Stage::plugIn();
-}
 
 TEST_CASE ("scopes in a high panel are in a grid, all in view and none over another", "[app][scopes]")
 {
@@ -111,38 +75,28 @@ TEST_CASE ("the numbers of the axes are whole in a scope of any size", "[app][sc
         }
 }
 
-TEST_CASE ("a new graph shows no values of the run before, and a new spectrum shows the selected wire", "[app][scopes]")
+TEST_CASE ("a new spectrum shows the selected wire", "[app][scopes]")
 {
-    WindowRig w ("dry_wood.json", 1920, 1080, false);
-    const auto isSeen = [&] (const juce::String& text) {
-        return std::ranges::any_of (host::test::readTexts (*w.view), [&] (const auto& t) { return t.text.contains (text); });
-    };
-    const auto& wires = w.graph().root.wires;
-    w.view->canvas().select ({ wires.front().id });
+    DeskStage w ("dry_wood.json", 1920, 600);
+    auto& panel = w.show<ScopePanel> (scopesPanel);
+    w.canvas.select ({ w.graph().root.wires.front().id });
     w.click ("+ Spectrum");
-    const auto* made = scopes (w).scopes().scopes.back().get();
+    const auto* made = panel.scopes().scopes.back().get();
     CHECK (made->kind == ScopeKind::spectrum);
     CHECK (made->ports == std::vector<std::string> { "hand.position" });
-    w.view->canvas().select ({});
+    w.canvas.select ({});
     w.click ("+ Spectrum");
-    CHECK (scopes (w).scopes().scopes.back()->ports == std::vector<std::string> { "motor.force" });
-
-    REQUIRE (waitFor ([&] { return isSeen ("peak"); }));
-    w.key ("ctrl + n");
-    if (w.view->asked().isOpen()) w.click ("Don't save");
-    REQUIRE (w.graph().root.nodes.empty());
-    CHECK (waitFor ([&] { return ! isSeen ("peak") && ! isSeen ("late ticks"); }));
-    w.key ("ctrl + z");   // the graph of that run
-    CHECK (waitFor ([&] { return isSeen ("peak"); }));
+    CHECK (panel.scopes().scopes.back()->ports == std::vector<std::string> { "motor.force" });
 }
 
 TEST_CASE ("two fingers open without a word about scopes that do not fit", "[app][scopes]")
 {
-    WindowRig w ("two_fingers.json", 1280, 720, false);
-    auto& run = w.view->run();
+    DeskStage w ("two_fingers.json");
+    auto& panel = w.show<ScopePanel> (scopesPanel);
+    auto& run = w.playback.run();
+    run.start ({});
     REQUIRE (waitFor ([&] { return run.isRunning() && ! run.traces().of ("finger/motor.force").empty(); }));
-    WindowRig::settle (100);
-    CHECK (scopes (w).warning().isEmpty());
+    OnStage::settle (100);
+    CHECK (panel.warning().isEmpty());
     CHECK (run.traces().of ("finger[0]/skin.state").size() == 1);
-    run.letGo();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stems that the window exports, compared with those that `tactus render --stems` is made of.
+// Stems that the host exports, compared with those that `tactus render --stems` is made of.
 #include "host/app/support/desk_rig.hpp"
-#include "host/app/support/window_rig.hpp"
+#include "host/app/support/wait_for.hpp"
 
 #include "support/waiting.hpp"
 
@@ -19,48 +19,54 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskRig;
-using tactus::host::test::WindowRig;
 
 namespace
 {
 bool until (const std::function<bool()>& isSo)
 {
     return tactus::test::eventually ({}, [&] {
-        WindowRig::settle (5);
+        tactus::host::test::settle (5);
         return isSo();
     });
 }
-}   // namespace
 
-TEST_CASE ("the window exports the stems of the open graph, and they add up to its mix", "[app][stems]")
+/// Exports the stems of a bell. Returns the name that was proposed for their folder.
+std::filesystem::path exportBell (DeskRig& r, std::size_t choice)
 {
-    const TemporaryFolder folder;
-    WindowRig w ("bronze_bell.json");
+    StemExport stems (r.desk);
     std::filesystem::path proposed;
-    w.view->chooseFile = [&] (bool saves, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+    r.desk.chooseFile = [&] (bool saves, const std::filesystem::path& begin, const auto& chosen) {
         CHECK (saves);
         proposed = begin.filename();
-        chosen (folder / "bell");
+        chosen (r.home / "bell");
     };
-    w.key ("ctrl + k");
-    w.stage->type ("export stems");
-    w.key ("return");
-    WindowRig::settle();
-    REQUIRE (w.view->asked().isOpen());
-    CHECK (w.view->asked().title() == "Export the stems of Bronze bell");
-    w.view->asked().answer (4);   // floats
-    CHECK (proposed == "Bronze bell stems");
-    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
-    INFO (w.view->statusText());
-    CHECK (w.view->statusText().contains ("files are in"));
+    stems.ask();
+    REQUIRE (r.question.isOpen());
+    CHECK (r.question.title() == "Export the stems of Bronze bell");
+    r.question.answer (choice);
+    REQUIRE (until ([&] {
+        stems.attend();
+        return ! stems.isRunning();
+    }));
+    CHECK_FALSE (r.question.isOpen());
+    INFO (r.said);
+    CHECK (r.said.contains ("files are in"));
+    return proposed;
+}
+}   // namespace
 
-    const auto mix = readWav (folder / "bell" / "mix.wav"), wall = readWav (folder / "bell" / "not_mixed_wall_force.wav");
+TEST_CASE ("the stems of the open graph are exported, and they add up to its mix", "[app][stems]")
+{
+    DeskRig r ("bronze_bell.json");
+    CHECK (exportBell (r, 4) == "Bronze bell stems");   // floats
+
+    const auto mix = readWav (r.home / "bell" / "mix.wav"), wall = readWav (r.home / "bell" / "not_mixed_wall_force.wav");
     REQUIRE (mix);
     REQUIRE (wall);
     REQUIRE (mix->channels.size() == 3);
     std::vector<double> sum = wall->channels.at (2);
     int layers = 0;
-    for (const auto& entry : std::filesystem::directory_iterator (folder / "bell"))
+    for (const auto& entry : std::filesystem::directory_iterator (r.home / "bell"))
     {
         if (! entry.path().filename().string().starts_with ("layer_")) continue;
         const auto layer = readWav (entry.path());
@@ -80,23 +86,12 @@ TEST_CASE ("the window exports the stems of the open graph, and they add up to i
     CHECK (worst < 1e-5 * (1.0 + peak));
 }
 
-TEST_CASE ("the window exports a clip of each layer in each format", "[app][stems]")
+TEST_CASE ("a clip of each layer is exported in each format", "[app][stems]")
 {
-    const TemporaryFolder folder;
-    WindowRig w ("bronze_bell.json");
-    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
-        chosen (folder / "bell");
-    };
-    w.key ("ctrl + k");
-    w.stage->type ("export stems");
-    w.key ("return");
-    WindowRig::settle();
-    REQUIRE (w.view->asked().isOpen());
-    w.view->asked().answer (3);
-    REQUIRE (until ([&] { return ! w.view->asked().isOpen(); }));
-    INFO (w.view->statusText());
+    DeskRig r ("bronze_bell.json");
+    exportBell (r, 3);
     std::map<std::string, std::set<std::string>> endings;
-    for (const auto& entry : std::filesystem::directory_iterator (folder / "bell"))
+    for (const auto& entry : std::filesystem::directory_iterator (r.home / "bell"))
         if (isClipExtension (entry.path()) && entry.path().extension() != ".wav")
         {
             INFO (entry.path());

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presets that are shared as one file. tests/host/cli/pack_test.py makes files that do harm.
-#include "host/app/support/window_rig.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/with_limits.hpp"
 
-#include <host/app/problems/problem_list.hpp>
 #include <host/app/storage/share.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <host/base/files/preset_pack.hpp>
@@ -13,11 +12,12 @@
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
 
+#include <catch2/catch.hpp>
+
 #include <algorithm>
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
 
 namespace
 {
@@ -109,38 +109,4 @@ TEST_CASE ("what no program would open again is not shared", "[app][share]")
     for (auto& n : g.root.nodes)
         if (n.type == "signal.clip") n.settings["clip"] = "assets/beat|1.haptic";
     CHECK (refused (g) == "share/name");
-}
-
-TEST_CASE ("the window shares the open graph, and opens such a file as a copy", "[app][share]")
-{
-    const TemporaryFolder folder;
-    WindowRig w ("heartbeat.json");
-    std::filesystem::path proposed;
-    w.view->chooseFile = [&] (bool saves, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
-        CHECK (saves);
-        proposed = begin.filename();
-        chosen (folder / "beat.tactus");
-    };
-    w.key ("ctrl + k");
-    w.stage->type ("share as one file");
-    w.key ("return");
-    WindowRig::settle();
-    CHECK (proposed == "Heartbeat.tactus");
-    INFO (w.view->statusText());
-    REQUIRE (std::filesystem::exists (folder / "beat.tactus"));
-
-    w.key ("ctrl + n");
-    REQUIRE (w.graph().name != "Heartbeat");
-    w.view->open (folder / "beat.tactus");
-    WindowRig::settle();
-    CHECK (w.graph().name == "Heartbeat");
-    CHECK (w.view->document().file().empty());
-    CHECK (w.view->part<ProblemList>().messages().empty());
-
-    folder.write ("bad.tactus", "no archive");
-    w.view->open (folder / "bad.tactus");
-    WindowRig::settle();
-    CHECK (w.view->asked().isOpen());
-    w.view->asked().cancel();
-    CHECK (w.graph().name == "Heartbeat");
 }

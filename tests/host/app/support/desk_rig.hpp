@@ -41,9 +41,15 @@ struct DeskRig
     std::filesystem::path chosen;
     std::optional<Panel> panel;
 
-    /// A file of graphs/; without, the graph is empty.
-    explicit DeskRig (const std::string& preset = {})
-        : document (preset.empty() ? graph::Graph {} : loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR "/graphs") / preset).graph)
+    /// A file of graphs/, or one with an absolute path; without, the graph is empty.
+    static graph::Graph load (const std::string& preset)
+    {
+        return preset.empty() ? graph::Graph {} : loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR "/graphs") / preset).graph;
+    }
+
+    explicit DeskRig (const std::string& preset = {}) : DeskRig (load (preset)) {}
+
+    explicit DeskRig (graph::Graph g) : document (std::move (g))
     {
         devices.open (home.path());
         canvas.setSize (800, 600);

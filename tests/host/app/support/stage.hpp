@@ -25,6 +25,9 @@ public:
 
     void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
 
+    std::function<bool (const juce::KeyPress&)> onKey;   ///< receives a key that nothing on the screen takes
+    bool keyPressed (const juce::KeyPress& k) override { return onKey && onKey (k); }
+
     /// Adds a virtual screen, which menus need for their layout. JUCE drops it when the global scale changes.
     static void plugIn()
     {

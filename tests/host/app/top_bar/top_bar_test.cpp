@@ -1,21 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
+
+#include <host/app/top_bar/top_bar.hpp>
+#include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 
-TEST_CASE ("the snapshots have a caption, which never covers the name of the graph")
+namespace
+{
+/// The bar over a canvas. It gets the keys that the canvas does not take, as in the window.
+struct BarStage : DeskStage
+{
+    explicit BarStage (int width = 1280, const char* preset = "dry_wood.json") : DeskStage (preset, width, 700)
+    {
+        stage->addAndMakeVisible (top);
+        top.setBounds (0, 0, width, TopBar::height);
+        top.show();
+        stage->onKey = [this] (const juce::KeyPress& k) { return top.snapshotKey (k) || canvas.keyPressed (k); };
+        document.add (shown);
+        canvas.onBreadcrumbs = [this] { top.show(); };
+    }
+    ~BarStage() override { document.remove (shown); }
+
+    TopBar top { desk };
+    struct Shown : Document::Listener
+    {
+        explicit Shown (TopBar& t) : bar (t) {}
+        void documentChanged() override { bar.show(); }
+        TopBar& bar;
+    } shown { top };
+};
+}   // namespace
+
+TEST_CASE ("the snapshots have a caption, which never covers the name of the graph", "[app][snapshots]")
 {
     for (const int width : { 800, 960, 1024, 1280, 1920 })
         for (const auto* name : { "Dry wood", "A very long name of a graph that fills the bar up to the buttons on its right" })
         {
-            WindowRig rig ("dry_wood.json", width, 700);
-            REQUIRE (rig.view->document().perform (graph::SetHeader { .name = name }));
-            WindowRig::settle();
-            const auto texts = tactus::host::test::readTexts (*rig.view);
-            const auto bar = juce::Rectangle<int> (0, SafetyStrip::height, width, TopBar::height).toFloat();
+            BarStage rig (width);
+            REQUIRE (rig.document.perform (graph::SetHeader { .name = name }));
+            rig.top.show();
+            const auto texts = tactus::host::test::readTexts (rig.top);
+            const auto bar = rig.top.getLocalBounds().toFloat();
             INFO (width << ": " << name);
             CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == "Snapshots" && bar.contains (t.place); }));
             CHECK (tactus::host::test::overlaps (texts, bar).isEmpty());
@@ -24,9 +54,9 @@ TEST_CASE ("the snapshots have a caption, which never covers the name of the gra
 
 TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
 {
-    WindowRig w ("dry_wood.json");
+    BarStage w;
     const auto lit = [&] {
-        WindowRig::settle();
+        OnStage::settle();
         std::string numbers;
         for (int n = 1; n <= snapshot_count; ++n)
             if (const auto* slot = dynamic_cast<juce::Button*> (w.titled ("Snapshot " + juce::String (n))); slot != nullptr && slot->getToggleState())
@@ -34,9 +64,11 @@ TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
         return numbers;
     };
     CHECK (lit().empty());
+    w.key ("1");
+    CHECK (w.status.text().contains ("empty"));
     w.key ("ctrl + 1");
     CHECK (lit() == "1");
-    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    REQUIRE (w.document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
     CHECK (lit().empty());
     w.key ("ctrl + 2");
     CHECK (lit() == "2");
@@ -46,12 +78,12 @@ TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
         auto* slot = w.titled ("Snapshot " + juce::String (n));
         return slot->createComponentSnapshot (slot->getLocalBounds()).getPixelAt (6, slot->getHeight() / 2);
     };
-    CHECK (colour (1) == themeOf (*w.view).accent);
+    CHECK (colour (1) == themeOf (*w.stage).accent);
     CHECK (colour (2) != colour (1));
     CHECK (colour (2) != colour (3));
     auto turned = w.graph().controls[0];
     turned.value = 0.25;
-    REQUIRE (w.view->document().perform (graph::ChangeControl { turned.id, turned }));
+    REQUIRE (w.document.perform (graph::ChangeControl { turned.id, turned }));
     CHECK (lit().empty());
     w.key ("ctrl + z");
     CHECK (lit() == "1");
@@ -59,21 +91,57 @@ TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
 
 TEST_CASE ("a right click on a snapshot moves no value, and offers to recall, to overwrite and to clear it", "[app][snapshots]")
 {
-    WindowRig w ("dry_wood.json");
+    BarStage w;
     const auto middle = [&] { return w.middleOf (*w.titled ("Snapshot 1")); };
     const auto mu = [&] { return w.graph().root.find ("drag")->params["mu"]; };
     w.choose (middle(), 1);   // the only entry of an empty one
     REQUIRE (hasSnapshot (w.graph(), 1));
-    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    REQUIRE (w.document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
     w.choose (middle(), 1, juce::ModifierKeys::rightButtonModifier, "escape");
     CHECK (mu() == 0.9);
     w.choose (middle(), 2);
     CHECK (isAtSnapshot (w.graph(), 1));
-    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.4) }));
+    REQUIRE (w.document.perform (graph::SetParam { "", "drag", "mu", Json (0.4) }));
     w.choose (middle(), 1);
     CHECK (mu() == 0.9);
     w.choose (middle(), 3);
     CHECK_FALSE (hasSnapshot (w.graph(), 1));
     w.key ("ctrl + z");
     CHECK (hasSnapshot (w.graph(), 1));
+}
+
+TEST_CASE ("storing a snapshot can be undone", "[app][undo]")
+{
+    BarStage w;
+    const auto text = writeGraph (w.graph());
+    w.key ("ctrl + 3");
+    REQUIRE (writeGraph (w.graph()) != text);
+    w.key ("ctrl + z");
+    CHECK (writeGraph (w.graph()) == text);
+}
+
+TEST_CASE ("an opened subgraph with several instances shows the values of the chosen one", "[app][keys]")
+{
+    BarStage w (1280, "two_fingers.json");
+    std::string counted;
+    for (const auto& n : w.graph().root.nodes)
+        if (n.extra.contains ("count")) counted = n.name;
+    REQUIRE_FALSE (counted.empty());
+    auto& canvas = w.canvas;
+    CHECK_FALSE (canvas.instance());
+    for (const auto& n : canvas.scene().nodes())
+        if (n.name == counted)
+        {
+            canvas.enter (n);
+            break;
+        }
+    REQUIRE (canvas.instance());
+    CHECK (canvas.instance()->number == 0);
+    CHECK (canvas.address ("x.out") == counted + "[0]/x.out");
+    CHECK (OnStage::buttonIn (*w.stage, "Instance [0] of " + juce::String (canvas.instance()->count)) != nullptr);
+    canvas.chooseInstance (1);
+    CHECK (canvas.address ("x.out") == counted + "[1]/x.out");
+    CHECK (OnStage::buttonIn (*w.stage, "Instance [1] of " + juce::String (canvas.instance()->count)) != nullptr);
+    canvas.chooseInstance (99);   // at most the last one
+    CHECK (canvas.instance()->number == canvas.instance()->count - 1);
 }

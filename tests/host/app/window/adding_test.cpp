@@ -138,3 +138,81 @@ TEST_CASE ("with several roles, the window asks once which device plays the adde
     for (const auto& m : w.view->run().messages())
         CHECK (m.severity != Message::Severity::error);
 }
+
+TEST_CASE ("a preset becomes a layer from the list of nodes", "[app][canvas][clipboard]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("spacebar");
+    w.stage->type ("bronze b");
+    w.key ("return");
+    WindowRig::settle();
+    INFO (w.view->statusText());
+    CHECK (w.graph().root.find ("bronze_bell") != nullptr);
+    CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
+    w.key ("spacebar");
+    w.stage->type ("lfo");
+    w.key ("return");
+    CHECK (std::ranges::count (w.graph().root.nodes, "signal.lfo", &graph::Node::type) == 1);
+}
+
+TEST_CASE ("the first node is where the double click was", "[app][canvas]")
+{
+    WindowRig w;
+    w.key ("ctrl + n");
+    auto& canvas = w.view->canvas();
+    for (const auto& part : { juce::Point<float> (0.3f, 0.4f), juce::Point<float> (0.85f, 0.2f), juce::Point<float> (0.97f, 0.97f) })
+    {
+        w.key ("ctrl + n");
+        const auto at = canvas.getLocalBounds().toFloat().getRelativePoint (part.x, part.y);
+        const auto on_canvas = canvas.view().toCanvas (at);
+        w.stage->doubleClick (w.stage->getLocalPoint (&canvas, at));
+        WindowRig::settle();
+        REQUIRE (w.titled ("Palette") != nullptr);
+        w.stage->type ("plane");
+        WindowRig::settle();
+        w.key ("return");
+        WindowRig::settle();
+        REQUIRE (canvas.scene().nodes().size() == 1);
+        const auto b = canvas.scene().nodes().front().bounds();
+        INFO (part.toString() << ": " << on_canvas.toString() << " " << b.toString());
+        CHECK (b.expanded (1.0f).contains (on_canvas));
+        const juce::Rectangle<float> pixels (canvas.view().toPixels (b.getTopLeft()), canvas.view().toPixels (b.getBottomRight()));
+        CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
+        w.key ("ctrl + z");
+    }
+}
+
+TEST_CASE ("an oscillator that keys add and wire gets a free place at the left of what it feeds, in one step", "[app][compose][keyboard]")
+{
+    for (const auto& words : { "grain amp", "roughness", "board stiff" })
+    {
+        INFO (words);
+        WindowRig w ("dry_wood.json", 1600, 1000);
+        auto& canvas = w.view->canvas();
+        const auto choose = [&] (const char* key, const char* text) {
+            w.key (key);
+            w.stage->type (text);
+            w.key ("return");
+            WindowRig::settle();
+        };
+        canvas.grabKeyboardFocus();
+        choose ("spacebar", "lfo");
+        const auto position = w.view->document().history().position();
+        const auto* lfo = w.graph().root.find ("lfo");
+        REQUIRE (lfo != nullptr);
+        const auto id = lfo->id;
+        const auto begun_at = canvas.scene().find (id)->at;
+        choose ("w", words);
+        const auto& wires = canvas.scene().wires();
+        const auto wire = std::ranges::find (wires, "lfo.out", &SceneWire::source);
+        REQUIRE (wire != wires.end());
+        CHECK (wire->add);
+        CHECK (wire->from.x < wire->to.x);
+        const auto place = canvas.scene().find (id)->bounds();
+        CHECK (std::ranges::none_of (canvas.scene().nodes(), [&] (const SceneNode& n) { return n.id != id && n.bounds().intersects (place); }));
+        CHECK (w.view->document().history().position() == position + 1);
+        w.key ("ctrl + z");
+        CHECK (canvas.scene().find (id)->at == begun_at);
+    }
+}

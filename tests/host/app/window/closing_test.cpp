@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closing the window, or opening another graph, loses no film and no take without a question.
+// Closing the window, opening another graph, or a crash loses no film and no take without a question.
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/take/take_panel.hpp>
@@ -34,7 +34,10 @@ struct Closing
             then (chosen);
         };
     }
-    ~Closing() { w.view->run().letGo(); }
+    ~Closing()
+    {
+        if (w.view) w.view->run().letGo();
+    }
 
     Question& question() { return w.view->asked(); }
     FilmButton& film() { return w.view->part<HandPanel>().film(); }
@@ -71,6 +74,20 @@ struct Closing
         REQUIRE (waitFor ([&] { return take().state() == Take::State::ready; }));
     }
 };
+
+/// Where the hand was when it was lowest.
+Vec3 lowest (const fs::path& log, const std::string& program)
+{
+    FileAssets assets;
+    Messages warnings;
+    const auto played = readStretch (log.string(), { .role = "stylus", .assets = &assets, .program = program }, warnings);
+    REQUIRE (played);
+    REQUIRE (played->ticks() > 0);
+    Vec3 place (0.0, 0.0, 1.0);
+    for (auto row = played->movement.begin(); row != played->movement.end(); row += static_cast<std::ptrdiff_t> (played->columns.size()))
+        if (row[3] < place.z()) place = Vec3 (row[1], row[2], row[3]);
+    return place;
+}
 }   // namespace
 
 TEST_CASE ("closing while a film is being saved waits for it, with progress", "[app][closing]")
@@ -328,4 +345,63 @@ TEST_CASE ("a take of which something was made needs no question, a new graph ke
         CHECK (fs::exists (c.folder / "take.jsonl"));
         CHECK (fs::exists (c.folder / "take_2.jsonl"));
     }
+}
+
+TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app][take][recovery]")
+{
+    Closing c;
+    c.record();
+    const bool is_crash = GENERATE (false, true), is_complete = GENERATE (false, true);
+    INFO ((is_crash ? "crash, " : "signal, ") << (is_complete ? "complete" : "recording"));
+    if (is_complete) c.stopRecording();
+    REQUIRE (waitFor ([&] { return fs::file_size (c.take().log()) > 10000; }));
+    const auto sessions = c.w.home / "sessions";
+    const auto own = fs::directory_iterator (sessions)->path();
+    if (is_crash)   // what is on the disk now
+        fs::copy (own, sessions / "crashed", fs::copy_options::recursive);
+    else
+        c.w.view->closeSuddenly();
+    const auto left = c.take().log();
+    c.w.view.reset();
+    CHECK (fs::exists (left) == ! is_crash);
+    if (is_crash) fs::remove_all (own);
+
+    auto& w = c.w;
+    w.view = std::make_unique<MainView> (catalogue());
+    w.stage->fill (*w.view);
+    w.view->begin ({ .home = w.home.path() });
+    WindowRig::settle();
+    REQUIRE (w.view->asked().isOpen());
+    CHECK (w.view->asked().getDescription().contains ("A take was not saved."));
+    w.click ("Recover without running");
+    auto& panel = w.view->part<TakePanel>();
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
+    CHECK (panel.unsaved() == std::vector { panel.take().recorded() });
+    CHECK (panel.port() == "motor.force");
+    CHECK_FALSE (fs::exists (sessions / "crashed"));
+    CHECK_FALSE (fs::exists (left));
+    CHECK (lowest (panel.take().log(), panel.take().program).z() < 0.01);
+    w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) { then (w.home / "gesture.csv"); };
+    w.click ("Take");
+    w.click ("Make a gesture...");   // as of any other take
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+}
+
+TEST_CASE ("a take that was saved as a gesture raises no question after a crash", "[app][take][recovery]")
+{
+    Closing c;
+    c.record();
+    c.stopRecording();
+    c.w.click ("Make a gesture...");
+    REQUIRE (waitFor ([&] { return c.w.view->asked().isOpen(); }));
+    const auto sessions = c.w.home / "sessions";
+    const auto own = fs::directory_iterator (sessions)->path();
+    fs::copy (own, sessions / "crashed", fs::copy_options::recursive);
+    c.w.view.reset();
+    fs::remove_all (own);
+    c.w.view = std::make_unique<MainView> (catalogue());
+    c.w.stage->fill (*c.w.view);
+    c.w.view->begin ({ .home = c.w.home.path() });
+    WindowRig::settle();
+    CHECK_FALSE (c.w.view->asked().getDescription().contains ("take"));
 }

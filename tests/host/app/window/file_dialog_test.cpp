@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/contrast.hpp"
 #include "host/app/support/screen.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
@@ -13,6 +14,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::contrast;
 using tactus::host::test::onScreen;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
@@ -225,4 +227,39 @@ TEST_CASE ("the dialog for the clip of a node waits for a name, and lists clips 
     w.key ("return");
     CHECK (waitFor ([&] { return w.graph().root.nodes[0].settings.at ("clip") == Json ("zip.json"); }));
     CHECK_FALSE (isDialogOpen());
+}
+
+TEST_CASE ("the dialog for files has a border all around, and the window behind it is dimmed while it is open, but not STOP", "[app][look]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto brightness = [] (const juce::Image& image, juce::Rectangle<int> area) {
+        double sum = 0.0;
+        for (int y = area.getY(); y < area.getBottom(); ++y)
+            for (int x = area.getX(); x < area.getRight(); ++x)
+                sum += static_cast<double> (image.getPixelAt (x, y).getBrightness());
+        return sum / (area.getWidth() * area.getHeight());
+    };
+    const auto safety = w.stage->getLocalBounds().withHeight (SafetyStrip::height), corner = w.stage->getLocalBounds().withTop (660).withRight (300);
+    const auto before = w.stage->painted();
+
+    juce::FileBrowserComponent files (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                                      juce::File (TACTUS_SOURCE_DIR "/graphs"), nullptr, nullptr);
+    juce::FileChooserDialogBox box ("Open", {}, files, false, themeOf (*w.view).panel, w.stage.get());
+    box.setBounds (340, 110, 600, 500);
+    box.enterModalState (false);
+    WindowRig::settle (200);
+    const auto open = w.stage->painted();
+    CHECK (brightness (open, corner) < 0.7 * brightness (before, corner));
+    CHECK (brightness (open, safety) > 0.9 * brightness (before, safety));
+
+    const auto picture = box.createComponentSnapshot (box.getLocalBounds());
+    const auto inside = themeOf (*w.view).panel;
+    for (const auto at : { juce::Point (0, 250), juce::Point (599, 250), juce::Point (300, 0), juce::Point (300, 499) })
+        CHECK (contrast (picture.getPixelAt (at.x, at.y), inside) > 1.5);
+    CHECK (contrast (picture.getPixelAt (2, 250), inside) < 1.05);
+
+    box.exitModalState (0);
+    box.setVisible (false);
+    WindowRig::settle (200);
+    CHECK (brightness (w.stage->painted(), corner) > 0.9 * brightness (before, corner));   // pictures of presets may have come meanwhile
 }

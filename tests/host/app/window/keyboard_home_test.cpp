@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The keyboard is never lost: after everything that takes it for a while, the keys of the canvas work again.
-#include "host/app/support/wait_for.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/take/take_panel.hpp>
-
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::latestStep;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
@@ -51,6 +51,14 @@ struct Desk
 
     void select (const std::string& node) { w->view->canvas().select ({ w->graph().root.find (node)->id }); }
 };
+
+juce::Component* firstTextEditor (juce::Component& c)
+{
+    if (dynamic_cast<juce::TextEditor*> (&c) != nullptr && c.isVisible()) return &c;
+    for (auto* child : c.getChildren())
+        if (auto* e = firstTextEditor (*child)) return e;
+    return nullptr;
+}
 }   // namespace
 
 TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas work", "[app][keyboard]")
@@ -106,17 +114,12 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
 
     const auto& scene = w.view->canvas().scene();
     const auto at = w.view->canvas().view().toPixels (scene.nodes().front().bounds().getCentre());
-    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), at), juce::ModifierKeys::rightButtonModifier);
-    REQUIRE (waitFor ([] { return juce::Component::getNumCurrentlyModalComponents() == 1; }));
-    w.key ("escape");
-    WindowRig::settle();
+    w.choose (w.stage->getLocalPoint (&w.view->canvas(), at), 0, juce::ModifierKeys::rightButtonModifier, "escape");
     d.checkKeys ("the menu of a node");
 
     d.select ("scrub");
-    w.key ("shift + F10");
-    REQUIRE (waitFor ([] { return juce::Component::getNumCurrentlyModalComponents() == 1; }));
-    w.key ("escape");
-    WindowRig::settle();
+    WindowRig::useMenu (
+        *w.stage, [&] { w.stage->key ("shift + F10"); }, 0, "escape");
     d.checkKeys ("the menu that a key opens");
 
     // If a field is deleted while it has the keyboard, the component next to it does not get it.
@@ -174,14 +177,7 @@ TEST_CASE ("the keyboard alone leads from the welcome page to a force, and throu
     REQUIRE (isOn (0));
     w.key ("return");
     CHECK (w.graph().name == cards[0].name);
-    bool is_felt = false;
-    for (int i = 0; i < 3000 && ! is_felt; ++i)
-    {
-        WindowRig::settle (10);
-        const auto tool = w.view->run().tool();
-        is_felt = tool && tool->force.norm() > 0.1;
-    }
-    CHECK (is_felt);
+    CHECK (waitFor ([&] { return w.view->run().tool() && w.view->run().tool()->force.norm() > 0.1; }));
     CHECK (WindowRig::focused() == &w.view->canvas());
 
     w.view->run().letGo();
@@ -362,4 +358,122 @@ TEST_CASE ("a key that erases or moves is for the value that has the focus, not 
         w.key ("return");
         REQUIRE (w.graph().root.find ("board") != nullptr);
     }
+}
+
+TEST_CASE ("every parameter is reached from the canvas with the keyboard alone, and Esc leads back", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    canvas.select ({});
+    w.key ("ctrl + cursor right");
+    REQUIRE (canvas.selection().size() == 1);
+    canvas.select ({ w.graph().root.find ("drag")->id });
+
+    w.key ("return");
+    auto* field = dynamic_cast<NumberField*> (WindowRig::focused());
+    REQUIRE (field != nullptr);
+    CHECK (w.view->part<Inspector>().isParentOf (field));
+
+    // Tab goes through all fields of the node, and opens nothing.
+    std::set<std::string> titles;
+    for (int i = 0; i < 60; ++i)
+    {
+        if (auto* f = dynamic_cast<NumberField*> (WindowRig::focused())) titles.insert (f->getTitle().toStdString());
+        w.key ("tab");
+        REQUIRE (w.view->part<Inspector>().hasKeyboardFocus (true));
+    }
+    for (const char* param : { "d max", "Static ratio", "Stiffness" })
+        CHECK (titles.contains (param));
+
+    for (int i = 0; i < 60 && WindowRig::focused()->getTitle() != "Stiffness"; ++i)
+        w.key ("tab");
+    REQUIRE (WindowRig::focused()->getTitle() == "Stiffness");
+    w.key ("return");
+    REQUIRE (firstTextEditor (w.view->part<Inspector>()) != nullptr);
+    w.stage->type ("2 kN/m");
+    w.key ("return");
+    CHECK (w.graph().root.find ("drag")->params["stiffness"] == "2 kN/m");
+    CHECK (latestStep (w.view->document()) == "drag: Stiffness 0 N/m -> 2 kN/m");
+
+    w.key ("escape");
+    CHECK (canvas.hasKeyboardFocus (true));
+    CHECK (canvas.selection() == tactus::host::Selection { w.graph().root.find ("drag")->id });
+}
+
+TEST_CASE ("a field that gets the focus is scrolled into view", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json", 1024, 420);
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    canvas.select ({ w.graph().root.find ("drag")->id });
+    w.key ("return");
+    for (int i = 0; i < 30; ++i)
+    {
+        w.key ("tab");
+        const auto* now = WindowRig::focused();
+        REQUIRE (now != nullptr);
+        const auto place = w.view->part<Inspector>().getLocalArea (now, now->getLocalBounds());
+        INFO (now->getTitle());
+        CHECK (w.view->part<Inspector>().getLocalBounds().contains (place.getCentre()));
+    }
+}
+
+TEST_CASE ("a name that is refused stays in its field, so that the next keys are no shortcuts", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    WindowRig::settle();
+    auto* name = dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"));
+    REQUIRE (name != nullptr);
+    w.stage->click (w.middleOf (*name));
+    w.stage->type ("2 Wood grips");
+    w.key ("return");
+    CHECK (name->hasKeyboardFocus (true));
+    CHECK (name->getText() == "2 Wood grips");
+    CHECK (w.graph().root.find ("drag") != nullptr);
+    w.stage->type ("wood_grip");   // the refused name is selected
+    w.key ("return");
+    CHECK (w.graph().root.find ("wood_grip") != nullptr);
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+
+    w.stage->click (w.middleOf (*w.titled ("Name of the node")));
+    w.stage->type ("2 bad names");
+    w.key ("return");
+    w.key ("escape");
+    CHECK (dynamic_cast<juce::TextEditor*> (w.titled ("Name of the node"))->getText() == "wood_grip");
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+}
+
+TEST_CASE ("a click on a tab shows its panel, and leaves the keyboard to the canvas", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    for (const char* tab : { "History", "Presets", "Take", "Devices", "Layers", "Problems", "Scopes" })
+    {
+        INFO (tab);
+        w.click (tab);
+        CHECK (WindowRig::focused() == &w.view->canvas());
+    }
+}
+
+TEST_CASE ("after a new graph is opened, what is typed is for the canvas and not for the search that had the keyboard", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    w.key ("ctrl + f");
+    w.stage->type ("wood");
+    WindowRig::settle();
+    REQUIRE (WindowRig::focused() != &w.view->canvas());
+    w.key ("ctrl + n");
+    WindowRig::settle();
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    w.stage->key ("spacebar");
+    WindowRig::settle();
+    w.stage->type ("plane");
+    WindowRig::settle();
+    w.key ("return");
+    REQUIRE (w.graph().root.nodes.size() == 1);
+    CHECK (w.graph().root.nodes[0].type == "deform.plane");
+    CHECK_FALSE (w.view->run().isRunning());
 }

@@ -219,22 +219,6 @@ TEST_CASE ("while the scene is enlarged, keys do not edit the hidden canvas")
     CHECK (nodes() < before);
 }
 
-TEST_CASE ("digits recall snapshots, and Ctrl+digit stores them")
-{
-    Opened o;
-    o.view->begin ({ o.home.path(), true, false, { o.wood } });
-    const auto mu = [&] { return o.view->document().graph().root.find ("drag")->params["mu"]; };
-    o.press ("2");
-    CHECK (o.view->statusText().contains ("empty"));
-    o.press ("ctrl + 2");
-    REQUIRE (hasSnapshot (o.view->document().graph(), 2));
-    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
-    o.press ("2");
-    CHECK (mu() == 0.4);
-    o.press ("ctrl + z");
-    CHECK (mu() == 0.9);
-}
-
 TEST_CASE ("the window closes only after the question about unsaved changes is answered")
 {
     Opened o;
@@ -294,34 +278,6 @@ TEST_CASE ("help on a node shows its datasheet, and its example opens a graph th
     CHECK (o.view->part<HelpPanel>().isOpen());
     o.view->part<HelpPanel>().showNode ("graph:grain");
     CHECK (o.view->part<HelpPanel>().isOpen());
-}
-
-TEST_CASE ("the browser searches by words and lists favourites first")
-{
-    Opened o;
-    o.view->begin ({ o.home.path(), true });
-    auto& browser = o.view->part<PresetBrowser>();
-    browser.setSize (232, 600);
-    const auto all = browser.rows().size();
-    CHECK (all >= 30);
-    browser.search ("metal ring");
-    CHECK (browser.rows().size() < all);
-    REQUIRE_FALSE (browser.rows().empty());
-    browser.search ({});
-    CHECK (browser.rows().size() == all);
-    CHECK (browser.rows().front().heading.isEmpty());   // a single section needs no heading
-
-    Preset opened;
-    bool is_own = true;
-    browser.onOpen = [&] (const Preset& p, bool own) {
-        opened = p;
-        is_own = own;
-    };
-    auto* list = dynamic_cast<juce::ListBox*> (browser.getChildComponent (2));
-    REQUIRE (list != nullptr);
-    list->getModel()->returnKeyPressed (0);
-    CHECK (opened.name == browser.rows().front().preset->name);
-    CHECK_FALSE (is_own);
 }
 
 TEST_CASE ("a preset is previewed while the button is held, and the document does not change")

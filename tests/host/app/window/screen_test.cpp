@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is on the screen is what should be there, whatever has happened before: no place keeps an old picture.
+// What is on the screen is what should be there, whatever has happened before: no place keeps an old picture, and nothing of a run or a graph reaches
+// the next one.
+#include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/look/appearance.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <cstdlib>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::readTexts;
+using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -189,25 +194,91 @@ TEST_CASE ("a window with a history looks as a new one that opens the same graph
     }
 }
 
-TEST_CASE ("the scene shows no tool and no force once the run has stopped", "[app][stale]")
+TEST_CASE ("a new graph shows nothing of the one before it: neither its zoom nor what was said about its run", "[app][stale]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
-    w.click ("3D");
-    juce::Component* scene = nullptr;
-    const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
-        if (c.isShowing() && c.getTitle() == "Scene") scene = &c;
-        for (auto* child : c.getChildren())
-            self (self, *child);
+    auto& canvas = w.view->canvas();
+    REQUIRE (canvas.view().zoom < 1.0f);
+    w.key ("F5");
+    REQUIRE (waitFor ([&] { return w.view->run().isRunning(); }));
+    w.key ("ctrl + n");
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK (canvas.view().zoom == 1.0f);
+    w.key ("spacebar");
+    w.stage->type ("plane");
+    w.key ("return");
+    const auto isSaid = [&] { return std::ranges::count (w.view->run().messages(), "watch/guard", &Message::id) > 0; };
+    CHECK_FALSE (isSaid());   // the guard of the run that has ended does not matter any more
+    REQUIRE (waitFor ([&] { return ! w.view->run().isRunning(); }));
+    for (int i = 0; i < 20; ++i)   // while the timer of the window asks for other ports
+        WindowRig::settle();
+    CHECK_FALSE (isSaid());
+}
+
+TEST_CASE ("a new graph shows no curve of the graph before, even for a port with the same name", "[app][window]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& run = w.view->run();
+    const auto hasTrace = [&] { return ! run.traces().of ("motor.force").empty(); };
+    if (! run.isWanted()) w.key ("F5");
+    REQUIRE (waitFor (hasTrace));
+    w.key ("escape");
+    REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
+    WindowRig::settle();
+    CHECK (hasTrace());   // a run that has stopped can be looked at
+    w.key ("ctrl + n");
+    WindowRig::settle();
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK_FALSE (hasTrace());
+}
+
+TEST_CASE ("a tool that H holds is let go at a stop, so that the next start does not press, and when another graph opens", "[app][window]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto& run = w.view->run();
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    w.stage->move (w.middleOf (*surface));
+    w.stage->press();
+    REQUIRE (waitFor ([&] { return run.tool() && run.tool()->position.z() < 0.0; }));
+    w.key ("h");
+    w.stage->release();
+    WindowRig::settle();
+    REQUIRE (w.view->part<HandPanel>().view().isHeld());
+
+    w.key ("escape");
+    REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
+    REQUIRE (waitFor ([&] { return ! w.view->part<HandPanel>().view().isHeld(); }));
+    w.key ("F5");
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.tool(); }));
+    for (int i = 0; i < 20; ++i)
+    {
+        WindowRig::settle (10);
+        REQUIRE (run.tool());
+        CHECK (run.tool()->position.z() > 0.0);
+    }
+    w.stage->press();
+    REQUIRE (waitFor ([&] { return run.tool() && run.tool()->position.z() < 0.0; }));
+    w.key ("h");
+    w.stage->release();
+    WindowRig::settle();
+    REQUIRE (w.view->part<HandPanel>().view().isHeld());
+    w.view->document().open (loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph, {}, "open Bronze bell");
+    CHECK (waitFor ([&] { return ! w.view->part<HandPanel>().view().isHeld(); }));
+    run.letGo();
+}
+
+TEST_CASE ("a new graph shows no values of the run before", "[app][scopes]")
+{
+    WindowRig w ("dry_wood.json", 1920, 1080, false);
+    const auto isSeen = [&] (const juce::String& text) {
+        return std::ranges::any_of (readTexts (*w.view), [&] (const auto& t) { return t.text.contains (text); });
     };
-    look_in (look_in, *w.view);
-    REQUIRE (scene != nullptr);
-    for (int i = 0; i < 1000 && ! scene->getDescription().contains ("N"); ++i)
-        WindowRig::settle();
-    REQUIRE (scene->getDescription().contains ("N"));
-    w.view->run().stop();   // as STOP does: it lets the forces fall first
-    for (int i = 0; i < 1000 && w.view->run().isRunning(); ++i)
-        WindowRig::settle();
-    for (int i = 0; i < 100 && scene->getDescription().isNotEmpty(); ++i)
-        WindowRig::settle();
-    CHECK (scene->getDescription().isEmpty());
+    REQUIRE (waitFor ([&] { return isSeen ("peak"); }));
+    w.key ("ctrl + n");
+    if (w.view->asked().isOpen()) w.click ("Don't save");
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK (waitFor ([&] { return ! isSeen ("peak") && ! isSeen ("late ticks"); }));
+    w.key ("ctrl + z");   // the graph of that run
+    CHECK (waitFor ([&] { return isSeen ("peak"); }));
 }

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A window of 1024 by 700 pixels at a scale of 200 % has 512 by 350 units: too few for all panels side by side.
+// The places of the panels, and the edges between them. A window of 1024 by 700 pixels at a scale of 200 % has 512 by 350 units: too few for all
+// panels side by side.
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
-#include <host/app/scopes/scope_view.hpp>
+#include <host/app/look/appearance.hpp>
+#include <host/app/scopes/scope_panel.hpp>
 #include <host/app/storage/settings.hpp>
-#include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/template_row.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <array>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::latestStep;
+using tactus::host::test::Stage;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -254,61 +258,6 @@ TEST_CASE ("the columns of a small window are resized by a drag, halved again by
     CHECK (canvas.getWidth() == half);
 }
 
-TEST_CASE ("the hand and the scopes share the width as one drags the edge between them", "[app][small]")
-{
-    WindowRig w ("dry_wood.json", 1280, 720);
-    auto& surface = *w.titled ("Surface");
-    const int before = surface.getWidth(), scopes = w.titled ("Scopes")->getWidth();
-    juce::Component* edge = nullptr;
-    for (auto* s : shown<Splitter> (*w.view))
-        if (s->getHeight() > s->getWidth() && s->getY() > 400) edge = s;
-    REQUIRE (edge != nullptr);
-    w.stage->drag (w.middleOf (*edge), w.middleOf (*edge).translated (-80.0f, 0.0f));
-    WindowRig::settle();
-    CHECK (std::abs (surface.getWidth() - (before - 80)) <= 1);
-    CHECK (std::abs (w.titled ("Scopes")->getWidth() - (scopes + 80)) <= 1);
-    CHECK (outOfReach (w).joinIntoString ("; ") == "");
-}
-
-TEST_CASE ("the labels of a take are whole in a small window", "[app][small][take]")
-{
-    const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360), std::pair (1280, 720));
-    INFO (width << " x " << height);
-    WindowRig w ("dry_wood.json", width, height, false);
-    auto& panel = w.view->part<TakePanel>();
-    w.click ("Take");
-    const auto checkLabels = [&] (const std::vector<std::array<juce::String, 2>>& wanted) {
-        const auto texts = host::test::readTexts (panel);
-        CHECK (host::test::cutOff (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
-        CHECK (host::test::overlaps (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
-        for (const auto& either : wanted)
-        {
-            INFO (either[0]);
-            CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == either[0] || t.text == either[1]; }));
-        }
-        for (const auto& t : texts)
-            CHECK_FALSE ((t.text.endsWith ("...") && ! t.text.startsWithIgnoreCase ("make a") && ! t.text.startsWith ("Clip") && ! t.text.startsWith ("Gesture")
-                          && ! t.text.startsWith ("Test")));   // shortened, because it does not fit
-    };
-    w.click ("Record");
-    for (int i = 0; i < 3000 && ! (panel.take().state() == Take::State::recording && panel.plot().length() > 0.05); ++i)
-        WindowRig::settle (10);
-    checkLabels ({ { "Stop", "Stop" }, { "motor.force", "motor.force" } });
-    w.click ("Stop");
-    for (int i = 0; i < 3000 && panel.take().state() != Take::State::ready; ++i)
-        WindowRig::settle (10);
-    REQUIRE (panel.take().state() == Take::State::ready);
-    WindowRig::settle (100);
-    std::vector<std::array<juce::String, 2>> all { { "Record", "Record" }, { "motor.force", "motor.force" }, { "from", "from" }, { "until", "until" } };
-    for (const auto* what : { "clip", "gesture", "test" })
-    {
-        const juce::String name (what);
-        all.push_back ({ "Make a " + name + "...", name.substring (0, 1).toUpperCase() + name.substring (1) + "..." });
-    }
-    checkLabels (all);
-    w.view->run().letGo();
-}
-
 TEST_CASE ("in a small window, the tour leaves free what one is to try, and a dialog for files leaves STOP free", "[app][small]")
 {
     const auto [width, height] = GENERATE (std::pair (small_width, small_height), std::pair (640, 360));
@@ -399,4 +348,108 @@ TEST_CASE ("the titles of tabs are all in the row or in its menu, whatever the w
             }
     }
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
+
+TEST_CASE ("the hand and the scopes share the width as one drags the edge between them", "[app][small]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720);
+    auto& surface = *w.titled ("Surface");
+    const int before = surface.getWidth(), scopes = w.titled ("Scopes")->getWidth();
+    juce::Component* edge = nullptr;
+    for (auto* s : shown<Splitter> (*w.view))
+        if (s->getHeight() > s->getWidth() && s->getY() > 400) edge = s;
+    REQUIRE (edge != nullptr);
+    w.stage->drag (w.middleOf (*edge), w.middleOf (*edge).translated (-80.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (std::abs (surface.getWidth() - (before - 80)) <= 1);
+    CHECK (std::abs (w.titled ("Scopes")->getWidth() - (scopes + 80)) <= 1);
+    CHECK (outOfReach (w).joinIntoString ("; ") == "");
+}
+
+TEST_CASE ("on a small screen and at twice the size, at least 120 pixels of each plot are in view", "[app][scopes]")
+{
+    WindowRig w ("dry_wood.json", 1024, 700);
+    for (const double scale : { 1.0, 2.0 })
+    {
+        INFO (scale);
+        applyScale (scale);
+        Stage::plugIn();
+        w.stage->setSize (juce::roundToInt (1024 / scale), juce::roundToInt (700 / scale));
+        WindowRig::settle();
+        auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));
+        REQUIRE (panel != nullptr);
+        REQUIRE_FALSE (panel->shown().empty());
+        for (const auto& v : panel->shown())
+        {
+            auto& plot = v->plot();
+            const auto seen = panel->getLocalArea (&plot, plot.getLocalBounds()).withX (0).withWidth (10).getIntersection (panel->getLocalBounds());
+            CHECK (seen.getHeight() * scale >= 120.0);
+        }
+        CHECK (w.view->canvas().getHeight() * scale >= 160.0);
+    }
+    applyScale (1.0);
+    Stage::plugIn();
+}
+
+TEST_CASE ("an edge that was dragged beyond its limit follows the next drag at once", "[app][panels]")
+{
+    WindowRig w ("dry_wood.json", 1600, 900);
+    std::vector<Splitter*> edges;
+    for (auto* child : w.view->getChildren())
+        if (auto* edge = dynamic_cast<Splitter*> (child); edge != nullptr && edge->isShowing()) edges.push_back (edge);
+    REQUIRE (edges.size() == 4);
+    for (auto* edge : edges)
+    {
+        const bool is_level = edge->getWidth() > edge->getHeight();
+        INFO ((is_level ? "level, y " : "upright, x ") << (is_level ? edge->getY() : edge->getX()));
+        const auto place = [&] { return is_level ? edge->getBounds().getCentreY() : edge->getBounds().getCentreX(); };
+        const auto drag = [&] (int way) {
+            const auto from = w.middleOf (*edge);
+            const auto moved = static_cast<float> (place() + way);
+            const auto to = is_level ? from.withY (moved) : from.withX (moved);
+            const auto before = place();
+            w.stage->drag (from, to);
+            WindowRig::settle();
+            return place() - before;
+        };
+        // Away from the panel that it sizes, as far as the mouse gets.
+        const int room = is_level ? w.view->getHeight() : w.view->getWidth();
+        const bool grows_up = is_level || place() > w.view->getWidth() / 2;
+        drag (grows_up ? 10 - place() : room - 10 - place());
+        const int back = grows_up ? 40 : -40;
+        CHECK (std::abs (drag (back) - back) <= 2);
+        w.key ("ctrl + z");
+        w.key ("ctrl + z");
+    }
+}
+
+TEST_CASE ("moving panels is a step that can be undone, which never touches the graph", "[app][panels][undo]")
+{
+    WindowRig w ("dry_wood.json", 1600, 900);
+    w.view->canvas().grabKeyboardFocus();
+    const auto text = writeGraph (w.graph());
+    const auto undoAndRedo = [&] (const auto& isDone) {
+        REQUIRE (isDone());
+        for (int i = 0; i < 2; ++i)
+        {
+            w.key ("ctrl + z");
+            CHECK_FALSE (isDone());
+            w.key ("ctrl + y");
+            CHECK (isDone());
+            CHECK (writeGraph (w.graph()) == text);
+        }
+        CHECK_FALSE (w.view->document().isChanged());
+    };
+    const auto width = w.view->canvas().getWidth();
+    for (auto* child : w.view->getChildren())
+        if (child->getTitle() == "Panel edge" && child->getX() < 400 && child->getHeight() > child->getWidth())
+        {
+            w.stage->drag (w.middleOf (*child), w.middleOf (*child).translated (50.0f, 0.0f));
+            break;
+        }
+    WindowRig::settle (60);
+    undoAndRedo ([&] { return std::abs (w.view->canvas().getWidth() - (width - 50)) <= 1; });
+    CHECK (latestStep (w.view->document()) == "move panels");
+    w.key ("z");
+    undoAndRedo ([&] { return w.view->canvas().getWidth() > width + 100; });
 }

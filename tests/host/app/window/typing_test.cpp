@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is typed into a field counts as soon as a key or a button does something with the graph, without Return.
-#include "host/app/support/wait_for.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
@@ -245,6 +244,44 @@ TEST_CASE ("one Esc in an open number field takes back what is typed, and gives 
     CHECK_FALSE (field.isEditing());
     CHECK (w.graph().root.find ("board")->params == before);
     w.view->run().letGo();
+}
+
+TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, another value or an undo", "[app][canvas][words]")
+{
+    WindowRig w ("templates/stroke.json");
+    auto& canvas = w.view->canvas();
+    const auto place = [&] (const std::string& name, const std::string& param) {
+        const auto& node = *std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
+        const juce::Point<float> in_node { node.box.width - 20.0f, node.box.find (Role::param, param)->at.y };
+        return w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.at + in_node));
+    };
+    const auto at = place ("wall", "damping");
+    const auto type = [&] (const juce::String& text) {
+        w.stage->doubleClick (at);
+        WindowRig::settle();
+        w.key ("ctrl + a");
+        w.stage->type (text);
+        w.key ("return");
+        w.stage->move (at.translated (1.0f, 0.0f));
+        WindowRig::settle();
+    };
+    type ("5 kg");
+    CHECK (w.view->statusText().contains ("kg does not fit"));
+    w.stage->move (place ("drag", "mu"));   // to see what the other numbers are
+    WindowRig::settle();
+    CHECK (w.view->statusText().contains ("kg does not fit"));
+    w.key ("escape");
+    CHECK_FALSE (w.view->statusText().contains ("kg"));
+
+    type ("5 kg");
+    CHECK (w.view->statusText().contains ("kg does not fit"));
+    type ("0.5");
+    CHECK_FALSE (w.view->statusText().contains ("kg"));
+    type ("5 kg");
+    w.stage->click (w.stage->getLocalPoint (&canvas, juce::Point<float> (4.0f, 4.0f)));   // closes the field
+    CHECK (w.view->statusText().contains ("kg does not fit"));
+    w.key ("ctrl + z");
+    CHECK_FALSE (w.view->statusText().contains ("kg"));
 }
 
 TEST_CASE ("a click on the empty canvas applies what is being typed about the graph", "[app][keyboard]")

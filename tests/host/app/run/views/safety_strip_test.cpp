@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <map>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -201,4 +202,53 @@ TEST_CASE ("a graph with a node of an unknown type is opened as one that cannot 
     CHECK (tactus::test::stays (std::chrono::milliseconds (300), [&] { return ! runs(); }));
     CHECK (strip.text().startsWith ("cannot run: "));
     CHECK (strip.text().contains ("lab.strange"));
+}
+
+TEST_CASE ("each part of the strip says what it means", "[app][words]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    StripRig seen { rig };
+    auto& strip = seen.strip;
+    strip.setSize (1920, SafetyStrip::height);
+    seen.playback.start ({});
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] {
+        seen.playback.poll();
+        strip.refresh();
+        return seen.playback.run().delay() && strip.guardText().contains ("ready");
+    }));
+    std::map<juce::String, juce::String> meanings;
+    for (const auto& t : readTexts (strip))
+        if (const auto meaning = strip.tooltipAt (t.place.getCentre().toInt()); meaning.isNotEmpty()) meanings[t.text] = meaning;
+    const auto says = [&] (const juce::String& part, const juce::String& word) {
+        for (const auto& [text, meaning] : meanings)
+            if (text.startsWith (part) && meaning.contains (word)) return true;
+        return false;
+    };
+    CHECK (says ("running", "ticks per second"));
+    CHECK (says ("guard ready", "between the graph and the motors"));
+    CHECK (says ("late ticks", "not finished in time"));
+    CHECK (says ("delay", "from a movement of the hand"));
+    CHECK (says ("walls stable up to", "largest stiffness"));
+    CHECK (strip.tooltipAt ({ -5, -5 }).isEmpty());
+    seen.playback.run().letGo();
+}
+
+TEST_CASE ("START and STOP say what they do, and which key does it, too", "[app][words]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    StripRig seen { rig };
+    const auto comesToSay = [&] (const char* text, const char* key) {
+        return tactus::test::eventually (std::chrono::milliseconds (5), [&] {
+            seen.playback.poll();
+            seen.strip.refresh();
+            auto* button = buttonCalled (seen.strip, text);
+            return button != nullptr && button->getTooltip().contains (key);
+        });
+    };
+    CHECK (comesToSay ("START", "F5"));
+    seen.playback.start ({});
+    CHECK (comesToSay ("STOP", "Esc"));
+    seen.playback.stop();
+    CHECK (comesToSay ("START", "F5"));
+    seen.playback.run().letGo();
 }

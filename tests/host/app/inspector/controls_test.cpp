@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls in the window: no click on them moves a force unless it turns one, and parameters have their menu where they are.
+// Controls in the inspector and on nodes: no click on them moves a force unless it turns one, and parameters have their menu where they are.
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/values.hpp"
-#include "host/app/support/window_rig.hpp"
 
 #include "support/sketch.hpp"
 
@@ -19,30 +19,27 @@ using tactus::test::Sketch;
 
 namespace
 {
-
 /// Layered cloth, whose knobs are not where its nodes store them.
 struct Cloth
 {
-    TemporaryFolder folder;
-    std::unique_ptr<WindowRig> w;
+    std::unique_ptr<DeskStage> w;
 
     Cloth()
     {
         auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph;
         g.controls[0].value = 0.7;   // warp 70 mN, stored 40 mN
         g.controls[1].value = 0.25;
-        REQUIRE (saveGraph (g, folder / "cloth.json"));
-        w = std::make_unique<WindowRig> ((folder / "cloth.json").string(), 1280, 1000);   // the row of a parameter is in view
+        w = std::make_unique<DeskStage> (std::move (g), 1048, 850);   // the row of a parameter is in view
     }
 
-    const graph::Node& node (const std::string& name) const { return *w->view->document().graph().root.find (name); }
-    void select (const std::string& name) { w->view->canvas().select ({ node (name).id }); }
-    ValuesInEffect values() const { return valuesInEffect (w->view->document().graph()); }
+    const graph::Node& node (const std::string& name) const { return *w->document.graph().root.find (name); }
+    void select (const std::string& name) { w->canvas.select ({ node (name).id }); }
+    ValuesInEffect values() const { return valuesInEffect (w->document.graph()); }
 
     /// Where the value of a param is on the canvas.
     juce::Point<float> value (const std::string& name, const std::string& param)
     {
-        auto& canvas = w->view->canvas();
+        auto& canvas = w->canvas;
         for (const auto& n : canvas.scene().nodes())
             if (n.name == name)
             {
@@ -60,7 +57,7 @@ struct Cloth
     {
         for (int i = 0; i < times; ++i)
             w->key (k);
-        WindowRig::settle();
+        OnStage::settle();
     }
 };
 }   // namespace
@@ -71,7 +68,7 @@ TEST_CASE ("copies have the values that the controls set", "[app][controls]")
     for (const bool by_clipboard : { false, true })
     {
         INFO (by_clipboard);
-        c.w->view->canvas().grabKeyboardFocus();
+        c.w->canvas.grabKeyboardFocus();
         c.select ("threads");
         if (by_clipboard)
         {
@@ -91,17 +88,17 @@ TEST_CASE ("copies have the values that the controls set", "[app][controls]")
 TEST_CASE ("the range of a control keeps its unit when its parameter gets into a group", "[app][controls]")
 {
     Cloth c;
-    auto& canvas = c.w->view->canvas();
+    auto& canvas = c.w->canvas;
     const auto ranges = [&] {
         canvas.select ({});
-        WindowRig::settle();
+        OnStage::settle();
         std::vector<juce::String> texts;
         const std::function<void (juce::Component&)> look = [&] (juce::Component& at) {
             if (const auto* field = dynamic_cast<NumberField*> (&at)) texts.push_back (field->spokenValue());
             for (auto* child : at.getChildren())
                 look (*child);
         };
-        look (c.w->view->part<Inspector>());
+        look (c.w->inspector);
         return texts;
     };
     const auto before = ranges();
@@ -112,7 +109,7 @@ TEST_CASE ("the range of a control keeps its unit when its parameter gets into a
         canvas.grabKeyboardFocus();
         depth == 1 ? c.select ("drag") : canvas.select ({ c.w->graph().root.nodes.back().id });
         c.key ("g");
-        if (WindowRig::focused() != &canvas) c.key ("return");   // its name
+        if (OnStage::focused() != &canvas) c.key ("return");   // its name
         REQUIRE (c.w->graph().controls[1].to[0].path != "drag.d_max");
         CHECK (ranges() == before);
     }
@@ -126,14 +123,14 @@ TEST_CASE ("a control that is deleted leaves its values, and one more parameter 
     c.w->choose (c.w->middleOf (*c.w->titled ("Damping")), 2);   // the second entry: the first control
     REQUIRE (c.w->graph().controls[0].to.size() == 3);
     CHECK (changedValue (before, c.values()) == "");
-    CHECK (latestStep (c.w->view->document()) == "assign table.damping to Coarseness");
+    CHECK (latestStep (c.w->document) == "assign table.damping to Coarseness");
 
-    c.w->view->canvas().select ({});
+    c.w->canvas.select ({});
     c.w->clickTitled ("Delete this control. Its parameters keep the values that it sets.");
     REQUIRE (c.w->graph().controls.size() == 1);
     CHECK (changedValue (before, c.values()) == "");
     CHECK (c.node ("threads").params["warp"] == "70 mN");
-    c.w->view->canvas().grabKeyboardFocus();
+    c.w->canvas.grabKeyboardFocus();
     c.key ("ctrl + z", 2);
     CHECK (c.w->graph().controls.size() == 2);
     CHECK (c.node ("threads").params["warp"] == "40 mN");
@@ -144,29 +141,29 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
 {
     Cloth c;
     c.select ("drag");
-    auto& knobs = c.w->view->part<Inspector>().knobs();
+    auto& knobs = c.w->inspector.knobs();
     REQUIRE (knobs.isVisible());
     auto& knob = knobs.knob (0);
     const auto label =
         c.w->stage->getLocalPoint (&knob, juce::Point<float> (0.5f * static_cast<float> (knob.getWidth()), static_cast<float> (knob.getHeight()) - 6.0f));
     c.w->stage->doubleClick (label);
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (c.w->graph().controls[0].value == 0.7);
     c.w->stage->type ("Rough");
     c.key ("return");
     CHECK (c.w->graph().controls[0].name == "Rough");
     CHECK (c.w->graph().controls[0].value == 0.7);
-    CHECK (WindowRig::focused() == &c.w->view->canvas());
+    CHECK (OnStage::focused() == &c.w->canvas);
     CHECK (c.w->titled ("Name of the control") == nullptr);
 
     // On the dial, a value is typed.
     const auto dial = c.w->middleOf (knob).translated (0.0f, -8.0f);
     const auto type = [&] (const char* text) {
         c.w->stage->doubleClick (dial);
-        WindowRig::settle();
+        OnStage::settle();
         c.w->stage->type (text);
         c.key ("return");
-        WindowRig::settle();
+        OnStage::settle();
     };
     type ("30 %");
     CHECK (c.w->graph().controls[0].value == Approx (0.3));
@@ -175,32 +172,32 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
         type (wrong);
         CHECK (c.w->graph().controls[0].value == Approx (0.3));
     }
-    CHECK (WindowRig::focused() == &c.w->view->canvas());
+    CHECK (OnStage::focused() == &c.w->canvas);
 }
 
 TEST_CASE ("on a knob with the keyboard focus, Return and digits open its value, and the keyboard stays at the knob", "[app][controls]")
 {
     Cloth c;
     c.select ("drag");
-    auto& knob = c.w->view->part<Inspector>().knobs().knob (0);
+    auto& knob = c.w->inspector.knobs().knob (0);
     const auto& control = c.w->graph().controls[0];
     knob.grabKeyboardFocus();
-    REQUIRE (WindowRig::focused() == &knob);
+    REQUIRE (OnStage::focused() == &knob);
     CHECK_FALSE (knob.keyPressed ({ '1', juce::ModifierKeys::ctrlModifier, '1' }));   // a command of the window
 
     c.key ("return");
-    WindowRig::settle();
+    OnStage::settle();
     c.w->stage->type ("30 %");
     c.key ("return");
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (control.value == Approx (0.3));
-    CHECK (WindowRig::focused() == &knob);
+    CHECK (OnStage::focused() == &knob);
 
     c.w->stage->type (".25");
     c.key ("return");
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (control.value == Approx (0.25));
-    CHECK (WindowRig::focused() == &knob);
+    CHECK (OnStage::focused() == &knob);
     CHECK (c.w->titled ("Value of the control") == nullptr);
 }
 
@@ -209,7 +206,7 @@ TEST_CASE ("a click on a knob or a field gives it the keyboard, so that what is 
     Cloth c;
     c.select ("drag");
     const auto& control = c.w->graph().controls[0];
-    c.w->stage->click (c.w->middleOf (c.w->view->part<Inspector>().knobs().knob (0)).translated (0.0f, -8.0f));
+    c.w->stage->click (c.w->middleOf (c.w->inspector.knobs().knob (0)).translated (0.0f, -8.0f));
     CHECK (control.value == Approx (0.7));
     c.w->stage->type ("0.4");
     c.key ("return");
@@ -218,66 +215,64 @@ TEST_CASE ("a click on a knob or a field gives it the keyboard, so that what is 
     auto* field = c.w->titled ("Stiffness");
     REQUIRE (field != nullptr);
     c.w->stage->click (c.w->middleOf (*field));
-    CHECK (WindowRig::focused() == field);
+    CHECK (OnStage::focused() == field);
     c.w->stage->type ("12");
     c.key ("return");
-    CHECK (latestStep (c.w->view->document()) == "drag: Stiffness 0 -> 12 N/m");
+    CHECK (latestStep (c.w->document) == "drag: Stiffness 0 -> 12 N/m");
     c.key ("ctrl + z", 2);
     CHECK (control.value == Approx (0.7));
     CHECK_FALSE (c.node ("drag").params.contains ("stiffness"));
-    c.key ("escape");
-    CHECK (WindowRig::focused() == &c.w->view->canvas());
 }
 
 TEST_CASE ("one turn of the wheel over a knob is one step, and Shift+drag is fine", "[app][controls][undo]")
 {
     Cloth c;
     c.select ("drag");
-    auto& knob = c.w->view->part<Inspector>().knobs().knob (0);
+    auto& knob = c.w->inspector.knobs().knob (0);
     const auto dial = c.w->middleOf (knob).translated (0.0f, -8.0f);
     const auto& control = c.w->graph().controls[0];
-    const auto before = c.w->view->document().history().position();
+    const auto before = c.w->document.history().position();
     for (int i = 0; i < 3; ++i)
         c.w->stage->wheel (dial, -0.2f, false);
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (control.value < 0.65);
-    CHECK (c.w->view->document().history().position() == before + 1);
+    CHECK (c.w->document.history().position() == before + 1);
     const double now = control.value;
     c.w->stage->drag (dial, dial.translated (0.0f, -50.0f), juce::ModifierKeys::leftButtonModifier, juce::ModifierKeys::shiftModifier);
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (control.value == Approx (now + 0.025).margin (0.005));
-    CHECK (c.w->view->document().history().position() == before + 2);
+    CHECK (c.w->document.history().position() == before + 2);
 }
 
 TEST_CASE ("the wheel scrolls the inspector over whatever is under the pointer, and moves no value", "[app][controls]")
 {
     Cloth c;
-    c.w->view->canvas().select ({});
+    c.w->canvas.select ({});
     c.w->settle();
     auto* value = c.w->titled (juce::String (c.w->graph().controls[0].name).toRawUTF8());
     REQUIRE (value != nullptr);
-    const auto version = c.w->view->document().version();
+    const auto version = c.w->document.version();
     for (int i = 0; i < 5; ++i)
         c.w->stage->wheel (c.w->middleOf (*value), -0.2f, false);
-    WindowRig::settle();
-    CHECK (c.w->view->document().version() == version);
+    OnStage::settle();
+    CHECK (c.w->document.version() == version);
 }
 
 TEST_CASE ("what is typed as the value of a control is read whole, or refused", "[app][controls]")
 {
     Cloth c;
-    c.w->view->canvas().select ({});
+    c.w->canvas.select ({});
     c.w->settle();
     const auto& control = c.w->graph().controls[0];
     const auto type = [&] (const char* text) {
         auto* value = dynamic_cast<NumberField*> (c.w->titled (juce::String (control.name).toRawUTF8()));
         REQUIRE (value != nullptr);
         c.w->stage->doubleClick (c.w->middleOf (*value));
-        WindowRig::settle();
+        OnStage::settle();
         c.w->stage->type (text);   // in place of all of it
         c.key ("return");
         c.key ("escape");
-        WindowRig::settle();
+        OnStage::settle();
     };
     type ("35 %");
     CHECK (control.value == Approx (0.35));
@@ -291,26 +286,10 @@ TEST_CASE ("what is typed as the value of a control is read whole, or refused", 
     }
 }
 
-TEST_CASE ("a click beside the fields of the inspector gives no field the keyboard", "[app][controls]")
-{
-    Cloth c;
-    c.select ("drag");
-    const auto name = c.node ("drag").name;
-    auto& inspector = c.w->view->part<Inspector>();
-    for (int y = 4; y < inspector.getHeight(); y += 12)
-    {
-        c.w->view->canvas().grabKeyboardFocus();
-        c.w->stage->click (c.w->stage->getLocalPoint (&inspector, juce::Point<int> (6, y)).toFloat());   // at the margin
-        WindowRig::settle();
-        CHECK (dynamic_cast<juce::TextEditor*> (WindowRig::focused()) == nullptr);
-    }
-    CHECK (c.node ("drag").name == name);
-}
-
 TEST_CASE ("a drag of a control's value is one step, as a drag of its knob is", "[app][controls][undo]")
 {
     Cloth c;
-    c.w->view->canvas().select ({});   // the inspector shows the graph
+    c.w->canvas.select ({});   // the inspector shows the graph
     c.w->settle();
     const auto& control = c.w->graph().controls[0];
     auto* fader = dynamic_cast<NumberField*> (c.w->titled (juce::String (control.name).toRawUTF8()));
@@ -318,7 +297,7 @@ TEST_CASE ("a drag of a control's value is one step, as a drag of its knob is", 
     const auto at = [&] (float part) {
         return c.w->stage->getLocalPoint (fader, fader->getLocalBounds().toFloat().getRelativePoint (part, 0.5f));
     };
-    const auto before = c.w->view->document().history().position();
+    const auto before = c.w->document.history().position();
     c.w->stage->move (at (0.2f));
     c.w->stage->press();
     c.w->settle();
@@ -330,16 +309,16 @@ TEST_CASE ("a drag of a control's value is one step, as a drag of its knob is", 
     CHECK (control.value < 0.7);
     c.w->stage->release();
     c.w->settle();
-    CHECK (c.w->view->document().history().position() == before + 1);
+    CHECK (c.w->document.history().position() == before + 1);
     c.w->stage->drag (at (0.8f), at (0.3f));   // another drag is another step
     c.w->settle();
-    CHECK (c.w->view->document().history().position() == before + 2);
+    CHECK (c.w->document.history().position() == before + 2);
 }
 
 TEST_CASE ("a right click on a parameter of a node opens its menu, inside a subgraph too", "[app][controls]")
 {
     Cloth c;
-    auto& canvas = c.w->view->canvas();
+    auto& canvas = c.w->canvas;
     const auto before = c.values();
     c.w->choose (c.value ("drag", "mu"), 1);   // New control
     REQUIRE (c.w->graph().controls.size() == 3);
@@ -382,9 +361,80 @@ TEST_CASE ("a right click on a parameter of a node opens its menu, inside a subg
     }
     c.w->choose (c.value (name, param), -2);   // above the commands of the node
     c.w->stage->move ({ 4.0f, 4.0f });         // off the canvas, whose hints cover the notice
-    WindowRig::settle();
-    INFO (c.w->view->statusText());
-    CHECK (c.w->view->statusText().contains ("Usual"));
+    OnStage::settle();
+    INFO (c.w->status.text());
+    CHECK (c.w->status.text().contains ("Usual"));
+}
+
+TEST_CASE ("a click beside the fields of the inspector leaves the keyboard to the canvas", "[app][keys]")
+{
+    DeskStage w ("dry_wood.json");
+    auto& canvas = w.canvas;
+    canvas.grabKeyboardFocus();
+    for (const bool has_node : { true, false })
+    {
+        canvas.select (has_node ? Selection { w.graph().root.find ("drag")->id } : Selection {});
+        OnStage::settle();
+        const auto area = w.inspector.getBounds();
+        const auto& knobs = w.inspector.knobs();
+        for (int y = area.getY() + 4; y < area.getBottom() - (knobs.isVisible() ? knobs.getHeight() : 0); y += 8)
+        {
+            INFO (y);
+            w.stage->click (juce::Point<int> (area.getX() + 4, y).toFloat());
+            CHECK (canvas.hasKeyboardFocus (true));
+        }
+    }
+}
+
+TEST_CASE ("the controls of a graph stay in reach as knobs while a node is selected", "[app][keys]")
+{
+    DeskStage w ("bronze_bell.json");
+    auto& knobs = w.inspector.knobs();
+    w.canvas.select ({});
+    CHECK_FALSE (knobs.isVisible());
+    w.canvas.select ({ w.graph().root.find ("wall")->id });
+    REQUIRE (knobs.isVisible());
+    REQUIRE (knobs.size() == 4);
+    const auto before = w.document.history().position();
+    const auto middle = [&] (std::size_t i) { return w.stage->getLocalPoint (&knobs.knob (i), knobs.knob (i).getLocalBounds().getCentre()).toFloat(); };
+    w.stage->drag (middle (0), middle (0).translated (0, -40));
+    CHECK (w.graph().controls[0].value > 0.65);
+    CHECK (w.document.history().position() == before + 1);   // one step for the whole drag
+    CHECK (latestStep (w.document).starts_with ("Blow 0.60 -> "));
+    w.document.undo();
+    CHECK (knobs.knob (0).getValue() == Approx (0.6));
+    knobs.knob (1).grabKeyboardFocus();
+    w.key ("cursor up");
+    CHECK (w.graph().controls[1].value == Approx (0.51));
+}
+
+TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspector]")
+{
+    DeskStage w ("dry_wood.json");
+    auto& canvas = w.canvas;
+    w.key ("ctrl + a");
+    OnStage::settle();
+    const auto showsText = [] (juce::Component& in, const juce::String& text) {
+        return std::ranges::any_of (readTexts (in), [&] (const auto& t) { return t.text == text; });
+    };
+    const auto& root = w.graph().root;
+    CHECK (showsText (w.inspector, juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
+    const auto from = root.find (root.wires.front().from.node)->id, to = root.find (root.wires.front().to.node)->id;
+    const auto between = std::ranges::count_if (root.wires, [&] (const graph::Wire& v) {
+        const std::set<graph::Id> ends { root.find (v.from.node)->id, root.find (v.to.node)->id };
+        return std::ranges::includes (std::set { from, to }, ends);
+    });
+    canvas.select ({ from, to });
+    OnStage::settle();
+    const auto wires = [&] (auto count) { return "2 nodes, " + juce::String (static_cast<int> (count)) + " wires"; };
+    CHECK (showsText (w.inspector, wires (between)));
+    const auto& other = *std::ranges::find_if (root.wires, [&] (const graph::Wire& v) { return root.find (v.from.node)->id != from; });
+    canvas.select ({ from, to, other.id });
+    OnStage::settle();
+    CHECK (showsText (w.inspector, wires (between + 1)));
+    REQUIRE (w.document.perform (graph::RemoveWire { {}, other.id }));
+    OnStage::settle();
+    CHECK (showsText (w.inspector, wires (between)));
 }
 
 namespace
@@ -392,8 +442,7 @@ namespace
 /// Dry wood, whose knob Roughness sets grain.amplitude and drag.mu, with wires from a constant into one or both of them.
 struct WiredKnob
 {
-    TemporaryFolder folder;
-    std::unique_ptr<WindowRig> w;
+    std::unique_ptr<DeskStage> w;
 
     explicit WiredKnob (std::initializer_list<const char*> wires)
     {
@@ -402,10 +451,9 @@ struct WiredKnob
             g.root.nodes.push_back (Sketch::makeNode (node, "signal.constant", { { "value", 0.1 } }));
         for (const auto* wire : wires)
             g.root.wires.push_back (*graph::parseWire (wire));
-        REQUIRE (saveGraph (g, folder / "wood.json"));
-        w = std::make_unique<WindowRig> ((folder / "wood.json").string(), 1280, 1000);
-        w->view->canvas().select ({ w->graph().root.find ("board")->id });   // the knobs are below its parameters
-        WindowRig::settle();
+        w = std::make_unique<DeskStage> (std::move (g), 1048, 850);
+        w->canvas.select ({ w->graph().root.find ("board")->id });   // the knobs are below its parameters
+        OnStage::settle();
     }
 
     juce::Slider& knob()
@@ -423,7 +471,7 @@ struct WiredKnob
         const auto at = w->stage->getLocalPoint (&knob(), knob().getLocalBounds().getCentre().translated (0, -10)).toFloat();
         w->stage->drag (at, at.translated (0.0f, -40.0f));
         w->stage->wheel (at, 0.2f, false);
-        WindowRig::settle();
+        OnStage::settle();
     }
 
     /// How many pixels of the knob have the colour of what is live.
@@ -448,15 +496,15 @@ TEST_CASE ("a knob whose parameters get wires is dimmed, names the wires, and do
     CHECK (k.knob().getTooltip().contains ("ratio.out"));
     CHECK (k.lit() == 0);
     const double before = k.value();
-    const auto version = k.w->view->document().version();
+    const auto version = k.w->document.version();
     k.turn();
     CHECK (k.value() == before);
     CHECK (k.knob().getValue() == before);
-    CHECK (k.w->view->document().version() == version);
+    CHECK (k.w->document.version() == version);
 
-    k.w->view->canvas().select ({});   // the same in the list of controls
-    WindowRig::settle();
-    const auto texts = readTexts (k.w->view->part<Inspector>());
+    k.w->canvas.select ({});   // the same in the list of controls
+    OnStage::settle();
+    const auto texts = readTexts (k.w->inspector);
     CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.contains ("drag.mu, without effect: a wire from ratio.out"); }));
     auto* field = dynamic_cast<NumberField*> (k.w->titled ("Roughness"));
     REQUIRE (field != nullptr);
@@ -465,8 +513,8 @@ TEST_CASE ("a knob whose parameters get wires is dimmed, names the wires, and do
     const auto& wires = k.w->graph().root.wires;
     const auto wire = std::ranges::find_if (wires, [] (const graph::Wire& w) { return w.to.port == "mu"; });
     REQUIRE (wire != wires.end());
-    k.w->view->document().perform (graph::RemoveWire { {}, wire->id });
-    WindowRig::settle();
+    k.w->document.perform (graph::RemoveWire { {}, wire->id });
+    OnStage::settle();
     field = dynamic_cast<NumberField*> (k.w->titled ("Roughness"));
     REQUIRE (field != nullptr);
     CHECK_FALSE (field->isDriven());

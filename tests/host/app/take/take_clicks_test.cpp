@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Take tab in the whole window, with a mouse.
-#include "host/app/support/window_rig.hpp"
+// The Take panel beside the hand, with a mouse.
+#include "host/app/support/desk_stage.hpp"
+#include "host/app/support/seen_text.hpp"
 
+#include <host/app/layers/layers_panel.hpp>
+#include <host/app/run/views/safety_strip.hpp>
 #include <host/app/take/take_panel.hpp>
+#include <host/app/top_bar/top_bar.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/run/log/stretch.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskStage;
 using tactus::host::test::latestStep;
+using tactus::host::test::OnStage;
 using tactus::host::test::waitFor;
-using tactus::host::test::WindowRig;
 
 TEST_CASE ("a take shows its curve while it records, Stop ends the take and not the graph, and what is saved can be used at once", "[app][take]")
 {
-    WindowRig w ("dry_wood.json", 1280, 720, false);
+    DeskStage w ("dry_wood.json");
     setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
-    auto& run = w.view->run();
-    auto& panel = w.view->part<TakePanel>();
-    w.view->chooseFile = [&] (bool, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
-        chosen (w.home / begin.filename().string());
-    };
+    auto& run = w.playback.run();
+    const auto layers = layersPanel (w.desk);   // adds clips
+    auto& panel = w.show<TakePanel> (takesPanel);
+    w.desk.chooseFile = [&] (bool, const std::filesystem::path& begin, const auto& chosen) { chosen (w.home / begin.filename().string()); };
+    REQUIRE (w.start());
     const auto ticks = [&] { return run.status() ? run.status()->ticks : 0; };
-    w.click ("Take");
     w.click ("Record");
     REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > 0.05; }));
     w.click ("Stop");
@@ -38,35 +43,35 @@ TEST_CASE ("a take shows its curve while it records, Stop ends the take and not 
     CHECK (panel.plot().length() > 0.05);
 
     w.click ("Make a gesture...");
-    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    REQUIRE (waitFor ([&] { return w.question.isOpen(); }));
     w.click ("Use now");
     CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
     CHECK (run.hand().path == (w.home / "gesture.csv").string());
     w.key ("ctrl + z");   // the previous hand moves the tool again, and the take stays
     CHECK (run.hand().kind == LiveRun::Hand::Kind::described);
-    WindowRig::settle (200);
-    CHECK_FALSE (w.view->asked().isOpen());
+    OnStage::settle (200);
+    CHECK_FALSE (w.question.isOpen());
     CHECK (panel.take().state() == Take::State::ready);
     CHECK (panel.plot().length() > 0.05);
     w.key ("ctrl + z");   // and then the take
     CHECK (panel.take().state() == Take::State::empty);
-    WindowRig::settle (200);
-    CHECK_FALSE (w.view->asked().isOpen());
+    OnStage::settle (200);
+    CHECK_FALSE (w.question.isOpen());
     w.key ("ctrl + y");
     w.key ("ctrl + y");
     CHECK (run.hand().path == (w.home / "gesture.csv").string());
     REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
 
     w.click ("Make a test...");
-    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    REQUIRE (waitFor ([&] { return w.question.isOpen(); }));
     w.click ("Use now");
-    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
-    CHECK (w.view->asked().getTitle().contains ("passes"));
+    REQUIRE (waitFor ([&] { return w.question.isOpen(); }));
+    CHECK (w.question.getTitle().contains ("passes"));
     w.click ("Close");
 
     w.click ("Make a clip...");
-    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
-    const auto named = w.view->asked().getDescription().fromFirstOccurrenceOf ("set the gain of signal.clip to ", false, false);
+    REQUIRE (waitFor ([&] { return w.question.isOpen(); }));
+    const auto named = w.question.getDescription().fromFirstOccurrenceOf ("set the gain of signal.clip to ", false, false);
     w.click ("Use now");
     const auto clip = std::ranges::find (w.graph().root.nodes, "signal.clip", &graph::Node::type);
     REQUIRE (clip != w.graph().root.nodes.end());
@@ -79,77 +84,21 @@ TEST_CASE ("a take shows its curve while it records, Stop ends the take and not 
     unsetenv ("TACTUS_GRAPHS");
 }
 
-TEST_CASE ("a take that begins while the tool is held in a surface gives no knock: the tool stays where it is, and its force fades over", "[app][take]")
-{
-    const auto* graph = GENERATE ("templates/press.json", "dry_wood.json", "granite_wall.json");
-    CAPTURE (graph);
-    WindowRig w (graph, 1280, 720, false);
-    auto& run = w.view->run();
-    REQUIRE (waitFor ([&] { return run.tool().has_value(); }));
-    auto* surface = w.titled ("Surface");
-    REQUIRE (surface != nullptr);
-    w.stage->move (w.middleOf (*surface));
-    w.stage->press();
-    REQUIRE (waitFor ([&] { return run.hand() == LiveRun::Hand::pointer() && run.tool() && run.tool()->force.norm() > 0.02; }));
-    w.key ("h");
-    w.stage->release();
-    w.click ("Take");
-    int steady = 0;
-    REQUIRE (waitFor ([&] {   // until the guard has let all of the force through and the tool rests, which takes longer on a busy computer
-        const double now = run.tool()->force.norm();
-        WindowRig::settle (250);
-        steady = run.tool()->force.norm() == Approx (now).epsilon (0.01) ? steady + 1 : 0;
-        return steady >= 3;
-    }));
-    const auto before = *run.tool();
-    REQUIRE (before.force.norm() > 0.02);
-    const auto ticks = [&] { return run.status() ? run.status()->ticks : 0; };
-    const auto ticks_before = ticks();
-    w.click ("Record");
-    double most = 0.0, least = 1e3, farthest = 0.0;
-    bool has_begun_again = false;
-    auto seen = run.tool();
-    seen.reset();
-    for (int i = 0; i < 1500 && ! (has_begun_again && ticks() > 8000); ++i)   // for 2 s; a take ends after 60 s
-    {
-        WindowRig::settle (1);
-        has_begun_again = has_begun_again || ticks() < ticks_before;
-        // The guard counts time and the simulation ticks, so a computer that was too busy for a tick makes the tool jump. Such a take is not judged.
-        const bool is_on_time = has_begun_again && run.status() && run.status()->misses == 0;
-        if (seen && is_on_time)   // a tick that is late shows only after the tool of that tick, so the tool of the last time is judged
-        {
-            most = std::max (most, seen->force.norm());
-            least = std::min (least, seen->force.norm());
-            farthest = std::max (farthest, (seen->position - before.position).norm());
-        }
-        seen = has_begun_again ? run.tool() : std::nullopt;
-    }
-    CHECK (has_begun_again);
-    CHECK (run.isLogged());
-    CHECK (most < 1.1 * before.force.norm());
-    CHECK (farthest < 2e-3);
-    CHECK (waitFor ([&] { return run.tool() && run.tool()->force.norm() == Approx (before.force.norm()).epsilon (0.1); }));
-    w.view->run().letGo();
-}
-
 namespace
 {
-/// A window that records a take of the running graph.
+/// The panel beside the hand, which records a take of the running graph.
 struct Recorder
 {
-    WindowRig w { "dry_wood.json", 1280, 720, false };
-    LiveRun& run { w.view->run() };
-    TakePanel& panel { w.view->part<TakePanel>() };
+    DeskStage w { "dry_wood.json" };
+    LiveRun& run { w.playback.run() };
+    TakePanel& panel { w.show<TakePanel> (takesPanel) };
     Take& take { panel.take() };
 
     Recorder()
     {
-        w.click ("Take");
+        w.showHand();
+        REQUIRE (w.start());
         record();
-    }
-    ~Recorder()
-    {
-        if (w.view) w.view->run().letGo();
     }
 
     void record()
@@ -199,7 +148,7 @@ TEST_CASE ("a press on the surface during a take takes the tool: the take begins
     REQUIRE (waitFor ([&] { return r.take.recorded() != first; }));
     CHECK (r.run.hand().kind == LiveRun::Hand::Kind::pointer);
     CHECK (r.take.state() == Take::State::recording);
-    CHECK (r.w.view->statusText().contains ("so does the take"));
+    CHECK (r.w.status.text().contains ("so does the take"));
     CHECK (first->length_s > 0.05);
     REQUIRE (waitFor ([&] { return r.hasCurve() && r.run.tool() && r.run.tool()->position.z() < -0.1e-3; }));
     const double x = r.run.tool()->position.x();
@@ -218,31 +167,11 @@ TEST_CASE ("a press on the surface during a take takes the tool: the take begins
     REQUIRE (waitFor ([&] { return r.isReady(); }));
     CHECK (r.take.recorded() == first);
     CHECK (r.take.seconds() == r.panel.plot().length());
-    CHECK (latestStep (r.w.view->document()) == "record a take");
+    CHECK (latestStep (r.w.document) == "record a take");
     r.w.key ("ctrl + z");
     r.w.key ("ctrl + z");
     CHECK (r.take.state() == Take::State::empty);
     CHECK (r.panel.unsaved().size() == 2);
-}
-
-TEST_CASE ("Shift+Esc after a press during a take stops the forces for good", "[app][take][safety]")
-{
-    const int waits = GENERATE (range (0, 5));
-    INFO (waits);
-    Recorder r;
-    r.press();
-    for (int n = 0; n < waits; ++n)
-        WindowRig::settle (11);
-    r.w.key ("shift + escape");
-    r.w.stage->release();
-    for (int n = 0; n < 30; ++n)
-    {
-        WindowRig::settle (10);
-        CHECK (r.run.isHeld());
-        CHECK ((! r.run.isWanted() || r.run.isRunning()));   // it has not begun again since
-    }
-    CHECK ((! r.run.isRunning() || r.run.isStoppedForGood()));
-    CHECK_FALSE (r.panel.unsaved().empty());
 }
 
 TEST_CASE ("a take that was undone is not lost by the next edit", "[app][take][undo]")
@@ -253,8 +182,8 @@ TEST_CASE ("a take that was undone is not lost by the next edit", "[app][take][u
     const auto take = r.take.recorded();
     r.w.key ("ctrl + z");
     CHECK (r.take.state() == Take::State::empty);
-    r.w.key ("ctrl + 3");   // stores a snapshot, after which there is nothing to redo
-    REQUIRE (r.w.view->document().history().position() == r.w.view->document().history().size());
+    REQUIRE (r.w.document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));   // there is nothing to redo
+    REQUIRE (r.w.document.history().position() == r.w.document.history().size());
     r.choose (1);
     REQUIRE (waitFor ([&] { return r.isReady(); }));
     CHECK (r.take.recorded() == take);
@@ -269,7 +198,7 @@ TEST_CASE ("an undo during a take keeps what was recorded", "[app][take][undo]")
     r.w.key ("ctrl + z");
     CHECK (r.take.state() == Take::State::empty);
     CHECK (r.run.isRunning());
-    CHECK (r.w.view->statusText().contains ("list of takes"));
+    CHECK (r.w.status.text().contains ("list of takes"));
     CHECK (r.panel.unsaved().size() == 2);
     r.choose (2);
     REQUIRE (waitFor ([&] { return r.isReady(); }));
@@ -279,19 +208,20 @@ TEST_CASE ("an undo during a take keeps what was recorded", "[app][take][undo]")
 TEST_CASE ("a take that ends with the run says so, and has the length of what it holds", "[app][take]")
 {
     Recorder r;
-    SECTION ("STOP") { r.w.click ("STOP"); }
-    SECTION ("another graph") { r.w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json"); }
+    SECTION ("STOP") { r.w.playback.stop(); }
+    SECTION ("another graph") { r.w.openAndStart ("soft_pad.json"); }
     REQUIRE (waitFor ([&] { return r.isReady(); }));
-    CHECK (r.w.view->statusText().contains ("ended with the run"));
+    CHECK (r.w.status.text().contains ("ended with the run"));
     CHECK (r.take.seconds() == r.panel.plot().length());
     CHECK (r.panel.unsaved().size() == 1);
 }
 
 TEST_CASE ("a take can be undone, which brings back the one before", "[app][take]")
 {
-    WindowRig w ("dry_wood.json", 1280, 720, false);
-    auto& panel = w.view->part<TakePanel>();
-    w.click ("Take");
+    auto rig = std::make_unique<DeskStage> ("dry_wood.json");
+    auto& w = *rig;
+    auto& panel = w.show<TakePanel> (takesPanel);
+    REQUIRE (w.start());
     const auto record = [&] (double seconds) {
         w.click ("Record");
         REQUIRE (waitFor ([&] { return std::filesystem::exists (panel.take().log()); }));   // the run has begun again
@@ -307,92 +237,24 @@ TEST_CASE ("a take can be undone, which brings back the one before", "[app][take
     const auto first = record (0.05), second = record (0.05);
     CHECK (first.first != second.first);
     const auto graph = &w.graph();
-    w.view->document().undo();
+    w.document.undo();
     CHECK (shows (first));
     CHECK (&w.graph() == graph);
-    w.view->document().undo();
+    w.document.undo();
     CHECK (panel.take().state() == Take::State::empty);
     CHECK (panel.plot().length() == 0.0);
-    w.view->document().goTo (w.view->document().history().names().size());
+    w.document.goTo (w.document.history().names().size());
     CHECK (shows (second));
-    w.view->document().undo();
+    w.document.undo();
     CHECK (shows (first));
     const auto third = record (0.05);   // in place of the second one, which stays in the list
     CHECK (shows (third));
     CHECK (std::filesystem::exists (second.first));
     CHECK (std::filesystem::exists (first.first));
-    w.view->run().letGo();
-    w.view.reset();
+    rig.reset();
     CHECK_FALSE (std::filesystem::exists (third.first));
     CHECK_FALSE (std::filesystem::exists (second.first));
     CHECK_FALSE (std::filesystem::exists (first.first));
-}
-
-TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app][take][recovery]")
-{
-    Recorder r;
-    const bool is_crash = GENERATE (false, true), is_complete = GENERATE (false, true);
-    INFO ((is_crash ? "crash, " : "signal, ") << (is_complete ? "complete" : "recording"));
-    if (is_complete)
-    {
-        r.w.click ("Stop");
-        REQUIRE (waitFor ([&] { return r.isReady(); }));
-    }
-    REQUIRE (waitFor ([&] { return std::filesystem::file_size (r.take.log()) > 10000; }));
-    const auto sessions = r.w.home / "sessions";
-    const auto own = std::filesystem::directory_iterator (sessions)->path();
-    if (is_crash)   // what is on the disk now
-        std::filesystem::copy (own, sessions / "crashed", std::filesystem::copy_options::recursive);
-    else
-        r.w.view->closeSuddenly();
-    const auto left = r.take.log();
-    r.w.view.reset();
-    CHECK (std::filesystem::exists (left) == ! is_crash);
-    if (is_crash) std::filesystem::remove_all (own);
-
-    auto& w = r.w;
-    w.view = std::make_unique<MainView> (catalogue());
-    w.stage->fill (*w.view);
-    w.view->begin ({ .home = w.home.path() });
-    WindowRig::settle();
-    REQUIRE (w.view->asked().isOpen());
-    CHECK (w.view->asked().getDescription().contains ("A take was not saved."));
-    w.click ("Recover without running");
-    auto& panel = w.view->part<TakePanel>();
-    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
-    CHECK (panel.unsaved() == std::vector { panel.take().recorded() });
-    CHECK (panel.port() == "motor.force");
-    CHECK_FALSE (std::filesystem::exists (sessions / "crashed"));
-    CHECK_FALSE (std::filesystem::exists (left));
-    CHECK (lowest (panel.take().log(), panel.take().program).z() < 0.01);
-    w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
-        chosen (w.home / "gesture.csv");
-    };
-    w.click ("Take");
-    w.click ("Make a gesture...");   // as of any other take
-    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
-}
-
-TEST_CASE ("a take that was saved as a gesture raises no question after a crash", "[app][take][recovery]")
-{
-    Recorder r;
-    r.w.click ("Stop");
-    REQUIRE (waitFor ([&] { return r.isReady(); }));
-    r.w.view->chooseFile = [&] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
-        chosen (r.w.home / "gesture.csv");
-    };
-    r.w.click ("Make a gesture...");
-    REQUIRE (waitFor ([&] { return r.w.view->asked().isOpen(); }));
-    const auto sessions = r.w.home / "sessions";
-    const auto own = std::filesystem::directory_iterator (sessions)->path();
-    std::filesystem::copy (own, sessions / "crashed", std::filesystem::copy_options::recursive);
-    r.w.view.reset();
-    std::filesystem::remove_all (own);
-    r.w.view = std::make_unique<MainView> (catalogue());
-    r.w.stage->fill (*r.w.view);
-    r.w.view->begin ({ .home = r.w.home.path() });
-    WindowRig::settle();
-    CHECK_FALSE (r.w.view->asked().getDescription().contains ("take"));
 }
 
 TEST_CASE ("a take is saved from the list, and opened again, also with another graph", "[app][take]")
@@ -400,7 +262,7 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     Recorder r;
     bool saves = false;
     auto file = r.w.home / "wood.jsonl";
-    r.w.view->chooseFile = [&] (bool to_save, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+    r.w.desk.chooseFile = [&] (bool to_save, const std::filesystem::path& begin, const auto& chosen) {
         saves = to_save;
         CHECK (begin.filename() == "take.jsonl");
         chosen (file);
@@ -414,7 +276,7 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     REQUIRE (std::filesystem::exists (file));
     CHECK (r.panel.unsaved().empty());
 
-    r.w.view->open (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json");
+    r.w.openAndStart ("layered_cloth.json");
     r.choose (3);
     CHECK_FALSE (saves);
     REQUIRE (waitFor ([&] { return r.isReady() && r.take.log() == file; }));
@@ -427,12 +289,49 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     file = r.w.home / "broken.jsonl";
     r.w.home.write ("broken.jsonl", "{}\n");
     r.choose (4);
-    REQUIRE (r.w.view->asked().isOpen());
-    CHECK (r.w.view->asked().title() == "Cannot open broken.jsonl");
-    CHECK (r.w.view->asked().getDescription().contains ("broken.jsonl:1"));
+    REQUIRE (r.w.question.isOpen());
+    CHECK (r.w.question.title() == "Cannot open broken.jsonl");
+    CHECK (r.w.question.getDescription().contains ("broken.jsonl:1"));
     r.w.click ("Close");
     CHECK (r.take.log() != file);
     CHECK (r.isReady());
-    r.w.view.reset();
+    r.w.panel.reset();
     CHECK (std::filesystem::exists (r.w.home / "wood.jsonl"));   // the file of the user
+}
+
+TEST_CASE ("the labels of a take are whole in a small window", "[app][small][take]")
+{
+    const auto [width, height] = GENERATE (std::pair (512, 350), std::pair (640, 360), std::pair (1280, 720));
+    INFO (width << " x " << height);
+    DeskStage w ("dry_wood.json", width, height);
+    auto& panel = w.show<TakePanel> (takesPanel);
+    const int around = SafetyStrip::height + TopBar::height + StatusLine::height;   // as in a window of this size
+    panel.setSize (width < 680 ? width / 2 : width - 420, (width < 680 ? height - around : w.panel_height) - Tabs::row_height);
+    REQUIRE (w.start());
+    const auto checkLabels = [&] (const std::vector<std::array<juce::String, 2>>& wanted) {
+        const auto texts = host::test::readTexts (panel);
+        CHECK (host::test::cutOff (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        CHECK (host::test::overlaps (texts, panel.getLocalBounds().toFloat()).joinIntoString ("; ") == "");
+        for (const auto& either : wanted)
+        {
+            INFO (either[0]);
+            CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == either[0] || t.text == either[1]; }));
+        }
+        for (const auto& t : texts)
+            CHECK_FALSE ((t.text.endsWith ("...") && ! t.text.startsWithIgnoreCase ("make a") && ! t.text.startsWith ("Clip") && ! t.text.startsWith ("Gesture")
+                          && ! t.text.startsWith ("Test")));   // shortened, because it does not fit
+    };
+    w.click ("Record");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > 0.05; }));
+    checkLabels ({ { "Stop", "Stop" }, { "motor.force", "motor.force" } });
+    w.click ("Stop");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
+    OnStage::settle (100);
+    std::vector<std::array<juce::String, 2>> all { { "Record", "Record" }, { "motor.force", "motor.force" }, { "from", "from" }, { "until", "until" } };
+    for (const auto* what : { "clip", "gesture", "test" })
+    {
+        const juce::String name (what);
+        all.push_back ({ "Make a " + name + "...", name.substring (0, 1).toUpperCase() + name.substring (1) + "..." });
+    }
+    checkLabels (all);
 }

@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_stage.hpp"
+#include "host/app/support/files_rig.hpp"
 #include "host/app/support/seen_text.hpp"
-#include "host/app/support/window_rig.hpp"
 
 #include <host/app/fit_panel/fit_panel.hpp>
+#include <host/app/run/views/safety_strip.hpp>
 #include <host/app/storage/language.hpp>
+#include <host/app/top_bar/top_bar.hpp>
+#include <host/app/welcome/help_panel.hpp>
 
 #include <algorithm>
 #include <fstream>
 
+using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::WindowRig;
+using tactus::host::test::DeskRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::FilesRig;
+using tactus::host::test::Stage;
+using tactus::host::test::waitFor;
+using tactus::host::test::wood;
 namespace app_test = tactus::host::test;
 
 namespace
@@ -39,73 +49,72 @@ bool sees (juce::Component& c, const juce::String& text)
     return std::ranges::any_of (app_test::readTexts (c), [&] (const auto& t) { return t.text.contains (text); });
 }
 
-/// Waits until the component shows a text.
-bool comesToSee (juce::Component& c, const juce::String& text)
-{
-    for (int i = 0; i < 200 && ! sees (c, text); ++i)
-        WindowRig::settle (50);
-    return sees (c, text);
-}
-
-/// Checks that no texts overlap in an area, and that none is cut off.
-void checkLayout (juce::Component& c, juce::Rectangle<int> area)
+/// Checks that no texts overlap in a component, and that none is cut off.
+void checkLayout (juce::Component& c)
 {
     const auto texts = app_test::readTexts (c);
-    CHECK (app_test::overlaps (texts, area.toFloat()).joinIntoString ("\n") == juce::String());
-    CHECK (app_test::cutOff (texts, area.toFloat()).joinIntoString ("\n") == juce::String());
-}
-
-void checkBars (WindowRig& rig)
-{
-    checkLayout (*rig.stage, { rig.stage->getWidth(), SafetyStrip::height + TopBar::height });
-}
-
-/// Without the mouse: START ignores a click that comes soon after STOP.
-void press (WindowRig& rig, const char* text)
-{
-    REQUIRE (comesToSee (*rig.stage, text));
-    auto* button = WindowRig::buttonIn (*rig.view, text);
-    REQUIRE (button != nullptr);
-    button->triggerClick();
+    CHECK (app_test::overlaps (texts, c.getLocalBounds().toFloat()).joinIntoString ("\n") == juce::String());
+    CHECK (app_test::cutOff (texts, c.getLocalBounds().toFloat()).joinIntoString ("\n") == juce::String());
 }
 }   // namespace
 
-TEST_CASE ("the window runs in the language of a user's file, and longer texts neither overlap nor are cut off in its bars", "[app][text]")
+TEST_CASE ("the bars are in the language of a user's file, and longer texts neither overlap nor are cut off in them", "[app][text]")
 {
     const InLongTexts german;
     for (const int width : { 1280, 1920 })
     {
         INFO (width << " pixels");
-        WindowRig rig ("dry_wood.json", width, 720);
-        WindowRig::settle (200);
-        checkBars (rig);
-        press (rig, "STARTEN");
-        REQUIRE (comesToSee (*rig.stage, "laeuft jetzt mit"));
-        CHECK (sees (*rig.stage, "Waechter"));
-        WindowRig::settle (300);
-        checkBars (rig);
-        press (rig, "STOPPEN");
-        CHECK (comesToSee (*rig.stage, "angehalten"));
+        DeskStage w ("dry_wood.json", width, 720);
+        SafetyStrip strip { w.playback };
+        TopBar top { w.desk };
+        strip.setBounds (0, 0, width, SafetyStrip::height);
+        top.setBounds (0, SafetyStrip::height, width, TopBar::height);
+        for (juce::Component* bar : std::initializer_list<juce::Component*> { &strip, &top })
+            w.stage->addAndMakeVisible (bar);
+        top.show();
+        const auto comesToSee = [&] (const char* text) {
+            return waitFor ([&] {
+                strip.refresh();
+                return sees (strip, text);
+            });
+        };
+        const auto checkBars = [&] {
+            checkLayout (strip);
+            checkLayout (top);
+        };
+        REQUIRE (comesToSee ("STARTEN"));
+        checkBars();
+        REQUIRE (w.start());
+        REQUIRE (comesToSee ("laeuft jetzt mit"));
+        CHECK (comesToSee ("Waechter"));
+        REQUIRE (comesToSee ("STOPPEN"));
+        checkBars();
+        w.playback.stop();
+        CHECK (comesToSee ("angehalten"));
     }
 }
 
 TEST_CASE ("texts neither overlap nor are cut off in questions, in the fit panel and in the help", "[app][text]")
 {
-    WindowRig rig ("dry_wood.json", 1280, 720);
-    rig.view->canvas().select ({ rig.graph().root.nodes.front().id });
-    rig.view->canvas().grabKeyboardFocus();
-    rig.key ("ctrl + d");
-    rig.view->closeWhenSaved ([] {});
-    WindowRig::settle();
-    auto& question = rig.view->asked();
-    REQUIRE (question.isOpen());
-    checkLayout (question, question.getLocalBounds());
-    rig.key ("escape");
-    rig.view->desk().fitRecording (rig.home / "nowhere.csv");
-    checkLayout (rig.view->part<FitPanel>(), rig.view->part<FitPanel>().getLocalBounds());
-    rig.key ("escape");
-    rig.key ("F1");
-    auto& help = rig.view->part<HelpPanel>();
+    FilesRig files;
+    files.files->open (wood);
+    files.edit (0.9);
+    files.files->create();
+    REQUIRE (files.question.isOpen());
+    Stage stage (1280, 720);
+    stage.fill (files.question);
+    checkLayout (files.question);
+
+    DeskRig r;
+    auto& fit = r.make<FitPanel> (fitPanel);
+    stage.fill (fit);
+    r.desk.fitRecording (r.home / "nowhere.csv");
+    checkLayout (fit);
+
+    HelpPanel help { catalogue() };
+    stage.addChildComponent (help);
+    help.setArea (stage.getLocalBounds());
+    help.showKeys();
     REQUIRE (help.isOpen());
     CHECK (app_test::overlaps (app_test::readTexts (help), help.getLocalBounds().toFloat()).joinIntoString ("\n") == juce::String());
 }

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The clutch by a key, which moves the workspace of a device with the hand. The force steps nowhere.
+#include "host/app/support/film_steps.hpp"
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/devices_panel/devices_panel.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::stepsChecked;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+template <typename T>
+T* partIn (juce::Component& c)
+{
+    if (auto* part = dynamic_cast<T*> (&c)) return part;
+    for (auto* child : c.getChildren())
+        if (auto* part = partIn<T> (*child)) return part;
+    return nullptr;
+}
+
+/// The window with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
+struct Bench : WindowRig
+{
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
+    {
+        click ("Devices");
+        panel().bind (role, "simulated PHANTOM 1.0");
+        set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
+        set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
+        REQUIRE (binding().contains ("hand"));
+        click ("3D");
+        view->run().film().keep (FilmTape::longest_s);
+    }
+    ~Bench() { view->run().letGo(); }
+    Bench (const Bench&) = delete;
+    Bench& operator= (const Bench&) = delete;
+
+    const std::string role;
+
+    DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
+    SceneView& scene() { return *partIn<SceneView> (*view); }
+    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
+
+    Json saved() const { return Json::parse (home.textOf ("session.json")); }
+    Json binding() const { return saved()["roles"][role]; }
+    Json workspace() const { return binding().value ("workspace", Json()); }
+
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        return host::test::waitFor (isSo, 5);
+    }
+
+    void start()
+    {
+        view->canvas().grabKeyboardFocus();
+        key ("F5");
+        REQUIRE (until ([&] { return view->run().tool() && force() > 0.0 && ticks() > 0; }));
+    }
+    double force() { return view->run().tool() ? view->run().tool()->force.norm() : 0.0; }
+    Vec3 origin() { return view->run().workspaceOf (role)->offset; }
+
+    /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
+    juce::TextEditor& field (const juce::String& label)
+    {
+        click ("Devices");
+        auto* found = dynamic_cast<juce::TextEditor*> (titledIn (panel(), label));
+        REQUIRE (found != nullptr);
+        const auto isReached = [&] {
+            const auto* at = stage->getComponentAt (middleOf (*found).roundToInt());
+            return at != nullptr && (at == found || found->isParentOf (at));
+        };
+        for (int i = 0; i < 100 && ! isReached(); ++i)   // from the top downwards
+        {
+            stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), i == 0 ? 100.0f : -0.1f, true);
+            settle (2);
+        }
+        REQUIRE (isReached());
+        return *found;
+    }
+
+    std::uint64_t ticks() { return view->run().film().end(); }
+};
+}   // namespace
+
+TEST_CASE ("S moves the workspace with the hand while it is held, and the force does not step", "[app][sessions][safety]")
+{
+    Bench w;
+    w.start();
+    w.view->canvas().grabKeyboardFocus();
+    const auto hold = [&] {   // a key that is held is repeated
+        w.stage->key ("s");
+        WindowRig::settle (10);
+        w.stage->keyUp();   // as some systems do between two repetitions
+        w.stage->key ("s");
+    };
+    REQUIRE (w.until ([&] {
+        hold();
+        return w.force() == 0.0;
+    }));
+    CHECK (w.view->statusText().contains ("until you release S"));
+    SafetyStrip* strip = nullptr;
+    for (auto* child : w.view->getChildren())
+        if (auto* found = dynamic_cast<SafetyStrip*> (child)) strip = found;
+    REQUIRE (strip != nullptr);
+    CHECK (w.until ([&] {
+        hold();
+        return strip->guardText().contains ("its workspace is being moved");
+    }));
+    CHECK_FALSE (strip->isAlarmed());   // it is what the person wants
+    const auto after = [&] (std::uint64_t more) {
+        return w.until ([&, from = w.ticks()] {
+            hold();
+            return w.ticks() > from + more;
+        });
+    };
+    REQUIRE (after (10));
+    const auto place = w.view->run().tool()->position;
+    for (int i = 0; i < 10; ++i)
+    {
+        REQUIRE (after (100));
+        CHECK (w.force() == 0.0);
+        CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
+    }
+    w.stage->keyUp();
+    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip->guardText().contains ("being moved"); }));
+    CHECK (w.origin().norm() > 1e-4);
+    CHECK (stepsChecked (w.view->run()) == 0);   // nor does the tool jump
+    CHECK_FALSE (w.workspace().contains ("offset"));
+
+    SECTION ("in the scene, too, until something else gets the keyboard")
+    {
+        w.scene().grabKeyboardFocus();
+        w.stage->key ("s");
+        REQUIRE (w.until ([&] { return w.force() == 0.0; }));
+        auto& field = w.field ("scale");
+        w.stage->click (w.middleOf (field));
+        CHECK (w.until ([&] { return w.force() > 0.0; }));
+        w.stage->key ("s");   // is text now
+        CHECK (field.getText() == "s");
+        CHECK_FALSE (w.view->statusText().contains ("until you release S"));
+        w.key ("escape");
+    }
+    SECTION ("but not without a device of the session")
+    {
+        w.panel().bind ("stylus", "as in the graph");
+        REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
+        w.view->canvas().grabKeyboardFocus();
+        w.stage->key ("s");
+        CHECK (w.view->statusText().contains ("bind one"));
+        WindowRig::settle (100);
+        CHECK (w.until ([&] { return w.force() > 0.0; }));   // the stroke presses again
+    }
+    SECTION ("and a STOP stops")
+    {
+        w.stage->key ("s");
+        w.key ("shift + escape");
+        w.stage->keyUp();
+        REQUIRE (w.until ([&] { return w.view->run().isStoppedForGood() && w.force() == 0.0; }));
+        WindowRig::settle (200);
+        CHECK (w.force() == 0.0);
+    }
+}
+
+TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F1");
+    REQUIRE (w.view->part<HelpPanel>().isOpen());
+    bool is_listed = false;
+    for (const auto& seen : host::test::readTexts (w.view->part<HelpPanel>()))
+        is_listed = is_listed || seen.text.contains ("S, held");
+    CHECK (is_listed);
+}
