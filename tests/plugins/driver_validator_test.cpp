@@ -8,6 +8,7 @@
 #include <host/cli/program.hpp>
 #include <tactus/text/json.hpp>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -149,6 +150,33 @@ TEST_CASE ("check-plugin catches a driver that does not come to rest", "[plugins
     catches ("lying", "mute", { "rest: `write` fails and does not say why" });
     catches ("lying", "dead", { "rest: `write` fails: no; then `rest` fails: it is stuck" });
     catches ("lying", "no_rest", { "rest: `rest` fails: it is stuck" });
+}
+
+TEST_CASE ("check-plugin catches a driver whose list of devices is wrong", "[plugins]")
+{
+    const auto [lie, why] = GENERATE (table<const char*, const char*> ({
+        { "mute", "find: `find` fails and does not say why" },
+        { "answer", "find: `find` returns 2" },
+        { "crash", "find: `find`: the program was ended by signal 11" },
+        { "null", "find: device 0: it is NULL" },
+        { "size", "find: device 0: its size is 4" },
+        { "no_port", "find: device 0: its port is NULL" },
+        { "no_name", "find: device 0: its name is NULL" },
+        { "empty_name", "find: device 0: it has no name" },
+        { "state", "find: device 0: its state is 64" },
+        { "bytes", "has characters that cannot be printed" },
+        { "endless", "find: device 0: its port has no end within 1000 bytes" },
+        { "twice", "find: device 1: its port 'honest' came before" },
+        { "many", "find: it finds more than 1000 devices" },
+        { "changes", "find: the second call of `find` finds other devices than the first one" },
+        { "later", "find: it adds a device after `find` has returned" },
+        { "refused", "find: `check` refuses the port '50%' that `find` has found" },
+    }));
+    ::setenv ("LYING_FIND", lie, 1);
+    catches ("lying", "honest", { why });
+    ::setenv ("LYING_FIND", "away", 1);   // it cannot look here, and says why
+    CHECK (check ("lying", "honest").status == 0);
+    ::unsetenv ("LYING_FIND");
 }
 
 TEST_CASE ("check-plugin ends a read that never returns, and names it", "[plugins][safety]")

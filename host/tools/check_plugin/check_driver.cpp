@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "check_driver.hpp"
+#include "check_find.hpp"
 #include "finding.hpp"
 
 #include <host/devices/device_plugins/device_driver.hpp>
@@ -409,6 +410,23 @@ std::string checkThreads (const Device& device, double seconds)
     return slow.empty() ? slow : slow + " while `read` waits";
 }
 
+/// Looks for devices alone and while one is open, which must not be touched.
+std::string checkList (const Device& device)
+{
+    if (auto fault = faultOfFind (*device.driver); ! fault.empty()) return fault;
+    std::string why;
+    const auto opened = device.open (why);
+    if (! opened) return why;
+    const auto list = device.driver->find();
+    tactus_reading reading;
+    tactus_device_stamp stamp;
+    DriverReport said;
+    int answer = TACTUS_DEVICE_NONE;
+    for (int i = 0; i < 100 && answer == TACTUS_DEVICE_NONE; ++i)
+        timeOf ("read", [&] { answer = opened->read (longest_read, reading, stamp, said); });
+    return answer == TACTUS_DEVICE_OK ? "" : "after `find`, no reading comes from the device that is open";
+}
+
 //==============================================================================
 struct Examination
 {
@@ -432,13 +450,15 @@ std::vector<Examination> examinations (int level)
              { "timeout", "a read ends in time, and waits for it", true, with (checkTimeout, std::max (5, times / 2)) },
              { "readings", "readings are whole, new, and come at its rate", true, with (checkReadings, std::max (0.5, seconds)) },
              { "rest", "it takes zero efforts, and comes to rest", true, with (checkRest, times) },
-             { "threads", "a read that waits does not hold up a write", true, with (checkThreads, std::max (0.5, seconds)) } };
+             { "threads", "a read that waits does not hold up a write", true, with (checkThreads, std::max (0.5, seconds)) },
+             { "find", "its list of devices is whole, always the same, and touches no device that is open", true, with (checkList) } };
 }
 
 std::string skippedFor (const Examination& e, const Options& options, const DeviceDriver& driver)
 {
     if (e.needs_device && options.device.empty()) return "no device is given (--open)";
     if (std::string_view (e.id) == "port" && std::ranges::count (driver.keys(), "port") == 0) return "the driver has no key \"port\"";
+    if (std::string_view (e.id) == "find" && ! driver.canFind()) return "the driver has no list of its devices";
     if (const std::string_view id = e.id; (id == "rest" || id == "threads") && driver.functions().write == nullptr) return "the driver takes no efforts";
     return {};
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A driver of a device that is not there. It reports 1000 times a second, and takes a force. Its port says how it lies; "honest": not at all. The key
-   "log" names a file that gets a line for each force, rest and close. Each macro BAD_… makes the driver itself wrong in one way. */
+   "log" names a file that gets a line for each force, rest and close. The variable LYING_FIND says how its list of devices lies. Each macro BAD_…
+   makes the driver itself wrong in one way. */
 #include <tactus/tactus_device.h>
 
 #include <fcntl.h>
@@ -189,6 +190,62 @@ static int32_t rest_device (void* device_, const tactus_plugin_report* report)
     return TACTUS_DEVICE_OK;
 }
 
+static const tactus_device_finder* kept;
+
+static void* add_later (void* nothing)
+{
+    static const tactus_device_found late = { sizeof late, "late", "a device", 0 };
+    wait_ms (5);
+    kept->add (kept->context, &late);
+    return nothing;
+}
+
+static int32_t find_devices (const tactus_device_finder* finder, const tactus_plugin_report* report)
+{
+    static char endless[8192];
+    static int calls;
+    static tactus_device_finder copy;
+    const char* lie = getenv ("LYING_FIND");
+    if (lie == NULL) lie = "";
+    tactus_device_found found = { sizeof found, "honest", "a device", 0 };
+    ++calls;
+    if (strcmp (lie, "mute") == 0) return TACTUS_DEVICE_FAILED;
+    if (strcmp (lie, "away") == 0)
+    {
+        say (report, "the library is missing");
+        return TACTUS_DEVICE_FAILED;
+    }
+    if (strcmp (lie, "answer") == 0) return TACTUS_DEVICE_NONE;
+    if (strcmp (lie, "crash") == 0) found.port = (const char*)8;
+    if (strcmp (lie, "size") == 0) found.size = 4;
+    if (strcmp (lie, "no_port") == 0) found.port = NULL;
+    if (strcmp (lie, "no_name") == 0) found.name = NULL;
+    if (strcmp (lie, "empty_name") == 0) found.name = "";
+    if (strcmp (lie, "state") == 0) found.state = 64;
+    if (strcmp (lie, "bytes") == 0) found.name = "\x1b[2J\xff";
+    if (strcmp (lie, "refused") == 0) found.port = "50%";
+    if (strcmp (lie, "endless") == 0)
+    {
+        memset (endless, 'x', sizeof endless);
+        found.port = endless;
+    }
+    if (strcmp (lie, "changes") == 0 && calls % 2 == 0) found.port = "other";
+    finder->add (finder->context, strcmp (lie, "null") == 0 ? NULL : &found);
+    if (strcmp (lie, "twice") == 0) finder->add (finder->context, &found);
+    for (int i = 0; i < 2000 && strcmp (lie, "many") == 0; ++i)
+    {
+        char port[16];
+        snprintf (port, sizeof port, "%d", i);
+        found.port = port;
+        finder->add (finder->context, &found);
+    }
+    copy = *finder;
+    kept = &copy;
+    pthread_t thread;
+    if (strcmp (lie, "later") == 0 && pthread_create (&thread, NULL, add_later, NULL) == 0) pthread_detach (thread);
+    return TACTUS_DEVICE_OK;
+}
+
 static void close_device (void* device_)
 {
     device* d = device_;
@@ -226,5 +283,5 @@ static const char* const keys[] = { "port", KEY };
 
 #ifndef BAD_NO_ENTRY
 const tactus_device_driver tactus_device_entry = { SIZE, ABI, NAME, "1", "A driver for tests.", keys, 2, check, open_device, read_device, write_device, REST,
-                                                   close_device, NULL };
+                                                   close_device, find_devices };
 #endif

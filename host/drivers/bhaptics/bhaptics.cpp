@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: MIT
-// The driver as a plugin.
-#include "vest.hpp"
-
-extern "C" const tactus_device_driver tactus_device_entry = tactus::host::bhaptics_driver;
