@@ -25,7 +25,7 @@ PARTS = ["framework", "nodes", "host"]                             # the same fo
 HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers": {"base", "devices"}, "tools": {"base", "code", "devices", "drivers"},
         "cli": {"base", "code", "devices", "drivers", "tools"}, "app": {"base", "code", "devices", "drivers", "tools"}}
 DRIVERS = ["base/platform/peer_lock.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
-           "devices/hid/calibration.hpp", "devices/hid/vibration_tracker.hpp"]
+           "devices/hid/calibration.hpp", "devices/hid/slow_adapter.hpp", "devices/hid/vibration_tracker.hpp"]
 MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
 PANELS = pathlib.PurePath("host/app/window/panels.hpp")
 PAGE = "docs/architecture.md"

@@ -31,15 +31,6 @@ const DriverPort* driverOf (const SerialPort& port)
     return found != std::end (known) ? found : nullptr;
 }
 
-std::string slowAdapter (const SerialPort& port, const fs::path& adapters)
-{
-    std::error_code failed;
-    const auto timer = adapters / fs::canonical (port.path, failed).filename() / "latency_timer";
-    const auto ms = failed ? std::string() : firstWord (timer);
-    if (ms.empty() || ms == "1") return {};
-    return "its adapter keeps answers for up to " + ms + " ms: sudo sh -c 'echo 1 > " + timer.string() + "'";
-}
-
 std::string withoutPort (std::span<const SerialPort> ports, const fs::path& usb)
 {
     std::string all;

@@ -22,10 +22,6 @@ struct DriverPort
 /// The device at this port; null: no driver names it. [any thread]
 const DriverPort* driverOf (const SerialPort&);
 
-/// The sentence that tells how to shorten the time for which the adapter of this port keeps answers. Empty if that is 1 ms, or if the port has no such
-/// timer. [any thread]
-std::string slowAdapter (const SerialPort&, const std::filesystem::path& adapters = "/sys/bus/usb-serial/devices");
-
 /// The list of devices that a driver knows, but that have no serial port because the kernel does not know them, with the command that gives them one.
 /// Empty if there are none. [any thread]
 std::string withoutPort (std::span<const SerialPort>, const std::filesystem::path& usb = "/sys/bus/usb/devices");

@@ -3,6 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
+#include <host/devices/hid/slow_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/hid_link/serial_ports.hpp>
@@ -82,13 +83,13 @@ TEST_CASE ("the port of a Falcon names its driver, and what makes it slow or hid
     CHECK (driverOf ({ .path = "/dev/ttyS0" }) == nullptr);
 
     const auto adapters = folder / "adapters";
-    CHECK (slowAdapter (falcon, adapters).empty());
+    CHECK (slowAdapter (falcon.path, adapters).empty());
     fs::create_directories (adapters / "ttyUSB3");
     folder.write ("adapters/ttyUSB3/latency_timer", "16\n");
-    CHECK (slowAdapter (falcon, adapters)
+    CHECK (slowAdapter (falcon.path, adapters)
            == "its adapter keeps answers for up to 16 ms: sudo sh -c 'echo 1 > " + (adapters / "ttyUSB3/latency_timer").string() + "'");
     folder.write ("adapters/ttyUSB3/latency_timer", "1\n");
-    CHECK (slowAdapter (falcon, adapters).empty());
+    CHECK (slowAdapter (falcon.path, adapters).empty());
 
     const auto usb = folder / "usb";
     CHECK (withoutPort ({}, usb).empty());
