@@ -17,8 +17,9 @@ using Found = std::function<void (const std::string&, const std::string&, std::u
 
 /// The functions of a driver. `Device` has
 ///
-///     static std::string check (const tactus_device_description&);                  what is wrong; empty if nothing is
-///     static std::unique_ptr<Device> open (const tactus_device_description&, tactus_device_about&, std::string& said);
+///     Wanted                                                                        the type of what a person asks for
+///     static std::string parse (const tactus_device_description&, Wanted&);         what is wrong; empty if nothing is
+///     static std::unique_ptr<Device> open (const Wanted&, tactus_device_about&, std::string& said);
 ///                                                                                   null with the reason, or else perhaps with a remark
 ///     std::int32_t read (std::int32_t timeout_ms, tactus_reading&, tactus_device_stamp&, std::string& why);
 ///     std::int32_t write (const tactus_effort&, std::string& why);
@@ -32,7 +33,8 @@ struct DriverTable
     static int32_t check (const tactus_device_description* given, const tactus_plugin_report* report) noexcept
     {
         return answered (report, [&] {
-            const auto wrong = Device::check (*given);
+            typename Device::Wanted wanted;
+            const auto wrong = Device::parse (*given, wanted);
             return wrong.empty() ? int32_t { TACTUS_DEVICE_OK } : failed (report, wrong);
         });
     }
@@ -41,8 +43,9 @@ struct DriverTable
     {
         Device* opened = nullptr;
         answered (report, [&] {
-            std::string said;
-            opened = Device::open (*given, *about, said).release();
+            typename Device::Wanted wanted;
+            auto said = Device::parse (*given, wanted);
+            if (said.empty()) opened = Device::open (wanted, *about, said).release();
             if (! said.empty()) report->put (report->context, said.data(), said.size());
             return int32_t { TACTUS_DEVICE_OK };
         });

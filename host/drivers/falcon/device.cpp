@@ -5,7 +5,9 @@
 #include "kinematics.hpp"
 #include "serial_port.hpp"
 
+#include <host/devices/hid/slow_adapter.hpp>
 #include <host/drivers/driver_table.hpp>
+#include <host/drivers/guessed_limits.hpp>
 #include <host/drivers/read_keys.hpp>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -32,17 +33,6 @@ constexpr double motor_per_torque = -10'000.0, most_motor = 4096.0;
 constexpr double middle = 0.150;   // in front of the base, in m
 constexpr Packet at_rest = packetOf ({}, homing);
 
-struct Wanted
-{
-    std::string port, firmware;
-};
-
-std::string read (const tactus_device_description& given, Wanted& wanted)
-{
-    if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.firmware = in.text ("firmware"); }); ! wrong.empty()) return wrong;
-    return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
-}
-
 /// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it
 /// to rest.
 /// `times`: the factor of all times until a Falcon that does not answer counts as gone, for tests on busy computers.
@@ -55,22 +45,24 @@ class Falcon
     static constexpr int most_questions = times > 1 ? 40 : 10;   // at opening
 
 public:
-    static std::string check (const tactus_device_description& given)
+    struct Wanted
     {
-        Wanted wanted;
-        return falcon::read (given, wanted);
+        std::string port, firmware;
+    };
+
+    static std::string parse (const tactus_device_description& given, Wanted& wanted)
+    {
+        if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.firmware = in.text ("firmware"); }); ! wrong.empty()) return wrong;
+        return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
     }
 
-    static std::unique_ptr<Falcon> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
+    static std::unique_ptr<Falcon> open (const Wanted& wanted, tactus_device_about& about, std::string& said)
     {
-        Wanted wanted;
-        said = falcon::read (given, wanted);
-        if (! said.empty()) return nullptr;
         auto device = std::make_unique<Falcon> (wanted.port);
         said = device->line.open (wanted.port);
         if (said.empty()) said = device->start (wanted.firmware);
         if (! said.empty()) return nullptr;
-        said = device->line.remark();
+        if (auto slow = hid::slowAdapter (wanted.port); ! slow.empty()) said = "forces are slow, and stiff walls buzz: " + slow;
         device->describe (about);
         return device;
     }
@@ -84,7 +76,6 @@ public:
         {
             if (const auto report = line.next())
             {
-                hear();
                 take (*report, to, stamp);
                 return TACTUS_DEVICE_OK;
             }
@@ -123,9 +114,9 @@ public:
     std::int32_t write (const tactus_effort& effort, std::string& why)
     {
         const std::lock_guard lock (mutex);
-        force = { effort.force[0], effort.force[2], -effort.force[1] };   // x right, y up and z towards the person are the axes of the Falcon
+        force = Vec3 (effort.force[0], effort.force[2], -effort.force[1]);   // x right, y up and z towards the person are the axes of the Falcon
         given = Clock::now();
-        if (pushes && force == Triple {} && in_flight && given - sent > prompt) return putRest (why);   // a stop waits for no answer
+        if (pushes && force.isZero (0.0) && in_flight && given - sent > prompt) return putRest (why);   // a stop waits for no answer
         if (! std::exchange (is_new, true)) waits_since = given;
         changed.notify_one();
         if (given - waits_since <= longest_wait) return TACTUS_DEVICE_OK;
@@ -149,13 +140,9 @@ private:
             for (const auto end = Clock::now() + 50ms; Clock::now() < end && ! does; does = line.next().has_value())
                 line.await (5ms);
         }
-        const auto is_late = [this] {   // an answer to an earlier packet
+        bool is_late = does;   // an answer to an earlier packet
+        for (int answers = 0; answers < most_questions && is_late; ++answers, is_late = line.next().has_value())
             line.await (prompt);
-            return line.next().has_value();
-        };
-        for (int answers = 0; does && answers < most_questions && is_late(); ++answers)
-        {
-        }
         return does;
     }
 
@@ -187,9 +174,8 @@ private:
         about.axis_count = std::size (axes);
         about.buttons = buttons;
         about.button_count = std::size (buttons);
-        // 8 N is what CHAI3D allows. The others are guesses in the manner of docs/safety.md, "The limits of presets and profiles".
-        about.guard = R"({"max_force": "8 N", "max_slew": "2000 N/s", "max_speed": "2 m/s", "max_impulse": "40 N*s", "impulse_window": "10 s",
-            "max_energy": "160 mJ", "energy_window": "1 s", "max_still": "1 s", "still_force": "0.5 N", "watchdog": "20 ms"})";
+        static const auto limits = guessedLimits (8.0, 40.0).dump();   // 8 N is what CHAI3D allows
+        about.guard = limits.c_str();
         about.rest_file = port.c_str();
         static const tactus_device_bytes last { sizeof last, at_rest.data(), at_rest.size() };
         static const tactus_device_bytes* const lasts[] { &last, &last };   // the first one may meet half a packet
@@ -201,12 +187,7 @@ private:
     {
         const bool knows = (report.bits & homed) == homed;
         const auto place = knows ? legs.placeOf (Kinematics::anglesOf (report.counts)) : std::nullopt;
-        if (place)
-        {
-            to.position[0] = (*place)[0];
-            to.position[1] = middle - (*place)[2];
-            to.position[2] = (*place)[1];
-        }
+        if (place) Vec3::Map (to.position) = Vec3 (place->x(), middle - place->z(), place->y());
         to.axes[0] = is_saturated ? 1.0 : 0.0;
         to.axis_count = 1;
         to.buttons = report.bits & 0xfu;
@@ -214,10 +195,7 @@ private:
         stamp.fault = ! knows ? TACTUS_DEVICE_NOT_HOMED : ! place ? TACTUS_DEVICE_BROKEN
                                                                   : 0;
         has_place = place.has_value();
-    }
 
-    void hear()
-    {
         const std::lock_guard lock (mutex);
         answered = Clock::now();
         was_prompt = answered - sent < prompt;
@@ -229,7 +207,7 @@ private:
     /// [with the mutex held]
     std::int32_t putRest (std::string& why)
     {
-        force = {};
+        force.setZero();
         is_new = false;
         why = put (at_rest);
         if (! why.empty()) return TACTUS_DEVICE_FAILED;
@@ -242,18 +220,13 @@ private:
     void send()
     {
         if (! line.isFree()) return;   // the last packet is not out yet; the next call tries again
-        if (! has_place || Clock::now() - given > longest_kept) force = {};
-        auto values = legs.torquesOf (force);
-        double largest = 0.0;
-        for (double& value : values)
-        {
-            value *= motor_per_torque;
-            largest = std::max (largest, std::abs (value));
-        }
+        if (! has_place || Clock::now() - given > longest_kept) force.setZero();
+        const Vec3 values = motor_per_torque * legs.torquesOf (force);
+        const double largest = values.cwiseAbs().maxCoeff();
         is_saturated = largest > most_motor;
         std::array<int, 3> motors {};
-        for (std::size_t i = 0; i < 3; ++i)   // together, so that the direction stays
-            motors[i] = static_cast<int> (std::lround (values[i] * (is_saturated ? most_motor / largest : 1.0)));
+        for (int i = 0; i < 3; ++i)   // together, so that the direction stays
+            motors[static_cast<std::size_t> (i)] = static_cast<int> (std::lround (values[i] * (is_saturated ? most_motor / largest : 1.0)));
         const bool is_push = motors != std::array<int, 3> {};
         pushes = pushes || is_push;   // a packet that could not be sent may have gone out in part
         if (! put (packetOf (motors, homing | (has_place ? green : red))).empty()) return;
@@ -282,7 +255,7 @@ private:
 
     std::mutex mutex;   // of what follows; never held while waiting
     std::condition_variable changed;
-    Triple force {};
+    Vec3 force = Vec3::Zero();
     bool is_new = false;
     bool pushes = false;                    // the last packet had a force
     Clock::time_point given, waits_since;   // times of the newest force, and of the first one that was not sent
@@ -295,10 +268,11 @@ private:
 };
 
 constexpr const char* keys[] { "port", "firmware" };
-constexpr auto name = "falcon", about_it = "The Novint Falcon on a serial port.";
+
+template <int times>
+constexpr auto table = driverTable<Falcon<times>> ("falcon", "The Novint Falcon on a serial port.", keys);
 }   // namespace
 
-const tactus_device_driver driver = driverTable<Falcon<1>> (name, about_it, keys);
-const tactus_device_driver patient_driver = driverTable<Falcon<300>> (name, about_it, keys);
+const tactus_device_driver driver = table<1>, patient_driver = table<300>;
 
 }   // namespace tactus::host::falcon

@@ -6,10 +6,8 @@
 namespace tactus::host::falcon
 {
 
-/// The driver for the Novint Falcon on a serial port. See docs/known_devices.md.
-extern const tactus_device_driver driver;
-
-/// The same driver for tests: it waits longer for a Falcon that does not answer, so a busy computer does not look like one.
-extern const tactus_device_driver patient_driver;
+/// The driver for the Novint Falcon on a serial port. See docs/known_devices.md. The patient one is for tests: it waits longer for a Falcon that does not
+/// answer, so a busy computer does not look like one.
+extern const tactus_device_driver driver, patient_driver;
 
 }   // namespace tactus::host::falcon

@@ -248,6 +248,7 @@ void FakeFalcon::take (const std::uint8_t* p)
 {
     std::array<int, 3> values {};
     Place torques {};
+    const bool was_at_rest = isAtRest();
     for (std::size_t i = 0; i < 3; ++i)
     {
         unsigned raw = 0;
@@ -266,6 +267,7 @@ void FakeFalcon::take (const std::uint8_t* p)
     }
     if (fault == Fault::forgetful) homed = 0;
     pushes += isAtRest() ? 0 : 1;
+    if (isAtRest() && ! was_at_rest) zero_at = std::chrono::nanoseconds (std::chrono::steady_clock::now().time_since_epoch()).count();
     ++packets;
 
     const std::lock_guard lock (mutex);

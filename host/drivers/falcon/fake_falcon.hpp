@@ -78,6 +78,7 @@ public:
     std::atomic<std::uint64_t> together = 0, alone = 0;   // packets sent before the last one was answered; packets since then that were not
     std::atomic<unsigned> bits = 0;
     std::array<std::atomic<int>, 3> motors {};
+    std::atomic<std::int64_t> zero_at = 0;   // by the steady clock, in ns: the first packet without a force after one with a force
     std::atomic<int> largest_motor = 0;
     std::atomic<double> largest_force = 0.0;   // on the grip, in N
     std::atomic<std::size_t> loaded = 0;       // bytes

@@ -17,7 +17,6 @@ enum Bits : std::uint8_t
 {
     homing = 1,   // to the Falcon, in every packet: keeps its homing
     green = 2,
-    blue = 4,
     red = 8,
     homed = 0x70   // from the Falcon: each encoder has passed its mark. The lowest four are the buttons
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "serial_port.hpp"
 
+#include <tactus/file/text_file.hpp>
+
 #include <asm/termbits.h>
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -10,10 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
-#include <fstream>
 #include <system_error>
-#include <vector>
 
 namespace tactus::host::falcon
 {
@@ -36,7 +35,6 @@ SerialPort::~SerialPort()
 
 std::string SerialPort::open (const std::string& path)
 {
-    name = path;
     file = ::open (path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return textOf (errno) + (errno == EACCES ? ": join the group of " + path + " (on Debian: sudo adduser $USER dialout)" : std::string());
     termios2 how {};
@@ -53,16 +51,6 @@ void SerialPort::setLowLatency (bool is_low)
     if (::ioctl (file, TIOCGSERIAL, &serial) != 0) return;
     serial.flags = (serial.flags & ~static_cast<int> (ASYNC_LOW_LATENCY)) | (is_low ? static_cast<int> (ASYNC_LOW_LATENCY) : 0);
     static_cast<void> (::ioctl (file, TIOCSSERIAL, &serial));
-}
-
-std::string SerialPort::remark() const
-{
-    std::error_code failed;
-    const auto port = std::filesystem::canonical (name, failed).filename();
-    const auto setting = "/sys/bus/usb-serial/devices/" + port.string() + "/latency_timer";
-    int ms = 1;
-    if (std::ifstream in (setting); ! (in >> ms) || ms <= 1) return {};
-    return "the adapter keeps answers for up to " + std::to_string (ms) + " ms, so forces are slow and stiff walls buzz: sudo sh -c 'echo 1 > " + setting + "'";
 }
 
 void SerialPort::setSpeed (unsigned baud)
@@ -131,11 +119,8 @@ bool SerialPort::expects (std::span<const std::uint8_t> all, std::chrono::millis
 
 std::string SerialPort::load (const std::string& from)
 {
-    std::error_code failed;
-    const auto size = std::filesystem::file_size (from, failed);   // fails for what is no file, such as a device that never ends
-    std::vector<std::uint8_t> image (failed || size > most_firmware ? 0 : size);
-    std::ifstream in (from, std::ios::binary);
-    if (image.empty() || ! in.read (reinterpret_cast<char*> (image.data()), static_cast<std::streamsize> (image.size())))
+    const auto image = readFile (from);
+    if (! image || image->empty() || image->size() > most_firmware)
         return from + ": this is not the firmware of a Falcon: it cannot be read, is empty, or is too long";
     setLowLatency (false);   // users report that loading fails otherwise
     setSpeed (hello_baud);
@@ -146,14 +131,15 @@ std::string SerialPort::load (const std::string& from)
     for (int tries = 0; tries < 40 && ! is_there && ! is_gone; ++tries, count = used = 0)
         is_there = put (hello) && expects (hello_answer, 50ms);
     if (! is_there) return "neither its firmware nor its loader answers: check its power and its cable";
+    purge();   // answers to earlier questions
     setLines (0);
     setSpeed (loading_baud);
     if (! put (ready) || ! expects (ready, 1s)) return "it is not ready for its firmware";
-    for (std::span<const std::uint8_t> left = image; ! left.empty();)
+    for (std::span left (reinterpret_cast<const std::uint8_t*> (image->data()), image->size()); ! left.empty();)
     {
         const auto block = left.first (std::min (left.size(), block_size));
         if (! put (block) || ! expects (block, 1s))
-            return "its echo of the firmware is wrong after " + std::to_string (image.size() - left.size()) + " bytes";
+            return "its echo of the firmware is wrong after " + std::to_string (image->size() - left.size()) + " bytes";
         left = left.subspan (block.size());
     }
     return {};

@@ -24,8 +24,7 @@ public:
     ~SerialPort();
 
     std::string open (const std::string& path);
-    std::string remark() const;   ///< the reason why the port is slow, and the remedy; may be empty
-    void goNormal();              ///< sets the speed and the latency for the running firmware
+    void goNormal();   ///< sets the speed and the latency for the running firmware
 
     /// Loads firmware from a file. May take some seconds.
     std::string load (const std::string& file);
@@ -46,7 +45,6 @@ private:
     bool put (std::span<const std::uint8_t>);
     bool expects (std::span<const std::uint8_t>, std::chrono::milliseconds);
 
-    std::string name;
     int file = -1;
     std::optional<FileLock> lock;
     std::atomic<bool> is_gone = false;

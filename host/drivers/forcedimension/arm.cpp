@@ -5,8 +5,10 @@
 #include "dhd_library.hpp"
 
 #include <host/drivers/driver_table.hpp>
+#include <host/drivers/guessed_limits.hpp>
 #include <host/drivers/read_keys.hpp>
 #include <host/drivers/rotation_of.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +16,6 @@
 #include <charconv>
 #include <chrono>
 #include <climits>
-#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -34,9 +35,10 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 constexpr auto period = 500us;         // of readings, and of zeros while nothing is asked for: the library compensates the weight only while forces are set
 constexpr auto between_looks = 20ms;   // at the status
+constexpr int most_unseen = 2;
 constexpr auto until_gone = 50ms;      // of failures only
 constexpr auto until_closed = 100ms;   // after the stop
-constexpr double watchdog_unit_s = 125e-6;
+constexpr double watchdog_unit_s = 125e-6, first_firmware_with_watchdog = 3.0;
 
 // Places of the status, and how many numbers it can have: more than any version of the library writes.
 constexpr int powered = 0, connected = 1, in_reset = 3, with_force = 5, in_error = 9, force_off_cause = 14, most_status = 32;
@@ -49,7 +51,7 @@ struct Model
     double max_force;   // in N; what CHAI3D allows, as nothing else is known
     std::vector<int> types;
 };
-constexpr int falcon = 60;
+constexpr int falcon = 60, most_buttons = 8;
 const Model models[] {
     { "falcon", 8.0, { falcon } },
     { "delta.3", 20.0, { 63, 111 } },
@@ -65,7 +67,7 @@ const Model models[] {
 };
 
 /// The device that a person asks for.
-struct Wanted
+struct WantedArm
 {
     std::string port;
     int index = -1, serial = -1;   // -1: not given
@@ -77,19 +79,6 @@ bool readNumber (std::string_view text, int most, int& to)
 {
     const auto read = std::from_chars (text.data(), text.data() + text.size(), to);
     return read.ec == std::errc() && read.ptr == text.data() + text.size() && to >= 0 && to <= most;
-}
-
-std::string read (const tactus_device_description& given, Wanted& wanted)
-{
-    if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.calibrate = in.flag ("calibrate"); }); ! wrong.empty()) return wrong;
-    const std::string_view port = wanted.port;
-    if (port.empty() || readNumber (port, 127, wanted.index)) return {};
-    wanted.index = -1;
-    if (port.starts_with ("sn=") && readNumber (port.substr (3), 0xffff, wanted.serial)) return {};
-    const auto named = std::ranges::find (models, port, &Model::name);
-    if (named == std::end (models)) return "\"port\" is a number that counts the arms from 0, sn= and a serial number, or a model such as omega.3";
-    wanted.model = &*named;
-    return {};
 }
 
 /// The number of arms that this program has open. Nothing says that the library would open such an arm only once.
@@ -114,17 +103,23 @@ void turn (const double* from, double* to)
 class Arm
 {
 public:
-    static std::string check (const tactus_device_description& given)
+    using Wanted = WantedArm;
+
+    static std::string parse (const tactus_device_description& given, Wanted& wanted)
     {
-        Wanted wanted;
-        return forcedimension::read (given, wanted);
+        if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.calibrate = in.flag ("calibrate"); }); ! wrong.empty()) return wrong;
+        const std::string_view port = wanted.port;
+        if (port.empty() || readNumber (port, 127, wanted.index)) return {};
+        wanted.index = -1;
+        if (port.starts_with ("sn=") && readNumber (port.substr (3), 0xffff, wanted.serial)) return {};
+        const auto named = std::ranges::find (models, port, &Model::name);
+        if (named == std::end (models)) return "\"port\" is a number that counts the arms from 0, sn= and a serial number, or a model such as omega.3";
+        wanted.model = &*named;
+        return {};
     }
 
-    static std::unique_ptr<Arm> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
+    static std::unique_ptr<Arm> open (const Wanted& wanted, tactus_device_about& about, std::string& said)
     {
-        Wanted wanted;
-        said = forcedimension::read (given, wanted);
-        if (! said.empty()) return nullptr;
         const auto library = DhdLibrary::load (said);
         if (library == nullptr) return nullptr;
         auto arm = std::make_unique<Arm> (library, wanted.port);
@@ -187,14 +182,15 @@ public:
             }
             double position[3] {};
             const int got = dhd->dhdGetPosition (&position[0], &position[1], &position[2], id);
-            if (got >= 0) failing_since.reset();
-            if (got >= 0 && got != DhdFunctions::nothing_new && fill (to))
+            const bool is_new = got >= 0 && got != DhdFunctions::nothing_new, is_whole = is_new && fill (to);
+            if (is_whole)
             {
+                failing_since.reset();
                 turn (position, to.position);
                 stamp.fault = fault;
                 return TACTUS_DEVICE_OK;
             }
-            if (got < 0)
+            if (got < 0 || is_new)   // a part of a reading may fail, too
             {
                 if (! failing_since) failing_since = now;
                 if (now - *failing_since > until_gone) return leave (why, "it does not answer: " + dhd->lastError());
@@ -316,13 +312,17 @@ private:
         has_wrist = has (dhd->dhdHasWrist) && dhd->dhdGetOrientationFrame != nullptr;
         turns = has (dhd->dhdHasActiveWrist) && dhd->dhdSetForceAndTorque != nullptr;
         has_gripper = has (dhd->dhdHasGripper) && dhd->dhdGetGripperAngleRad != nullptr;
-        has_gap = has_gripper && dhd->dhdGetGripperGap != nullptr;
+        double gap = 0.0;
+        has_gap = has_gripper && dhd->dhdGetGripperGap != nullptr && dhd->dhdGetGripperGap (&gap, id) >= 0;   // not every gripper has one
         grips = has (dhd->dhdHasActiveGripper) && (turns ? dhd->dhdSetForceAndTorqueAndGripperForce != nullptr : dhd->dhdSetForceAndGripperForce != nullptr);
         hand = has (dhd->dhdIsLeftHanded) ? -1.0 : 1.0;
 
+        double firmware = 0.0;
+        const bool tells = dhd->dhdGetVersion != nullptr && dhd->dhdGetVersion (&firmware, id) >= 0;
         unsigned char watchdog = 0;
         if (dhd->dhdEnableExpertMode != nullptr) dhd->dhdEnableExpertMode();
-        drives = dhd->dhdGetWatchdog != nullptr && dhd->dhdGetWatchdog (&watchdog, id) >= 0 && watchdog > 0;
+        drives = dhd->dhdGetWatchdog != nullptr && dhd->dhdGetWatchdog (&watchdog, id) >= 0 && watchdog > 0
+                 && (! tells || firmware >= first_firmware_with_watchdog);   // whatever the library says for an older one
         if (dhd->dhdDisableExpertMode != nullptr) dhd->dhdDisableExpertMode();
         about.device_watchdog_s = drives ? watchdog * watchdog_unit_s : 0.0;
         if (! drives)
@@ -340,31 +340,23 @@ private:
         about.efforts = efforts;
         about.effort_count = drives && grips ? 1 : 0;
         static constexpr const char* falcon_buttons[] { "center", "left", "up", "right" };
-        static constexpr const char* buttons[] { "button0", "button1", "button2", "button3", "button4", "button5", "button6", "button7" };
+        static constexpr const char* buttons[most_buttons] { "button0", "button1", "button2", "button3", "button4", "button5", "button6", "button7" };
         about.buttons = type() == falcon ? falcon_buttons : buttons;
         about.button_count = type() == falcon ? std::size (falcon_buttons) : std::size (buttons);
 
-        double firmware = 0.0;
-        sentence = model() + (serial() > 0 ? ", serial number " + std::to_string (serial()) : std::string());
-        char text[32];
-        if (dhd->dhdGetVersion != nullptr && dhd->dhdGetVersion (&firmware, id) >= 0 && std::snprintf (text, sizeof text, ", firmware %.3g", firmware) > 0)
-            sentence += text;
-        sentence += ", library " + dhd->version() + ".";
+        sentence = model() + (serial() > 0 ? ", serial number " + std::to_string (serial()) : std::string())
+                   + (tells ? ", firmware " + roundedText (firmware, 3) : std::string()) + ", library " + dhd->version() + ".";
         about.about = sentence.c_str();
 
         double most = kind != std::end (models) ? kind->max_force : 8.0;   // the least, for one that is not known
         const double own = dhd->dhdGetMaxForce != nullptr ? dhd->dhdGetMaxForce (id) : -1.0;
         if (own > 0.0) most = std::min (most, own);
-        // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
-        char guard[512];
-        std::snprintf (
-            guard, sizeof guard,
-            R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g, "energy_window": 1,
-                       "max_still": 1, "still_force": 0.5, "watchdog": 0.02%s%s})",
-            most, 250.0 * most, 5.0 * most, 0.02 * most,
-            turns ? R"(, "max_torque": 0.2, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)" : "",
-            grips ? R"(, "max_axis_effort": 8, "max_axis_slew": 2000, "max_axis_impulse": 40)" : "");
-        limits = guard;
+        auto guard = guessedLimits (most, 5.0 * most);
+        if (turns) addTorque (guard, 0.2);
+        if (grips)
+            for (const auto& [limit, value] : { std::pair { "max_axis_effort", 8.0 }, { "max_axis_slew", 2000.0 }, { "max_axis_impulse", 40.0 } })
+                guard[limit] = value;
+        limits = guard.dump();
         if (drives) about.guard = limits.c_str();
     }
 
@@ -412,7 +404,12 @@ private:
         constexpr int unknown = INT_MIN;   // this version of the library does not write it
         int status[most_status];
         std::ranges::fill (status, unknown);
-        if (dhd->dhdGetStatus (status, id) < 0) return;   // readings fail then, too
+        if (dhd->dhdGetStatus (status, id) < 0)
+        {
+            if (++unseen > most_unseen) fault = TACTUS_DEVICE_BROKEN;   // nothing tells whether its forces are on
+            return;
+        }
+        unseen = 0;
         const int cause = status[force_off_cause];
         was_unplugged = status[connected] == 0 || (status[with_force] == 0 && cause == by_unplugging);
         fault = 0;
@@ -442,6 +439,7 @@ private:
     /// The parts of a reading besides the position. False if one cannot be read.
     bool fill (tactus_reading& to)
     {
+        to.axis_count = to.buttons = 0;   // an earlier try may have failed half-way
         if (has_wrist)
         {
             double frame[3][3] {};
@@ -456,8 +454,9 @@ private:
         if (has_gap) to.axes[to.axis_count++] = gap;
         if (dhd->dhdGetButtonMask != nullptr)
             to.buttons = dhd->dhdGetButtonMask (id);
-        else if (dhd->dhdGetButton != nullptr)
-            to.buttons = dhd->dhdGetButton (0, id) > 0 ? 1 : 0;
+        else
+            for (int i = 0; i < most_buttons && dhd->dhdGetButton != nullptr; ++i)
+                to.buttons |= dhd->dhdGetButton (i, id) > 0 ? 1u << i : 0;
         to.valid = 1;
         return true;
     }
@@ -473,7 +472,8 @@ private:
     // [reading thread]
     Clock::time_point due, look_at;
     std::optional<Clock::time_point> failing_since;
-    std::uint32_t fault = 0;
+    std::uint32_t fault = TACTUS_DEVICE_NOT_HOMED;   // until its status says otherwise
+    int unseen = 0;                                  // looks in a row without a status
     bool was_unplugged = false;
 
     std::mutex sending;   // while an effort is on its way into the library. The reading thread only tries to take it

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <sstream>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -55,8 +56,12 @@ std::vector<fs::path> folders()
     ::uname (&machine);
     for (const auto* variable : { "FDSDK", "FORCEDIM_SDK" })
         add (variable, "lib/release/lin-" + std::string (machine.machine) + "-gcc");
+    const char* listed = std::getenv ("LD_LIBRARY_PATH");
+    std::istringstream paths (listed != nullptr ? listed : "");
+    for (std::string path; std::getline (paths, path, ':');)
+        if (! path.empty()) all.emplace_back (path);
     add ("HOME", ".local/lib");
-    all.insert (all.end(), { "/usr/local/lib", "/usr/lib" });
+    all.insert (all.end(), { "/usr/local/lib", "/usr/lib", "/usr/lib/" + std::string (machine.machine) + "-linux-gnu" });
 #endif
     return all;
 }

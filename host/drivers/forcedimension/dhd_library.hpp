@@ -40,9 +40,9 @@ struct DhdFunctions
     static constexpr int nothing_new = 1, saturated = 2;   ///< results of readings and of forces: successes, too
 };
 
-/// The library of this computer, with the functions of robots if there is one that has them (libdrd before libdhd). It is looked for where its maker's
-/// tools look: in the folders that FDSDK and FORCEDIM_SDK name, ~/.local/lib, /usr/local/lib and /usr/lib, and its highest version counts. Once
-/// loaded, it stays until the program ends, because it may have threads of its own.
+/// The library of this computer, with the functions of robots if there is one that has them (libdrd before libdhd). It is looked for in the folders that
+/// FDSDK, FORCEDIM_SDK and LD_LIBRARY_PATH name, in ~/.local/lib and in those of the system, and its highest version counts. Once loaded, it stays until
+/// the program ends, because it may have threads of its own.
 struct DhdLibrary : DhdFunctions
 {
     /// Null, with the reason, if there is none that can be used. [opening thread]

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 using namespace std::chrono_literals;
 using tactus::host::FakeArms;
@@ -69,7 +70,7 @@ public:
     std::array<double, 3> velocity {}, known {};
     Clock::time_point moved_to, sampled;
     std::uint64_t sampled_step = 0;
-    bool has_sample = false;
+    bool has_sample = false, is_at_rest = true;
 };
 
 std::array<Opened, 2> opened;
@@ -135,7 +136,7 @@ void live (Opened& o)
         for (std::size_t i = 0; i < 3; ++i)
         {
             double force = stiffness * (arm.target[i] - arm.position[i]) - damping * o.velocity[i] * (arm.is_braked != 0 ? 5.0 : 1.0);
-            if (acts) force += arm.force[i];
+            force += (acts ? arm.force[i].load() : 0.0) - arm.damping * o.velocity[i];
             if (i == 2 && ! (acts && arm.weight_is_carried != 0)) force -= mass * gravity;
             o.velocity[i] += force / mass * step_s;
             arm.position[i] = arm.position[i] + o.velocity[i] * step_s;
@@ -241,6 +242,8 @@ int push (char id, std::array<double, 3> force, std::array<double, 3> torque, do
         }
         arm.gripper_force = grip;
         arm.commanded_at = nanoseconds (now());
+        if (size == 0.0 && ! o.is_at_rest) arm.zero_at = arm.commanded_at.load();
+        o.is_at_rest = size == 0.0;
         ++arm.forces;
         return size > most ? saturated : 0;
     });
@@ -257,23 +260,9 @@ int push (char id, std::array<double, 3> force, std::array<double, 3> torque, do
 EXPORTED int dhdErrorGetLast() { return last_error; }
 EXPORTED const char* dhdErrorGetStr (int error)
 {
-    switch (error)
-    {
-    case no_error:
-        return "no error";
-    case communication:
-        return "communication error";
-    case no_device:
-        return "no device found";
-    case expert_disabled:
-        return "expert mode disabled";
-    case invalid_index:
-        return "invalid index";
-    case in_use:
-        return "device in use";
-    default:
-        return "an error";
-    }
+    for (const auto& [code, text] : { std::pair { communication, "communication error" }, { no_device, "no device found" }, { in_use, "device in use" } })
+        if (code == error) return text;
+    return "an error";
 }
 EXPORTED int dhdGetDeviceCount()
 {
@@ -281,10 +270,6 @@ EXPORTED int dhdGetDeviceCount()
     return howMany();
 }
 EXPORTED int dhdOpenID (char index) { return openAt (index < 0 ? 0 : index); }
-EXPORTED int dhdOpen()
-{
-    return openThat ([] (const Arm&, int) { return true; });
-}
 EXPORTED int dhdClose (char id) { return closeArm (id); }
 EXPORTED int dhdGetPosition (double* x, double* y, double* z, char id)
 {
@@ -327,6 +312,7 @@ EXPORTED int dhdGetStatus (int* status, char id)
     const int index = id < 0 ? 0 : id;
     auto* arm = index < 2 ? opened[static_cast<std::size_t> (index)].arm : nullptr;
     if (arm == nullptr || (arm->is_open != 0 && arm->is_muted != 0)) return fail (arm == nullptr ? invalid_index : communication);
+    if (arm->has_no_status != 0) return fail (communication);
     const bool is_there = arm->is_unplugged == 0;
     if (is_there && with (id, [] (Opened&) { return 0; }) < 0) return -1;
 #if defined(FAKE_ANCIENT)
@@ -337,6 +323,7 @@ EXPORTED int dhdGetStatus (int* status, char id)
     const std::array<int, 17> all { arm->has_no_power != 0 ? 0 : 1, is_there ? 1 : 0, 0, arm->is_calibrated != 0 ? 0 : 1, 0, arm->is_enabled, arm->is_braked, 0,
                                     arm->wrist, arm->error_flag, arm->weight_is_carried, 1, 1, 0, is_there ? arm->cause.load() : 5, 0, 0 };
     std::copy_n (all.begin(), count, status);
+    std::fill (status + count, status + 20, 0x0badcafe);   // a library of another version may write so many
     return 0;
 }
 
@@ -424,26 +411,14 @@ EXPORTED const char* dhdGetSystemName (char id)
 {
     auto* o = use (id);
     if (o == nullptr) return nullptr;
-    switch (orElse (o->arm->type, 33))
-    {
-    case 33:
-        return "omega.3";
-    case 37:
-        return "omega.7 (left-hand)";
-    case 60:
-        return "Falcon";
-    case 63:
-        return "delta.3";
-    case 104:
-        return "sigma.7";
-    default:
-        return "";
-    }
+    for (const auto& [type, name] : { std::pair { 33, "omega.3" }, { 37, "omega.7 (left-hand)" }, { 60, "Falcon" }, { 63, "delta.3" }, { 104, "sigma.7" } })
+        if (type == orElse (o->arm->type, 33)) return name;
+    return "";
 }
 EXPORTED int dhdGetVersion (double* to, char id)
 {
     return with (id, [&] (Opened& o) {
-        *to = o.arm->watchdog < 0 ? 2.4 : 3.1;
+        *to = orElse (o.arm->firmware, 3.1);
         return 0;
     });
 }
@@ -458,7 +433,7 @@ EXPORTED int dhdEnableGripperForce (unsigned char, char id)
 EXPORTED int dhdGetGripperAngleRad (double* to, char id)
 {
     return with (id, [&] (Opened& o) {
-        if (o.arm->gripper == 0) return fail (not_available);
+        if (o.arm->gripper == 0 || o.arm->gripper_fails != 0) return fail (not_available);
         *to = o.arm->left_handed != 0 ? -o.arm->gripper_angle : o.arm->gripper_angle.load();
         return nothing_new;   // it was read with the position
     });
@@ -466,7 +441,7 @@ EXPORTED int dhdGetGripperAngleRad (double* to, char id)
 EXPORTED int dhdGetGripperGap (double* to, char id)
 {
     return with (id, [&] (Opened& o) {
-        if (o.arm->gripper == 0) return fail (not_available);
+        if (o.arm->gripper == 0 || o.arm->has_no_gap != 0) return fail (not_available);
         *to = 0.06 * o.arm->gripper_angle;
         return nothing_new;
     });

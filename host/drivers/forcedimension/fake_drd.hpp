@@ -26,8 +26,9 @@ struct FakeArms
         Shared<int> watchdog;                                                    // 255, in units of 125 us; -1: it has none
         Shared<int> time_guard_us;                                               // none: each position is new
         Shared<int> ignores_silence;                                             // 1: its watchdog never bites, for tests on a busy computer
+        Shared<double> firmware;                                                 // 3.1
         Shared<double> max_force, max_speed;                                     // 100 N and 3 m/s; above, it saturates, and brakes
-        Shared<double> mass;                                                     // 0.2 kg
+        Shared<double> mass, damping;                                            // 0.2 kg; of the arm alone, 0 N s/m
         Shared<int> is_stepped;                                                  // the tool is at `target`, and its position is new when `step` changes
 
         // The hand, in the axes of the library.
@@ -39,16 +40,17 @@ struct FakeArms
         Shared<int> buttons;
 
         // Faults.
-        Shared<int> is_unplugged, is_muted;                          // muted: every call fails, but the status does not say that it was unplugged
-        Shared<int> off_cause;                                       // forces are switched off now, for this cause; it becomes 0
-        Shared<int> read_stall_ms, write_stall_ms, close_stall_ms;   // the next call takes so long; -1: until this is 0 again
-        Shared<int> error_flag, has_no_power;
+        Shared<int> is_unplugged, is_muted;                                // muted: every call fails, but the status does not say that it was unplugged
+        Shared<int> off_cause;                                             // forces are switched off now, for this cause; it becomes 0
+        Shared<int> read_stall_ms, write_stall_ms, close_stall_ms;         // the next call takes so long; -1: until this is 0 again
+        Shared<int> error_flag, has_no_power, has_no_status, has_no_gap;   // the last two: these calls fail
+        Shared<int> gripper_fails;
 
         // The result of the driver's calls.
         Shared<int> is_open, is_enabled, is_braked, is_calibrated, cause, weight_is_carried;
         std::array<Shared<double>, 3> position, force, torque;   // of the tool; what the library was asked for last
         Shared<double> gripper_force;
-        Shared<std::int64_t> commanded_at;   // by the steady clock, in ns
+        Shared<std::int64_t> commanded_at, zero_at;   // by the steady clock, in ns: the last force, and the first zero after a push
         Shared<std::uint64_t> forces, enables, calibrations, stops, closes, calls_after_close, new_positions, expert_violations;
         Shared<int> stopped_before_close;
     };

@@ -272,6 +272,8 @@ EXPORTED void hdEndFrame (unsigned device)
     frame.is_open = false;
     ++arm->frames;
     if (arm->is_unplugged != 0) return raise (communication, device, -28);
+    const auto isZero = [] (const auto& force) { return std::ranges::all_of (force, [] (double f) { return f == 0.0; }); };
+    if (isZero (frame.force) && ! isZero (arm->force)) arm->zero_at = std::chrono::nanoseconds (std::chrono::steady_clock::now().time_since_epoch()).count();
     for (std::size_t i = 0; i < 3; ++i)
     {
         arm->force[i] = frame.force[i];   // 0 unless this frame has set it
@@ -279,12 +281,15 @@ EXPORTED void hdEndFrame (unsigned device)
     }
     if (const int error = arm->next_error.exchange (0); error != 0) raise (static_cast<unsigned> (error), device);
     if (const int error = arm->lasting_error; error != 0) raise (static_cast<unsigned> (error), device);
+    for (unsigned other = 0; other < 2; ++other)
+        if (const int error = other != device ? shared().arms[other].error_elsewhere.exchange (0) : 0; error != 0) raise (static_cast<unsigned> (error), other);
 }
 
 EXPORTED void hdGetDoublev (unsigned what, double* to)
 {
     auto* arm = armOf (current);
     if (arm == nullptr) return raise (bad_handle, current);
+    if (shared().needs_frame != 0 && ! frames[current].is_open) return raise (invalid_operation, current);
     switch (what)
     {
     case 0x2050:

@@ -34,10 +34,12 @@ struct FakeTouches
         // Faults.
         Shared<int> is_unplugged, is_missing;
         Shared<int> next_error, lasting_error;   // in the next frame; in each one
+        Shared<int> error_elsewhere;             // in the next frame of the other arm
 
         // The result of the calls.
         Shared<int> is_open;
         std::array<Shared<double>, 3> position, force, torque;   // mm, N, mN m: what the last frame has set
+        Shared<std::int64_t> zero_at;                            // by the steady clock, in ns: the first zero after a push
         Shared<std::uint64_t> frames, updates, updates_in_frame, disables;
     };
 
@@ -48,6 +50,7 @@ struct FakeTouches
     Shared<int> refuses_rate;     // 1000 Hz
     Shared<int> rate;             // 1000 Hz
     Shared<int> does_not_start;   // the servo loop
+    Shared<int> needs_frame;      // hdGetDoublev, for everything
     Shared<int> stall_ms;         // the next tick takes so long; -1: until this is 0 again
     Shared<int> stop_hangs;       // hdStopScheduler, until this is 0 again
 

@@ -23,8 +23,8 @@ using HdCallback = unsigned (*) (void*);   ///< 1: call again on the next tick
     X (void, hdBeginFrame, (unsigned)) X (void, hdEndFrame, (unsigned)) X (HdError, hdGetError, ()) X (const char*, hdGetErrorString, (unsigned)) \
     X (const char*, hdGetString, (unsigned)) X (void, hdEnable, (unsigned)) \
     X (void, hdGetIntegerv, (unsigned, int*)) X (void, hdGetDoublev, (unsigned, double*)) X (void, hdSetDoublev, (unsigned, const double*)) \
-    X (unsigned, hdCheckCalibration, ()) X (void, hdUpdateCalibration, (unsigned)) X (void, hdStartScheduler, ()) X (void, hdStopScheduler, ()) \
-    X (void, hdSetSchedulerRate, (unsigned long)) X (unsigned long, hdScheduleAsynchronous, (HdCallback, void*, unsigned short)) \
+    X (unsigned, hdCheckCalibration, ()) X (unsigned, hdCheckCalibrationStyle, ()) X (void, hdUpdateCalibration, (unsigned)) X (void, hdStartScheduler, ()) \
+    X (void, hdStopScheduler, ()) X (void, hdSetSchedulerRate, (unsigned long)) X (unsigned long, hdScheduleAsynchronous, (HdCallback, void*, unsigned short)) \
     X (void, hdUnschedule, (unsigned long))
 // clang-format on
 

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,8 +75,9 @@ public:
         return "no arm can be opened (" + (stored.empty() ? "its setup has stored no names" : "names that its setup has stored: " + stored) + "): " + why;
     }
 
-    /// Takes all errors from the library. The text of the first one that the servo loop cannot go on after; empty: none.
-    std::string drain()
+    /// Takes all errors from the library, which has one stack of them for its arms. The text of the first one that the servo loop cannot go on after;
+    /// empty: none.
+    std::string drain (std::span<const std::unique_ptr<OpenArm>> all = {})
     {
         std::string fatal;
         for (int n = 0; n < 100; ++n)
@@ -84,17 +86,17 @@ public:
             if (error.code == hd::success) break;
             last_error = textOf (error);
             if (fatal.empty() && endsServo (error.code)) fatal = last_error;
-            if (error.code >= hd::warm_motors && error.code <= hd::force_error)
-            {
-                fault = error.code == hd::warm_motors ? TACTUS_DEVICE_TOO_HOT : TACTUS_DEVICE_NOT_DRIVEN;
-                fault_since = number;
-            }
+            if (error.code < hd::warm_motors || error.code > hd::force_error) continue;
+            const auto owner = std::ranges::find_if (all, [&] (const auto& arm) { return arm != nullptr && arm->device == error.device; });
+            OpenArm& of = owner != all.end() ? **owner : *this;
+            of.fault = error.code == hd::warm_motors ? TACTUS_DEVICE_TOO_HOT : TACTUS_DEVICE_NOT_DRIVEN;
+            of.fault_since = of.number;
         }
         return fatal;
     }
 
-    /// One tick of the library, which `sharing` arms share: its errors, as drain(). [servo thread]
-    std::string tick (bool ends, std::int64_t sharing)
+    /// One tick of the library, which `sharing` of these arms share: its errors, as drain(). [servo thread]
+    std::string tick (bool ends, std::int64_t sharing, std::span<const std::unique_ptr<OpenArm>> all)
     {
         const auto begin = nanosecondsNow();
         hd.hdMakeCurrentDevice (device);
@@ -125,7 +127,7 @@ public:
         if (turns) hd.hdSetDoublev (hd::torque, push.torque);
         hd.hdEndFrame (device);
         if (is_left && shared.state == SharedArm::ready) shared.state = SharedArm::resting;
-        return drain();
+        return drain (all);
     }
 
     void fail (const std::string& why)
@@ -156,33 +158,35 @@ private:
             const char* said = hd.hdGetString (what);
             return said != nullptr ? std::string (said) : std::string();
         };
-        const auto number_of = [&] (unsigned what, int otherwise) {
-            int value = otherwise;
-            hd.hdGetIntegerv (what, &value);
-            return value;
-        };
         std::string about = text (hd::model_type).empty() ? "An arm" : text (hd::model_type);
         for (const auto& [before, what] : { std::pair { ", serial number ", hd::serial_number }, std::pair { ", firmware ", hd::firmware_version },
                                             std::pair { ", driver ", hd::driver_version }, std::pair { ", library ", hd::version } })
             if (const auto said = text (what); ! said.empty()) about += before + said;
         put (shared.model, sizeof shared.model, about);
-        shared.max_force = shared.max_continuous_force = 0.0;
-        hd.hdGetDoublev (hd::max_force, &shared.max_force);
-        hd.hdGetDoublev (hd::max_continuous_force, &shared.max_continuous_force);
-        hd.hdGetDoublev (hd::usable_workspace, shared.workspace.data());
-        shared.input_dof = number_of (hd::input_dof, 6);
-        shared.output_dof = number_of (hd::output_dof, 3);
-        styles = number_of (hd::calibration_styles, 0);
-        turns = shared.output_dof >= 6;
+        styles = integer (hd::calibration_styles, 0);
+        if (styles == 0) styles = static_cast<int> (hd.hdCheckCalibrationStyle());
         hd.hdEnable (hd::force_output);
         drain();
         if (styles == hd::by_encoder_reset) hd.hdUpdateCalibration (hd::by_encoder_reset);   // before the servo loop, in the pose that the person chose
     }
 
+    int integer (unsigned what, int otherwise) const
+    {
+        hd.hdGetIntegerv (what, &otherwise);
+        return otherwise;
+    }
+
+    /// Reads the numbers of the arm, in its first frame: outside of one, the library may refuse to tell them.
     void start()
     {
-        int rate = 0;
-        hd.hdGetIntegerv (hd::instantaneous_rate, &rate);
+        shared.max_force = shared.max_continuous_force = 0.0;
+        hd.hdGetDoublev (hd::max_force, &shared.max_force);
+        hd.hdGetDoublev (hd::max_continuous_force, &shared.max_continuous_force);
+        hd.hdGetDoublev (hd::usable_workspace, shared.workspace.data());
+        shared.input_dof = integer (hd::input_dof, 6);
+        shared.output_dof = integer (hd::output_dof, 3);
+        turns = shared.output_dof >= 6;
+        const int rate = integer (hd::instantaneous_rate, 0);
         shared.rate_hz = rate > 0 ? rate : wanted_rate;
         shared.state = SharedArm::ready;   // the first tick follows
     }
@@ -190,7 +194,8 @@ private:
     void calibrate()
     {
         const auto state = hd.hdCheckCalibration();
-        if (state == hd::needs_update) hd.hdUpdateCalibration (static_cast<unsigned> (styles & hd::by_itself ? hd::by_itself : hd::by_inkwell));
+        if (state == hd::needs_update && styles != hd::by_encoder_reset)   // which is not possible any more
+            hd.hdUpdateCalibration (static_cast<unsigned> (styles & hd::by_itself ? hd::by_itself : hd::by_inkwell));
         is_homed = state == hd::is_calibrated;
     }
 
@@ -370,7 +375,7 @@ private:
         std::string fatal;
         for (auto& arm : arms)
             if (arm != nullptr)
-                if (auto why = arm->tick (ends, open); fatal.empty()) fatal = std::move (why);
+                if (auto why = arm->tick (ends, open, arms); fatal.empty()) fatal = std::move (why);
         is_zero = is_zero || ends;
         if (! fatal.empty() && ! has_failed)
         {

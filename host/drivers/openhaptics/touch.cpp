@@ -5,6 +5,7 @@
 #include "stored_names.hpp"
 
 #include <host/drivers/driver_table.hpp>
+#include <host/drivers/guessed_limits.hpp>
 #include <host/drivers/read_keys.hpp>
 #include <host/drivers/rotation_of.hpp>
 
@@ -22,7 +23,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -79,6 +80,18 @@ std::vector<char*> plainEnvironment()
     all.push_back (numbers);
     all.push_back (nullptr);
     return all;
+}
+
+/// The locale that this environment has for numbers; empty if they are as in C.
+std::string localeOfNumbers()
+{
+    for (const auto* variable : { "LC_ALL", "LC_NUMERIC", "LANG" })
+        if (const char* set = std::getenv (variable); set != nullptr && set[0] != 0)
+        {
+            const std::string locale = set;
+            return locale == "C" || locale == "POSIX" || locale.starts_with ("C.") ? std::string() : locale;
+        }
+    return {};
 }
 
 /// The process that owns the maker's library, for all arms of this program.
@@ -220,21 +233,19 @@ void turnBack (const double (&from)[3], double (&to)[3], double scale)
 class Touch
 {
 public:
-    static std::string check (const tactus_device_description& given)
+    using Wanted = std::string;   // its name
+
+    static std::string parse (const tactus_device_description& given, Wanted& name)
     {
-        std::string port;
-        return readKeys (given, port, [] (ObjectReader&) {});
+        return readKeys (given, name, [] (ObjectReader&) {});
     }
 
-    static std::unique_ptr<Touch> open (const tactus_device_description& given, tactus_device_about& about, std::string& said)
+    static std::unique_ptr<Touch> open (const Wanted& name, tactus_device_about& about, std::string& said)
     {
-        std::string port;
-        said = readKeys (given, port, [] (ObjectReader&) {});
-        if (! said.empty()) return nullptr;
         auto touch = std::make_unique<Touch>();
         touch->helper = HelperProcess::get (said);
         if (touch->helper == nullptr) return nullptr;
-        touch->arm = touch->helper->add (port);
+        touch->arm = touch->helper->add (name);
         if (touch->arm == nullptr) said = "this program has four arms open, and no place for another one";
         if (touch->arm == nullptr || ! touch->wait (said)) return nullptr;
         touch->describe (about, said);
@@ -347,21 +358,14 @@ private:
         about.rate_hz = arm->rate_hz;
         about.stamps = TACTUS_DEVICE_NUMBERS;                                           // the ticks of its servo loop
         about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm->rate_hz;   // of the helper: it does not help if the helper dies, too
-        sentence = std::string (arm->model) + ".";
+        const auto locale = localeOfNumbers();
+        sentence = std::string (arm->model) + (locale.empty() ? "." : ". Its library reads numbers as in C, not as in " + locale + ".");
         about.about = sentence.c_str();
         if (! drives) return;
-        // Guesses in the manner of docs/safety.md, "The limits of presets and profiles": no arm has been measured.
         const double most = arm->max_force, lasting = arm->max_continuous_force > 0.0 ? std::min (arm->max_continuous_force, most) : 0.25 * most;
-        char guard[640], torque[256] = "";
-        if (turns)
-            std::snprintf (torque, sizeof torque,
-                           R"(, "max_torque": %.4g, "still_torque": 0.02, "max_torque_slew": 50, "max_angular_speed": 20, "max_angular_impulse": 1)",
-                           most_torque);
-        std::snprintf (guard, sizeof guard,
-                       R"({"max_force": %.4g, "max_slew": %.4g, "max_speed": 2, "max_impulse": %.4g, "impulse_window": 10, "max_energy": %.4g,
-                           "energy_window": 1, "max_still": 1, "still_force": 0.5, "watchdog": 0.02%s})",
-                       most, 250.0 * most, 10.0 * lasting, 0.02 * most, torque);
-        limits = guard;
+        auto guard = guessedLimits (most, 10.0 * lasting);
+        if (turns) addTorque (guard, most_torque);
+        limits = guard.dump();
         about.guard = limits.c_str();
     }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The driver of the Novint Falcon against a fake at the other end of a pseudo-terminal. Both are ours; no Falcon has been tried.
 
-#include "support/rounds.hpp"
+#include "../readings.hpp"
+#include "../trial_person.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
@@ -35,7 +36,9 @@ namespace
 {
 bool contains (const std::string& text, const char* part) { return text.find (part) != std::string::npos; }
 
-double distance (const Place& a, const Place& b) { return std::hypot (a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+Vec3 vec (const Place& p) { return { p[0], p[1], p[2] }; }
+Place placeOf (const Vec3& v) { return { v.x(), v.y(), v.z() }; }
+double distance (const Vec3& a, const Vec3& b) { return (a - b).norm(); }
 
 /// A Falcon and the driver on it.
 struct Desk
@@ -116,7 +119,7 @@ TEST_CASE ("the legs of the Falcon meet where its equations say, to 1 nm", "[fal
     CHECK (distance (at ({ 0, 300, 0 }), { -0.01310, 0.00308, 0.13849 }) < 1e-5);
     CHECK (distance (at ({ 0, 0, 300 }), { 0.00922, 0.00980, 0.13849 }) < 1e-5);
     at ({ 0, 0, 0 });
-    const auto motorsFor = [&] (const host::falcon::Triple& force) {
+    const auto motorsFor = [&] (const Vec3& force) {
         const auto torques = legs.torquesOf (force);
         return std::array { std::lround (-1e4 * torques[0]), std::lround (-1e4 * torques[1]), std::lround (-1e4 * torques[2]) };
     };
@@ -134,12 +137,12 @@ TEST_CASE ("the legs of the Falcon meet where its equations say, to 1 nm", "[fal
                 const Place place { 0.01 * (i - 4), 0.01 * (j - 4), 0.095 + 0.009 * k };
                 const auto angles = falcon_legs::anglesAt (place);
                 if (! std::isfinite (angles[0] + angles[1] + angles[2])) continue;
-                const auto found = legs.placeOf (angles);
+                const auto found = legs.placeOf (vec (angles));
                 INFO (place[0] << ", " << place[1] << ", " << place[2]);
                 REQUIRE (found);
-                worst = std::max (worst, distance (*found, place));
-                const Place force { 1.0, -2.0, 3.0 };
-                worst_force = std::max (worst_force, distance (falcon_legs::forceOf (legs.torquesOf (force), place), force));
+                worst = std::max (worst, distance (*found, vec (place)));
+                const Vec3 force { 1.0, -2.0, 3.0 };
+                worst_force = std::max (worst_force, distance (vec (falcon_legs::forceOf (placeOf (legs.torquesOf (force)), place)), force));
                 ++places;
             }
     CHECK (places > 600);
@@ -272,7 +275,7 @@ TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions t
     live.attach ("stylus", *desk.device, limits);
     Kinematics legs;
     int pushed = 0;
-    const int readings = test::rounds (2000);
+    const int readings = test::readings (2000);
     for (int k = 0; k < readings; ++k)
     {
         const double time = k / 4000.0;
@@ -289,9 +292,9 @@ TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions t
         live.tick();
         const auto& asked = told.last.force;
         std::array<int, 3> sent {};
-        const auto torques = legs.torquesOf ({ asked.x(), asked.z(), -asked.y() });
-        for (std::size_t i = 0; i < 3; ++i)
-            sent[i] = static_cast<int> (std::lround (-1e4 * torques[i]));
+        const Vec3 torques = legs.torquesOf ({ asked.x(), asked.z(), -asked.y() });
+        for (int i = 0; i < 3; ++i)
+            sent[static_cast<std::size_t> (i)] = static_cast<int> (std::lround (-1e4 * torques[i]));
         INFO ("reading " << k << " asks for " << asked.transpose() << "; motors " << falcon.motors[0] << ", " << falcon.motors[1] << ", " << falcon.motors[2]
                          << " instead of " << sent[0] << ", " << sent[1] << ", " << sent[2]);
         REQUIRE (eventually (20us, [&] { return falcon.hasGot (sent); }));
@@ -494,4 +497,42 @@ TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what i
     REQUIRE (desk.opens());
     Desk other;
     CHECK (contains (other.said ({ { "port", desk.falcon.port() } }), "another role or another instance of Tactus is using it"));
+}
+
+TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N, and its capture replays", "[falcon][trial]")
+{
+    Desk desk;
+    auto& falcon = desk.falcon;
+    REQUIRE (desk.opens (Json::object(), 0.05));   // the trial stops its ticks on purpose
+    REQUIRE (desk.reads());
+    test::TrialHand hand;
+    hand.move = [&] (const Vec3& to) {
+        const Vec3 by_falcon { 0.6 * to.x(), 0.6 * to.z(), 0.145 - 0.6 * to.y() };   // 3 cm instead of 5: its space is small
+        for (std::size_t i = 0; i < 3; ++i)
+            falcon.target[i] = by_falcon[static_cast<Eigen::Index> (i)];
+        REQUIRE (eventually ([&] {
+            desk.device->read();
+            return distance (vec (falcon.place()), by_falcon) < 2e-3;
+        }));
+    };
+    hand.force = [&] {
+        const Vec3 torques = Vec3 (falcon.motors[0], falcon.motors[1], falcon.motors[2]) / -1e4;
+        const Vec3 f = vec (falcon_legs::forceOf (placeOf (torques), falcon.place()));
+        return falcon.isAtRest() ? Vec3 (Vec3::Zero()) : Vec3 { f.x(), -f.z(), f.y() };
+    };
+    hand.press = [&] (unsigned buttons) { falcon.buttons = buttons; };
+    hand.unplug = [&] { falcon.unplug(); };
+    const auto report = host::tryDevice (*desk.device, desk.limits, { .pace = 0.3 }, hand);
+    INFO (host::trialText (report));
+    for (const auto* step : test::steps_of_trial)
+    {
+        CAPTURE (step);
+        CHECK (test::verdictOf (report, step) == "as expected");
+    }
+    CHECK (contains (host::trialText (report), "pressed: forward; not seen: plus, center, minus"));
+    CHECK (hand.largest > 0.1);
+    CHECK (hand.largest <= 1.05 * host::trial_push);   // as the fake computes it, from whole counts
+    const auto replayed = host::replayTrial (report);
+    REQUIRE (replayed);
+    CHECK (*replayed == 0.0);
 }

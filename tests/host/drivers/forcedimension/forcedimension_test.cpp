@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The driver of Force Dimension's arms against a fake of their library. Both are ours; no arm has been tried.
 
+#include "../readings.hpp"
 #include "../trial_person.hpp"
 #include "lab.hpp"
-#include "support/rounds.hpp"
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -79,7 +79,7 @@ TEST_CASE ("dry wood on an arm of Force Dimension has the forces of its render a
     offline.attach ("stylus", told, limits);
     live.attach ("stylus", *lab.device, limits);
     int pushed = 0;
-    const int readings = test::rounds (3000);
+    const int readings = test::readings (3000);
     for (int k = 0; k < readings; ++k)
     {
         const double time = k / 4000.0;
@@ -310,6 +310,49 @@ TEST_CASE ("an arm of Force Dimension with an error, or without power, is not tr
     CHECK (lab.pushes());
 }
 
+TEST_CASE ("a call of Force Dimension's library that fails is not passed over", "[forcedimension][safety]")
+{
+    Lab lab;
+    auto& arm = lab.arm();
+    SECTION ("its status, from the start: nothing says that the arm knows its position")
+    {
+        arm.has_no_status = 1;
+        REQUIRE (lab.opens());
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }, Lab::along (2)));
+        CHECK (arm.enables == 0);
+        arm.has_no_status = 0;
+        CHECK (lab.pushes());
+    }
+    SECTION ("its status, later: nothing says whether its forces are on")
+    {
+        REQUIRE (lab.opens());
+        REQUIRE (lab.pushes());
+        arm.has_no_status = 1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::failed && arm.force[2] == 0.0; }, Lab::along (2)));
+        arm.has_no_status = 0;
+        CHECK (lab.pushes());
+        CHECK (arm.enables == 1);
+    }
+    SECTION ("the opening of a gripper that has none")
+    {
+        arm.gripper = arm.has_no_gap = 1;
+        REQUIRE (lab.opens());
+        CHECK (lab.device->layout().axes == std::vector<std::string> { "saturated", "gripper_angle" });
+        CHECK (lab.reads());
+    }
+    SECTION ("a part of each reading")
+    {
+        arm.gripper = 1;
+        auto options = Lab::patient();
+        options.look_again = std::chrono::hours (1);
+        REQUIRE (lab.opens (Json::object(), options));
+        REQUIRE (lab.pushes());
+        arm.gripper_fails = 1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::unplugged; }));
+        CHECK (contains (lab.device->trouble(), "it does not answer: an error (error 6 of its library)"));
+    }
+}
+
 TEST_CASE ("motors that are saturated are an axis of an arm of Force Dimension, and no error", "[forcedimension]")
 {
     Lab lab;
@@ -446,7 +489,9 @@ TEST_CASE ("old libraries and arms of Force Dimension are used as far as they go
     SECTION ("firmware without a watchdog")
     {
         Lab lab;
-        lab.arm().watchdog = -1;
+        const bool is_told = GENERATE (true, false);
+        lab.arm().watchdog = is_told ? -1 : 255;
+        lab.arm().firmware = 2.4;   // the library may give a number all the same
         CHECK (contains (lab.said(), "the arm has no force: it has no watchdog, or one that is off, so it would keep its last force if this program died"));
         CHECK_FALSE (lab.limits.max_force < GuardLimits::none);
         CHECK (lab.reads());
@@ -457,8 +502,10 @@ TEST_CASE ("old libraries and arms of Force Dimension are used as far as they go
     {
         Lab lab { "libfake_old_dhd.so", "libdhd.so.3.2.1" };
         lab.arm().wrist = 1;
+        lab.arm().buttons = 9;
         CHECK (contains (lab.said(), "it has no watchdog"));
         CHECK (lab.reads());
+        CHECK (lab.reading.buttons == 9);       // asked one by one
         CHECK (lab.device->about().rotation);   // by the name that the function had
         CHECK (contains (lab.device->about().about, "An arm of Force Dimension, library 3.2.1."));
         CHECK (contains (lab.said ({ { "port", "sn=10001" } }), "3.2.1, does not find arms by serial number, so none can be opened"));
@@ -480,6 +527,14 @@ TEST_CASE ("old libraries and arms of Force Dimension are used as far as they go
     {
         Lab lab { "libfake_needy_drd.so" };
         CHECK (contains (lab.said(), "libneeded_by_fake.so: cannot open shared object file: No such file or directory"));
+    }
+    SECTION ("one that is only in a folder of LD_LIBRARY_PATH")
+    {
+        Lab lab { nullptr };
+        std::filesystem::create_symlink (std::filesystem::path (TACTUS_FAKE_LIBRARIES) / "libfake_drd.so", lab.folder / "libdrd.so");
+        ::setenv ("LD_LIBRARY_PATH", ("/nowhere::" + lab.folder.path().string()).c_str(), 1);
+        CHECK (lab.opens());
+        ::unsetenv ("LD_LIBRARY_PATH");
     }
     SECTION ("the newest by number, and the next one if it cannot be loaded")
     {
@@ -506,7 +561,7 @@ TEST_CASE ("a Falcon behind Force Dimension's library has its own buttons and no
     CHECK (lab.device->about().about == "Falcon of Force Dimension, firmware 3.1, library 3.17.5.");
 }
 
-TEST_CASE ("a trial of an arm of Force Dimension finds everything as expected, with at most 0.3 N, and its capture replays", "[forcedimension][trial]")
+TEST_CASE ("a trial of an arm of Force Dimension measures its damping, tries walls and the cable, and its capture replays", "[forcedimension][trial]")
 {
     Lab lab;
     auto options = Lab::patient();
@@ -526,6 +581,10 @@ TEST_CASE ("a trial of an arm of Force Dimension finds everything as expected, w
         }));
     };
     hand.force = [&] { return Vec3 { lab.arm().force[1], -lab.arm().force[0], lab.arm().force[2] }; };
+    lab.arm().damping = 2.0;
+    hand.release = [&] (bool is_free) { lab.arm().stiffness = is_free ? 1e-9 : 500.0; };
+    hand.lean = [&] { lab.arm().target[2] = -0.007; };
+    hand.unplug = [&] { lab.arm().is_unplugged = 1; };
     const auto report = host::tryDevice (*lab.device, lab.limits, { .pace = 0.3 }, hand);
     INFO (host::trialText (report));
     for (const auto* step : test::steps_of_trial)
@@ -533,9 +592,23 @@ TEST_CASE ("a trial of an arm of Force Dimension finds everything as expected, w
         CAPTURE (step);
         CHECK (test::verdictOf (report, step) == "as expected");
     }
-    CHECK (test::verdictOf (report, "walls") == "not tried");   // no source gives the damping of these arms
+    CHECK (test::verdictOf (report, "damping") == "measured");   // no source gives that of these arms
+    const auto& numbers = report.at ("numbers");
+    CHECK (numbers.at ("damping").get<double>() == Approx (2.0).margin (0.5));
+    CHECK (numbers.at ("mass").get<double>() == Approx (0.2).margin (0.1));
+    CHECK (host::trialNumbers (report, 1000.0)->damping->value == numbers.at ("damping").get<double>());
+    int walls = 0;
+    for (const auto& step : report.at ("steps"))
+        if (contains (step.at ("step").get<std::string>(), "wall of "))
+        {
+            CHECK (step.at ("verdict") == Json ("as expected"));
+            ++walls;
+        }
+    CHECK (walls == 3);
     CHECK (hand.largest > 0.1);
     CHECK (hand.largest <= host::trial_push);
+    CHECK (hand.largest_at_wall <= host::trial_wall);
+    CHECK (test::verdictOf (report, "a pulled cable") == "as expected");
     const auto replayed = host::replayTrial (report);
     REQUIRE (replayed);
     CHECK (*replayed == 0.0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The driver of 3D Systems' arms, with its helper process, against a fake of OpenHaptics. Both are ours; no arm has been tried.
 
+#include "../readings.hpp"
 #include "../trial_person.hpp"
-#include "support/rounds.hpp"
 #include "touch_lab.hpp"
 
 #include <tactus/file/graph_file.hpp>
@@ -119,7 +119,7 @@ TEST_CASE ("dry wood on a Touch has the forces of its render at the positions th
     offline.attach ("stylus", told, limits);
     live.attach ("stylus", *lab.device, limits);
     int pushed = 0;
-    const int readings = test::rounds (2000);
+    const int readings = test::readings (2000);
     for (int k = 0; k < readings; ++k)
     {
         const double time = k / 4000.0;
@@ -204,6 +204,18 @@ TEST_CASE ("a Touch is found by name, or by the names that makers have given, or
         CHECK (contains (lab.said(), "the arm has no force: its library does not tell the largest force"));
         CHECK (lab.ticksUntil ([&] { return lab.reading.valid; }));
     }
+    SECTION ("a library that tells numbers only within a frame, in a locale that is not C")
+    {
+        TouchLab lab;
+        lab.arms->needs_frame = 1;
+        ::setenv ("LC_ALL", "de_DE.UTF-8", 1);
+        CHECK (lab.said().empty());
+        ::unsetenv ("LC_ALL");
+        CHECK (lab.limits.max_force == 3.3);
+        CHECK (contains (lab.device->about().about, "Its library reads numbers as in C, not as in de_DE.UTF-8."));
+        CHECK (lab.pushes());
+        CHECK (lab.arms->gets_outside_frames == 0);
+    }
     SECTION ("an arm that only knows its own rate")
     {
         TouchLab lab;
@@ -260,6 +272,9 @@ TEST_CASE ("a Touch that does not know its position has no force until it does",
         REQUIRE (lab.opens());
         CHECK (arm.updates == 1);
         CHECK (lab.pushes());
+        arm.calibration = 1;
+        CHECK (lab.ticksUntil ([&] { return lab.reading.fault == ReadingFault::not_homed; }));
+        CHECK (arm.updates == 1);   // while the servo loop runs, encoders are not reset
     }
     CHECK (arm.updates_in_frame == 0);
 }
@@ -392,6 +407,18 @@ TEST_CASE ("two arms of 3D Systems share the servo loop of their library, and on
     };
     CHECK (bothPush());
 
+    // An error belongs to the arm that it names, whichever frame it comes in.
+    lab.arm (1).error_elsewhere = 0x200;
+    ReadingFault seen = ReadingFault::none;
+    CHECK (eventually ([&] {
+        lab.tick (TouchLab::along (2));
+        seen = other->read().fault;
+        return seen != ReadingFault::none;
+    }));
+    CHECK (seen == ReadingFault::too_hot);
+    CHECK (lab.reading.fault == ReadingFault::none);
+    CHECK (bothPush());
+
     // While a run ticks one of them, the other one can neither leave the library nor join it again. It has no force.
     other.reset();
     CHECK (lab.arm (1).force[0] == 0.0);
@@ -459,6 +486,7 @@ TEST_CASE ("a trial of a Touch finds everything as expected, with at most 0.3 N,
         }));
     };
     hand.force = [&] { return Vec3 { lab.arm().force[0], -lab.arm().force[2], lab.arm().force[1] }; };
+    hand.unplug = [&] { lab.arm().is_unplugged = 1; };
     const auto report = host::tryDevice (*lab.device, lab.limits, { .pace = 0.3 }, hand);
     INFO (host::trialText (report));
     for (const auto* step : tactus::test::steps_of_trial)
@@ -470,6 +498,8 @@ TEST_CASE ("a trial of a Touch finds everything as expected, with at most 0.3 N,
     CHECK (hand.largest <= host::trial_push);
     CHECK (contains (host::trialText (report), "by the driver: "));
     CHECK (report.at ("numbers").at ("delay_s").get<double>() > 0.0);
+    CHECK (tactus::test::verdictOf (report, "walls") == "not tried");   // nobody can let go of a stylus, and nothing else tells the damping
+    CHECK (tactus::test::verdictOf (report, "a pulled cable") == "as expected");
     CHECK (host::trialNumbers (report, 1000.0)->delay->value >= 1.0);   // in ticks, rounded up
     CHECK (*host::replayTrial (report) == 0.0);
 }
