@@ -37,6 +37,8 @@
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
 #   ./test.sh --tidy [PART/PARTS | --changed | FILE...] looks for mistakes in all files with clang-tidy, which takes an hour of a processor, or in
 #                       one part of them, in a few of the changed ones, or in these files
+#   ./test.sh --drivers drives the drivers of lab devices on two threads against their fakes, which fail in turn, under ASan and UBSan and under
+#                       TSan, without building all tests; --sanitizers does this, too
 #   ./test.sh --sanitizers runs the tests under ASan and UBSan and under TSan, and the window under ASan and UBSan
 #   ./test.sh --coverage counts which lines the tests run, without the window: build/coverage/index.html
 #   ./test.sh --install installs the packages that ./test.sh and ./demo.sh need
@@ -45,13 +47,13 @@
 if [ "${1:-}" = --kept ]; then exec .ci/kept.sh "${@:2}"; fi
 mode=${1:-}
 case $mode in
-    ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--windows|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--windows|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--windows|--packages|--format|--tidy|--drivers|--sanitizers|--coverage|--install) ;;
+    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--windows|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--drivers|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
 packages+=(rsync python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray python3-matplotlib xvfb xdotool openbox x11-utils)
-case $mode in ''|--all|--daily|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
+case $mode in ''|--all|--daily|--long|--drivers|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--all|--daily|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--all|--daily|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
 case $mode in ''|--all|--daily|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
@@ -149,6 +151,15 @@ sanitize_more ()
 if [ "$mode" = --sanitizers ]; then
     sanitize
     sanitize_more
+    exit
+fi
+
+if [ "$mode" = --drivers ]; then
+    for preset in asan tsan; do
+        build "$preset" exercise_drivers
+        say "Drivers and their fakes: $preset"
+        "build/$preset/bin/exercise_drivers"
+    done
     exit
 fi
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Programs that play on a fake Falcon, and the packets that it gets when they end or are killed.
 
+#include "../outlived.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
@@ -21,14 +22,19 @@ using host::FakeFalcon;
 using test::eventually;
 using test::Running;
 
-TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a force", "[falcon][safety]")
+namespace
 {
-    const TemporaryFolder folder;
-    folder.write ("wall.json", R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
+constexpr auto wall = R"({ "format": "tactus-graph", "version": 2, "name": "wall", "rate_hz": 1000,
         "nodes": { "hand": { "type": "device.position", "role": "stylus" },
                    "wall": { "type": "deform.plane", "params": { "stiffness": 500 } },
                    "motor": { "type": "device.force", "role": "stylus" } },
-        "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })");
+        "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
+}   // namespace
+
+TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a force", "[falcon][safety]")
+{
+    const TemporaryFolder folder;
+    folder.write ("wall.json", wall);
     FakeFalcon falcon;
     falcon.target[1] = -0.006;
     falcon.tremor = 2e-4;   // a position that stays the same would count as frozen
@@ -52,6 +58,23 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
         static_cast<void> (program.finish());
     CHECK (falcon.isAtRest());
     CHECK (falcon.without_homing == 0);
+}
+
+TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][falcon][promise]")
+{
+    const TemporaryFolder folder;
+    folder.write ("wall.json", wall);
+    FakeFalcon falcon;
+    falcon.target[1] = -0.006;
+    falcon.tremor = 2e-4;
+    const auto after = [&] (int signal) {
+        return test::outlived (
+            { "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + falcon.port() }, signal,
+            [&] { return falcon.pushes > 100 && ! falcon.isAtRest(); }, [&] (std::int64_t) { return falcon.isAtRest() ? falcon.zero_at.load() : 0; });
+    };
+    CHECK (after (SIGKILL) <= 10.0);
+    CHECK (after (SIGSTOP) <= 120.0);
+    CHECK (after (SIGUSR1) <= 12.0);   // the emergency stop
 }
 
 TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")

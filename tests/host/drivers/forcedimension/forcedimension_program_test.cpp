@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Programs that play on a fake arm of Force Dimension, and what the arm feels when they end, freeze or are killed.
 
+#include "../outlived.hpp"
 #include "lab.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -102,6 +103,23 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
     }
 }
 
+TEST_CASE ("how long a force on an arm of Force Dimension outlives its program, measured at the fake", "[.][forcedimension][promise]")
+{
+    Played played;
+    const auto& arm = played.lab.arm();
+    const auto after = [&] (int signal) {
+        return test::outlived (
+            played.play, signal, [&] { return played.lab.acting() > 0.5; },
+            [&] (std::int64_t) {
+                const std::int64_t by_watchdog = signal == SIGUSR1 ? 0 : arm.commanded_at + 31'875'000;
+                return played.lab.acting() > 0.0 ? 0 : std::max (arm.zero_at.load(), by_watchdog);
+            });
+    };
+    CHECK (after (SIGKILL) <= 33.0);
+    CHECK (after (SIGSTOP) <= 33.0);
+    CHECK (after (SIGUSR1) <= 10.0);   // the emergency stop
+}
+
 TEST_CASE ("tactus devices lists what a driver finds when it is named, and only names the others", "[forcedimension]")
 {
     Lab lab;
@@ -130,7 +148,7 @@ TEST_CASE ("a trial at the terminal ends with the answers, lets nothing push aft
     Played played;
     const auto report = (played.lab.folder / "report.json").string();
     const auto run = [&] (const std::string& answers, const std::string& more) {
-        const auto command = "printf '" + answers + "' | '" TACTUS_PROGRAM "' devices --try forcedimension:0 --report '" + report + "'" + more;
+        const auto command = "printf '" + answers + "' | '" TACTUS_PROGRAM "' devices --try forcedimension:0 --out '" + report + "'" + more;
         Running shell ("/bin/sh", { "-c", command });
         return shell.finish();
     };

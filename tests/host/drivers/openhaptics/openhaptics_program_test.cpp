@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Programs that play on a fake Touch, and what the arm feels when they end, freeze or are killed.
 
+#include "../outlived.hpp"
 #include "support/sketch.hpp"
 #include "touch_lab.hpp"
 
@@ -81,6 +82,22 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Touch without a f
         CHECK (arm.force[1] == 0.0);
         CHECK (arm.disables == 1);
     }
+}
+
+TEST_CASE ("how long a force on a Touch outlives its program, measured at the fake", "[.][openhaptics][promise]")
+{
+    TouchLab lab;
+    auto& arm = lab.arm();
+    arm.target[1] = -6.0;
+    lab.folder.write ("wall.json", wall);
+    const auto after = [&] (int signal) {
+        return test::outlived (
+            { "play", (lab.folder / "wall.json").string(), "--device", "stylus=openhaptics" }, signal, [&] { return arm.force[1] > 0.5; },
+            [&] (std::int64_t) { return arm.zero_at.load(); });
+    };
+    CHECK (after (SIGKILL) <= 5.0);
+    CHECK (after (SIGSTOP) <= 22.0);
+    CHECK (after (SIGUSR1) <= 10.0);   // the emergency stop
 }
 
 TEST_CASE ("check-plugin finds no fault in the driver of 3D Systems' arms", "[openhaptics]")
