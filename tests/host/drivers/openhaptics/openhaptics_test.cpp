@@ -3,10 +3,12 @@
 
 #include "../readings.hpp"
 #include "../trial_person.hpp"
+#include "support/sketch.hpp"
 #include "touch_lab.hpp"
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <algorithm>
