@@ -372,8 +372,15 @@ struct ElasticSurface
         for (const int triangle : { began.triangle, contact.triangle, near.triangle })
             if (! isOnBody (triangle)) archive.refuse ("touches a triangle that does not exist");
         for (const auto* foot : { &touch.foot, &apart, &entry.touch.foot })
-            if (foot->faces < 0 || foot->faces > SmoothBody::most || ! std::ranges::all_of (foot->triangles, isOnBody) || ! isOnBody (foot->beyond))
-                archive.refuse ("touches a face that does not exist");
+        {
+            bool fits = foot->faces >= 0 && foot->faces <= SmoothBody::most && std::ranges::all_of (foot->triangles, isOnBody) && isOnBody (foot->beyond);
+            for (int i = 0; fits && i < foot->faces; ++i)
+                fits = foot->triangles[at (i)] >= 0;
+            if (! fits) archive.refuse ("touches a face that does not exist");
+        }
+        const auto shapes = static_cast<int> (tool.shares.size());
+        const auto isShape = [shapes] (const PlacedSurface::Share& s) { return s.shape >= 0 && s.shape < shapes; };
+        if (tool.count < 0 || tool.count > shapes || ! std::ranges::all_of (tool.shares, isShape)) archive.refuse ("has a shape that does not exist");
     }
 
 private:

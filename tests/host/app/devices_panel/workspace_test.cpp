@@ -26,7 +26,7 @@ struct Bench : DeskStage
     {
         show<DevicesPanel> (devicesPanel);
         showHand();
-        panel().bind (role, "simulated PHANTOM 1.0");
+        panel().bindings().bind (role, "simulated PHANTOM 1.0");
         set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
         set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
         REQUIRE (binding().contains ("hand"));
@@ -41,7 +41,7 @@ struct Bench : DeskStage
     LiveRun& run() { return playback.run(); }
     DevicesPanel& panel() { return dynamic_cast<DevicesPanel&> (*DeskRig::panel->component); }
     SceneView& scene() { return hand->scene(); }
-    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
+    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
     Json binding() const { return saved()["roles"][role]; }
@@ -204,7 +204,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
     CHECK (w.binding() == with_limit);
 
     // Back to the device of the graph, which has its own limits; undo brings back the device with the limit that it had.
-    w.panel().bind ("stylus", "as in the graph");
+    w.panel().bindings().bind ("stylus", "as in the graph");
     CHECK_FALSE (w.saved()["roles"].contains ("stylus"));
     w.canvas.grabKeyboardFocus();
     w.key ("ctrl + z");
@@ -216,7 +216,7 @@ TEST_CASE ("the choice of a device is one undo, which leaves the edits before it
 
     // The same device again is no step.
     const auto position = document.history().position();
-    w.panel().bind ("stylus", target.toStdString());
+    w.panel().bindings().bind ("stylus", target.toStdString());
     CHECK (document.history().position() == position);
     for (int i = 0; i < 2; ++i)
         w.key ("ctrl + z");
@@ -322,7 +322,7 @@ TEST_CASE ("the scene shows the box that a device can reach, and an arrow moves 
 TEST_CASE ("a device whose box is not known has handles at its origin", "[app][scene][sessions]")
 {
     Bench w;
-    w.panel().bind ("stylus", "gesture circle");
+    w.panel().bindings().bind ("stylus", "gesture circle");
     REQUIRE (w.until ([&] { return ! w.scene().reaches().empty() && ! w.scene().reaches().front().hasBox(); }));
     const auto handle = scene::Overlay::handle (w.scene().camera(), w.scene().getLocalBounds().toFloat(), w.scene().reaches().front(), 0);
     REQUIRE (handle);

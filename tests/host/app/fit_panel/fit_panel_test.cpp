@@ -26,7 +26,7 @@ struct FitRig : DeskRig
     explicit FitRig (const std::string& preset = {}) : DeskRig (preset)
     {
         make<FitPanel> (fitPanel).setSize (1280, 680);
-        desk.openMade = [this] (const graph::Graph& g, const std::string& step, const std::function<void()>& then) {
+        desk.openMade = [this] (const graph::Graph& g, const std::string& step, bool, const std::function<void()>& then) {
             document.open (g, {}, step);
             then();
         };

@@ -173,8 +173,8 @@ TEST_CASE ("a ring around a knob shows the modulators of its targets, and a drag
     w.stage->drag (middle, middle.translated (0.0f, -30.0f));
     CHECK (w.graph().controls[0].value > value);
     CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04));
-    w.view->document().undo();
-    WindowRig::settle();
+    w.document.undo();
+    OnStage::settle();
 
     // Down on the ring to where the depth is 0 ends the modulation, in one step.
     w.stage->move (on_ring);
@@ -183,23 +183,21 @@ TEST_CASE ("a ring around a knob shows the modulators of its targets, and a drag
         w.stage->move (on_ring.translated (0.0f, y += 1.0f));
     CHECK (first (w.graph(), "drag.mu").depth == 0.0);
     w.stage->release();
-    WindowRig::settle();
+    OnStage::settle();
     CHECK (modulationsAt (w.graph(), "drag.mu", catalogue()).empty());
     CHECK (std::ranges::none_of (w.graph().root.wires, &graph::Wire::add));
     CHECK (w.graph().controls[0].value == value);
-    w.view->document().undo();
+    w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
 }
 
 TEST_CASE ("a node on the canvas shows how far modulators move its parameter", "[app][canvas][modulation]")
 {
     const auto sign = std::string ("\xc2\xb1");
-    const TemporaryFolder folder;
     auto g = wavy ("0.02");
     g.controls.clear();
-    REQUIRE (saveGraph (g, folder / "wood.json"));
-    WindowRig w ((folder / "wood.json").string(), 1280, 1000);
-    auto& canvas = w.view->canvas();
+    DeskStage w (std::move (g), 1280, 1000);
+    auto& canvas = w.canvas;
     const auto shown = [&] (const char* node, const char* param) {
         const auto* n = canvas.scene().find (w.graph().root.find (node)->id);
         const auto* socket = n->box.find (Role::param, param);
@@ -207,9 +205,9 @@ TEST_CASE ("a node on the canvas shows how far modulators move its parameter", "
     };
     CHECK (shown ("drag", "mu") == "0.4 " + sign + "0.04");
     CHECK (shown ("drag", "d_max") == "0.7 mm ");
-    REQUIRE (w.view->document().perform (*changeDepth (w.graph(), first (w.graph(), "drag.mu"), 0.05)));
+    REQUIRE (w.document.perform (*changeDepth (w.graph(), first (w.graph(), "drag.mu"), 0.05)));
     CHECK (shown ("drag", "mu") == "0.4 " + sign + "0.05");
-    REQUIRE (w.view->document().perform (removeModulation (first (w.graph(), "drag.mu"))));
+    REQUIRE (w.document.perform (removeModulation (first (w.graph(), "drag.mu"))));
     CHECK (shown ("drag", "mu") == "0.4 ");
 
     // Two modulators are both shown, and one that is never below 0 has a plus.
@@ -218,6 +216,6 @@ TEST_CASE ("a node on the canvas shows how far modulators move its parameter", "
     const auto count = s.graph.root.wires.size();
     s.graph.root.wires[count - 2].gain = 0.1;
     s.graph.root.wires[count - 1].gain = 0.25;
-    REQUIRE (w.view->document().perform (graph::ReplaceGraph { std::make_shared<const graph::Graph> (s.graph) }));
+    REQUIRE (w.document.perform (graph::ReplaceGraph { std::make_shared<const graph::Graph> (s.graph) }));
     CHECK (shown ("drag", "static_ratio") == "1.5 " + sign + "0.2 +0.25");
 }

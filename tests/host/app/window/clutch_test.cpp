@@ -28,7 +28,7 @@ struct Bench : WindowRig
     explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
     {
         click ("Devices");
-        panel().bind (role, "simulated PHANTOM 1.0");
+        panel().bindings().bind (role, "simulated PHANTOM 1.0");
         set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
         set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
         REQUIRE (binding().contains ("hand"));
@@ -43,7 +43,7 @@ struct Bench : WindowRig
 
     DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
     SceneView& scene() { return *partIn<SceneView> (*view); }
-    void set (const char* pointer, const char* text) { panel().setPart (role, pointer, text); }
+    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
     Json binding() const { return saved()["roles"][role]; }
@@ -147,7 +147,7 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
     }
     SECTION ("but not without a device of the session")
     {
-        w.panel().bind ("stylus", "as in the graph");
+        w.panel().bindings().bind ("stylus", "as in the graph");
         REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
         w.view->canvas().grabKeyboardFocus();
         w.stage->key ("s");
