@@ -145,10 +145,12 @@ private:
                                                       { "tick", node.tick != nullptr } };
         for (const auto& [name, is_there] : needed)
             if (! is_there) return "it lacks the function " + quote (name) + ", which every node has";
-        if ((node.announce == nullptr) != (node.bind == nullptr)) return "it has " + std::string (node.announce != nullptr ? "announce, but no bind" : "bind, but no announce");
+        if ((node.announce == nullptr) != (node.bind == nullptr))
+            return "it has " + std::string (node.announce != nullptr ? "announce, but no bind" : "bind, but no announce");
         if ((known.save == nullptr) != (known.restore == nullptr))
             return "it has " + std::string (known.save ? "save, but no restore" : "restore, but no save");
-        if (node.announce == nullptr && (node.missing || node.effort)) return "it has " + std::string (node.missing != nullptr ? "missing" : "effort") + ", but no bind";
+        if (node.announce == nullptr && (node.missing || node.effort))
+            return "it has " + std::string (node.missing != nullptr ? "missing" : "effort") + ", but no bind";
         return {};
     }
 
