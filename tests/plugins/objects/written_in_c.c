@@ -154,13 +154,13 @@ static double fault (double v, double* outputs)
 static void tick (void* node, const double* const* sources, void* outputs)
 {
     const double v = *sources[0];
+    double sum = 2.0 * v + fault (v, outputs);
 #ifdef HAS_STATE
-    const double before = *(double*)node, sum = 2.0 * v + before + fault (v, outputs), after = before + v;
+    const double before = *(double*)node, after = before + v;
+    sum += before;
     if (after - after == 0.0) *(double*)node = after;
-#else
-    const double sum = 2.0 * v + fault (v, outputs);
-    (void)node;
 #endif
+    (void)node;
 #ifdef BAD_NAN
     *(double*)outputs = v - v == 0.0 ? sum : 0.0;
 #else
