@@ -10,7 +10,6 @@
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/audio/card.hpp>
-#include <host/devices/hid/slow_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
@@ -44,7 +43,7 @@ using Clock = std::chrono::steady_clock;
 
 struct DevicesOptions
 {
-    std::string tried, report, profile;
+    std::string tried, report;
     bool probe = false, json = false;
     double duration_s = 0.0;
     DeviceCapture capture;
@@ -122,7 +121,7 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     if (! p.may_open) return text + "may not be opened by this user: join the group of the port, such as dialout\n";
     if (const auto* device = driverOf (p))
     {
-        const auto slow = slowAdapter (p.path);
+        const auto slow = slowAdapter (p);
         return text + device->what + ": --device ROLE=" + device->driver + ":" + printableName (p.path) + "\n"
                + (slow.empty() ? "" : "    " + printable (slow) + "\n");
     }
@@ -315,7 +314,7 @@ void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& eve
 
 void run (const DevicesOptions& options)
 {
-    if (! options.tried.empty()) return tryOnDevice (options.tried, options.report, options.profile);
+    if (! options.tried.empty()) return tryOnDevice (options.tried, options.report);
     if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty())
     {
         if (listFoundDevices (options.capture.device, options.json)) return;
@@ -404,10 +403,7 @@ void addDevices (const Command& app)
                            .type ("DRIVER|ROLE")
                            .excludes (probe)
                            .excludes (capture);
-    command.addOption ("--out", options->report, "The file of the report of --try; default: trial.json").type ("FILE").needs (tried);
-    command.addOption ("--profile", options->profile, "The id of a profile whose damping decides which walls --try tries; default: it is measured")
-        .type ("ID")
-        .needs (tried);
+    command.addOption ("--report", options->report, "The file of the report of --try; default: trial.json").type ("FILE").needs (tried);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
@@ -417,7 +413,7 @@ void addDevices (const Command& app)
                     "  tactus devices --probe --duration 2 --json\n"
                     "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --probe --device haply:localhost:10001\n"
-                    "  tactus devices --try forcedimension:1 --out arm.json\n"
+                    "  tactus devices --try forcedimension:1 --report arm.json\n"
                     "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });

@@ -18,7 +18,6 @@
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/quote.hpp>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>
@@ -64,16 +63,6 @@ Chosen choose (const std::string& what, const hid::LoadedProfiles& profiles)
     return { orFail (readAddress (what, profiles)), {} };
 }
 
-DeviceNumber dampingOf (const std::string& id, const hid::LoadedProfiles& profiles)
-{
-    const auto found = std::ranges::find_if (profiles.profiles, [&] (const auto& profile) { return profile->id == id; });
-    if (found == profiles.profiles.end())
-        fail ("device/option", "--profile " + id + ": there is no profile " + quote (id), "see the files in the folders that tactus devices --help names");
-    if (! (*found)->physics.damping)
-        fail ("device/option", "--profile " + id + ": this profile does not give the damping of its device", "leave out --profile: it is measured");
-    return *(*found)->physics.damping;
-}
-
 std::atomic<TrialRun*> under_signal { nullptr };   // that SIGUSR1 stops
 
 TrialSetting::Way bySignal()
@@ -91,16 +80,15 @@ TrialSetting::Way bySignal()
 }
 }   // namespace
 
-void tryOnDevice (const std::string& what, const std::string& report, const std::string& profile)
+void tryOnDevice (const std::string& what, const std::string& report)
 {
     const std::string file = report.empty() ? "trial.json" : report;
-    if (std::filesystem::exists (file)) fail ("output/exists", file + ": this file exists, and a report cannot be repeated", "name another file with --out");
+    if (std::filesystem::exists (file)) fail ("output/exists", file + ": this file exists, and a report cannot be repeated", "name another file with --report");
     watchForStop();
     const auto profiles = hid::loadProfileLibrary();
     const auto chosen = choose (what, profiles);
     Hardware hardware { hid::thisComputer(), [&profiles]() -> const hid::LoadedProfiles& { return profiles; }, nullptr };
     TrialSetting setting { .ways = { bySignal() } };
-    if (! profile.empty()) setting.damping = dampingOf (profile, profiles);
     const auto plan = compile (readGraph (TrialGraph {}.text (setting.run.rate_hz)).graph, catalogue()).plan;
     auto made = hardware.open (chosen.description, chosen.folder, "tool", *plan);
     std::string remarks;

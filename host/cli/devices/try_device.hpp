@@ -7,8 +7,7 @@ namespace tactus::host
 {
 
 /// Leads a person at the terminal through a trial of a device, and writes the report, even if the trial ends early. `what`: a role of the user's session,
-/// or a device as in --device. `profile`: the id of a profile that gives the damping of the device; "": none. Ends the command if the
-/// device cannot be opened, or if a step differs from what was expected. [main thread]
-void tryOnDevice (const std::string& what, const std::string& report, const std::string& profile);
+/// or a device as in --device. Ends the command if the device cannot be opened, or if a step differs from what was expected. [main thread]
+void tryOnDevice (const std::string& what, const std::string& report);
 
 }   // namespace tactus::host

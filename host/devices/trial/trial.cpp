@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "trial.hpp"
-#include "free_motion.hpp"
 
 #include <host/devices/device_plugins/plugin_device.hpp>
 #include <tactus/check/factors.hpp>
@@ -27,7 +26,6 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr double push_s = 1.0, still_s = 1.0, frozen_s = 0.3, wall_below = 5e-3;   // m below the tool
-constexpr double measured_travel = 4e-2;                                           // m
 constexpr double least_move = 5e-3, clear_of_others = 2.0;                         // m, and how much larger than along the other axes
 constexpr int most_tries = 3;                                                      // at homing
 
@@ -83,15 +81,14 @@ public:
             tryButtons();
             for (const auto& direction : directions)
                 tryPush (direction);
-            tryWalls (findDamping());
+            tryWalls();
             tryStops();
-            tryCable();
         }
         catch (const Ended&)
         {
             add ("end", "not tried", "the trial ended here; no later step was tried");
         }
-        add ("kill -9, a frozen computer", "not tried", "a trial cannot watch its own end; docs/hazards.md says what should happen");
+        add ("kill -9, a frozen computer, a pulled cable", "not tried", "a trial cannot watch its own end; docs/hazards.md says what should happen");
         Json all { { "format", "tactus-trial" }, { "version", 1 }, { "tried", setting.tried } };
         all["steps"] = steps;
         all["numbers"] = numbers;
@@ -311,36 +308,11 @@ private:
                  + " N through");
     }
 
-    /// The damping of the device, in N s/m: from the profile, from the device, or measured; 0 if nothing tells it, with which no wall is passive.
-    double findDamping()
+    void tryWalls()
     {
-        const auto given = [&] (double value, const std::string& source) {
-            add ("damping", "not tried", numberText (value) + " N s/m, " + source);
-            return value;
-        };
-        if (setting.damping) return given (setting.damping->value, "from the profile: " + setting.damping->source);
-        if (const double told = device.layout().mechanics.damping; told > 0.0) return given (told, "as the device is described");
-        if (! saysYes ("No source tells the damping of this device, so it is measured. Can you let go of the tool, so that it stays where it is, and has 6 cm "
-                       "of free space to its right?"))
-            return given (0.0, "because nothing tells more, and a tool in a hand moves with the damping of the hand");
-        ask ("Let go of it, and press Enter: it is pushed to the right with " + numberText (trial_push) + " N until it has moved 4 cm. Enter stops it.");
-        auto o = options (trial_push, 3.0);
-        o.most_travel = measured_travel;
-        TrialRun run (device, limits, { .push = { trial_push, 0.0, 0.0 } }, o);
-        const bool whole = play (run);
-        const auto found = whole ? freeMotionOf (run.rows(), 0, 1.0 / setting.run.rate_hz) : std::nullopt;
-        if (! found) return given (0.0, "because the tool did not move as one that is free");
-        numbers["mass"] = found->mass;
-        numbers["damping"] = found->damping;
-        numbers["coulomb"] = found->friction;
-        const auto rest = " kg and a friction of " + rounded (found->friction) + " N, from a push to the right";
-        add ("damping", "measured", rounded (found->damping) + " N s/m, with a mass of " + rounded (found->mass) + rest);
-        return found->damping;
-    }
-
-    void tryWalls (double damping)
-    {
-        if (damping <= 0.0) return add ("walls", "not tried", "a damping of 0 counts, and no wall is passive with it");
+        const double damping = device.layout().mechanics.damping;
+        if (damping <= 0.0)
+            return add ("walls", "not tried", "the damping of this device is not known, so nothing says which wall is passive on it");
         const double delay_ticks = delay_s * setting.run.rate_hz;
         const double stiffest = check::stiffestWall (damping, 1.0 / setting.run.rate_hz, delay_ticks);
         for (const double part : { 0.25, 0.5, 1.0 })
@@ -380,21 +352,6 @@ private:
             run.stop();
         });
         tryFreeze();
-    }
-
-    /// The last step, because the device is away afterwards.
-    void tryCable()
-    {
-        if (! saysYes ("Last, the cable: the tool is pushed up, and you pull the cable of the device out of the computer. Will you do that?"))
-            return add ("a pulled cable", "not tried", "the person did not want to");
-        TrialRun run (device, limits, up(), options (trial_push));
-        const bool goes_on = person.ask ("It pushes up now. Pull the cable, then press Enter.").has_value();
-        waitFor (run, push_s);
-        run.end();
-        if (! goes_on) throw Ended {};
-        const bool felt_end = saysYes ("Has the push ended?");
-        add ("a pulled cable", run.hasLost() && felt_end ? "as expected" : "differs",
-             std::string (run.hasLost() ? "the readings ended" : "the readings went on") + "; the person felt the push " + (felt_end ? "end" : "go on"));
     }
 
     void waitFor (const TrialRun& run, double s) const
@@ -500,9 +457,7 @@ Result<DeviceNumbers> trialNumbers (const Json& report, double rate_hz)
             to = DeviceNumber { .value = value.get<double>(), .source = "measured by tactus devices --try" };
         return value.is_null() || to.has_value();
     };
-    const bool is_fine = take ("quantum", 1.0, numbers.quantum) && take ("delay_s", 1.0, numbers.delay) && take ("mass", 100.0, numbers.mass)
-                         && take ("damping", 1000.0, numbers.damping) && take ("coulomb", 100.0, numbers.coulomb);
-    if (! is_fine || (numbers.mass && numbers.mass->value <= 0.0)) return noReport ("/numbers", "a number is out of its range");
+    if (! take ("quantum", 1.0, numbers.quantum) || ! take ("delay_s", 1.0, numbers.delay)) return noReport ("/numbers", "a number is out of its range");
     if (numbers.delay) numbers.delay->value = std::ceil (numbers.delay->value * rate_hz);
     return numbers;
 }

@@ -44,20 +44,18 @@ struct TrialSetting
     };
     std::vector<Way> ways {};
 
-    std::optional<DeviceNumber> damping {};   ///< of the device, in N s/m, from a profile; empty: the device tells it, or it is measured
-
     double pace = 1.0;   ///< factor of the times for which something is pushed or measured; below 1 for tests
 };
 
 inline constexpr double trial_push = 0.3;   ///< the largest force of a trial, but for its walls, in N
 inline constexpr double trial_wall = 1.0;   ///< the largest force of a wall, in N
 
-/// Leads a person through a trial of a device: homing, noise, rate and age of the readings, directions by hand, buttons, pushes, the damping if nothing
-/// tells it, walls up to the stiffest that is passive with that damping, each way to stop, and the cable. Returns the report:
+/// Leads a person through a trial of a device: homing, noise, rate and age of the readings, directions by hand, buttons, pushes, walls up to the stiffest
+/// that is passive if the damping of the device is known, and each way to stop. Returns the report:
 ///
 ///     {"format": "tactus-trial", "version": 1, "tried": {…},
 ///      "steps": [{"step": "direction right", "verdict": "as expected", "text": "…"}],
-///      "numbers": {"quantum": 1e-5, "delay_s": 0.0007, "mass": 0.2, "damping": 1.5, "coulomb": 0.05},
+///      "numbers": {"quantum": 1e-5, "delay_s": 0.0007},
 ///      "capture": [{"name": "push right", "graph": {…}, "rows": [[x, y, z, valid, fx, fy, fz], …]}]}
 ///
 /// `delay_s` is the time from a place to the force that answers it, as far as it is known: that which the driver measures, or else the age of the readings.

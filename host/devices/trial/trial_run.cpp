@@ -73,9 +73,6 @@ void TrialRun::after (std::uint64_t tick, bool halts) noexcept
     for (std::size_t i = 0; i < 3 && i < plan.taps().size(); ++i)   // the inputs of the motor
         row.asked[static_cast<Eigen::Index> (i)] = *plan.taps()[i].value;
     if (kept.size() < kept.capacity()) kept.push_back (row);
-    has_lost = has_lost || (! halts && ! row.is_valid && latest.is_valid);
-    if (row.is_valid && ! latest.is_valid) origin = row.position;
-    if (options.most_travel > 0.0 && row.is_valid && (row.position - origin).norm() > options.most_travel) runner.stop();
     if (! halts && (row.is_valid || ! latest.is_valid)) latest = row;
     if (row.is_valid) seen_buttons |= row.buttons;
     done = tick + 1;

@@ -43,7 +43,6 @@ public:
         double rate_hz = 1000.0;
         double max_force = 0.0;           ///< of the guard, in N; the limits of the device hold as well
         std::uint64_t length = 0;         ///< in ticks; 0: until stop()
-        double most_travel = 0.0;         ///< in m: a tool that is farther from its first place ends the run; 0: it may go anywhere
         std::uint64_t frozen_after = 0;   ///< no tick comes for `frozen_s` after so many; 0: never
         double frozen_s = 0.0;
         bool (*stop_wanted)() noexcept = nullptr;            ///< as Runner::Options
@@ -68,7 +67,6 @@ public:
     const std::vector<TrialRow>& rows() const noexcept { return kept; }   ///< the first 30 s
     const TrialRow& last() const noexcept { return latest; }              ///< the last one that was valid, or else the last one; before the halt
     std::uint32_t buttons() const noexcept { return seen_buttons; }       ///< all that were down at some time
-    bool hasLost() const noexcept { return has_lost; }                    ///< after a reading that was valid came one that was not, before the halt
 
     /// The largest age of a reading, in s, and their mean.
     double oldest() const noexcept;
@@ -85,9 +83,7 @@ private:
     Engine engine;
     std::vector<TrialRow> kept;
     TrialRow latest;
-    Position origin = Position::Zero();
     std::uint32_t seen_buttons = 0;
-    bool has_lost = false;
     std::atomic<std::uint64_t> done = 0;
     Runner runner;   // declared last: its thread uses the other members
 };

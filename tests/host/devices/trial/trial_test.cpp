@@ -40,17 +40,9 @@ struct SpringDevice final : Device
         Vec3 place;
         for (int i = 0; i < 3; ++i)
             place[i] = target[static_cast<std::size_t> (i)] + force[i] / 500.0;
-        if (is_free)
-        {
-            constexpr double mass = 0.2, own_damping = 2.0, friction = 0.05, period_s = 1e-3;
-            const double pull = force.x() - own_damping * speed;
-            speed = speed == 0.0 && pull <= friction ? 0.0 : std::max (0.0, speed + (pull - friction) / mass * period_s);
-            moved += speed * period_s;
-            place = { moved, 0.0, 0.0 };
-        }
         reading.position = is_swapped ? Vec3 (place.y(), place.x(), place.z()) : place;
         reading.buttons = buttons;
-        reading.valid = is_homed && ! is_away;
+        reading.valid = is_homed;
         reading.fault = is_homed ? ReadingFault::none : ReadingFault::not_homed;
         return reading;
     }
@@ -71,8 +63,6 @@ struct SpringDevice final : Device
 
     std::array<std::atomic<double>, 3> target {};
     std::atomic<std::uint32_t> buttons = 0;
-    double speed = 0.0, moved = 0.0;   // while nothing holds it   [tick thread]
-    std::atomic<bool> is_free = false, is_away = false;
     std::atomic<bool> is_homed = true, is_pushing = false, holds = false;
     std::atomic<std::uint64_t> reads = 0, pushed_at = 0;
     std::atomic<int> felt = -1;   // 0: right, 1: left, 2: away, …
@@ -111,10 +101,6 @@ struct Script : TrialPerson
             move (Vec3::Zero());
             presses = true;
         }
-        if (contains (question, "Can you let go")) return lets_go ? "yes" : "no";
-        device.is_free = contains (question, "Let go of it") && ! is_sticky;
-        if (contains (question, "the cable: the tool")) return pulls ? "yes" : "no";
-        if (contains (question, "Pull the cable")) device.is_away = true;
         if (contains (question, "buzz")) return "no";
         const std::array words { "right", "left", "away", "towards", "up", "down", "none" };
         if (contains (question, "Which way")) return words[device.felt < 0 ? 6u : static_cast<std::size_t> (device.felt)];
@@ -148,7 +134,7 @@ struct Script : TrialPerson
 
     SpringDevice& device;
     int questions = 0, ends_at = 0;
-    bool stops_pushes = false, is_powerless = false, lets_go = false, is_sticky = false, pulls = false;
+    bool stops_pushes = false, is_powerless = false;
     std::atomic<bool> presses = false, homes = true;
 };
 
@@ -190,9 +176,7 @@ TEST_CASE ("a trial of an honest device finds everything as expected, and its ca
     CHECK (was_signalled);
     CHECK (contains (trialText (report), "pressed: front; not seen: back"));
     CHECK (verdict (report, "stop by silence") == "not tried");   // this device has no driver that would tell
-    CHECK (verdict (report, "kill -9, a frozen computer") == "not tried");
-    CHECK (verdict (report, "a pulled cable") == "not tried");
-    CHECK (verdict (report, "damping") == "not tried");
+    CHECK (verdict (report, "kill -9, a frozen computer, a pulled cable") == "not tried");
     if (device.damping == 0.0)
     {
         CHECK (verdict (report, "walls") == "not tried");
@@ -211,43 +195,6 @@ TEST_CASE ("a trial of an honest device finds everything as expected, and its ca
     const auto replayed = replayTrial (*Json::tryParse (report.dump()));
     REQUIRE (replayed);
     CHECK (*replayed == 0.0);
-}
-
-TEST_CASE ("a trial measures the damping of a tool that is let go, and takes no other", "[trial]")
-{
-    SpringDevice device;
-    Script person (device);
-    person.lets_go = true;
-    person.pulls = true;
-    auto asked = setting();
-    SECTION ("measured")
-    {
-        const auto report = tryDevice (device, {}, asked, person);
-        INFO (trialText (report));
-        CHECK (verdict (report, "damping") == "measured");
-        const auto numbers = trialNumbers (report, 1000.0);
-        REQUIRE (numbers);
-        CHECK (numbers->damping->value == Approx (2.0).epsilon (0.05));
-        CHECK (numbers->mass->value == Approx (0.2).epsilon (0.05));
-        CHECK (numbers->coulomb->value == Approx (0.05).margin (0.01));
-        CHECK (contains (trialText (report), "no buzz, at 100 % of the stiffest passive wall"));
-        CHECK (verdict (report, "a pulled cable") == "as expected");
-    }
-    SECTION ("a hand still holds it")
-    {
-        person.is_sticky = true;
-        const auto report = tryDevice (device, {}, asked, person);
-        CHECK (contains (trialText (report), "damping: not tried; 0 N s/m, because the tool did not move as one that is free"));
-        CHECK (verdict (report, "walls") == "not tried");
-    }
-    SECTION ("from a profile")
-    {
-        asked.damping = DeviceNumber { .value = 1.0, .source = "a thesis" };
-        const auto report = tryDevice (device, {}, asked, person);
-        CHECK (contains (trialText (report), "damping: not tried; 1 N s/m, from the profile: a thesis"));
-        CHECK (verdict (report, "wall of 500 N/m") == "as expected");   // a quarter of 2 B/T
-        CHECK_FALSE (report.at ("numbers").contains ("damping"));
-    }
 }
 
 TEST_CASE ("a trial names what differs: swapped axes, a push that is not felt, a force that the guard withholds", "[trial]")

@@ -521,7 +521,6 @@ TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N
         return falcon.isAtRest() ? Vec3 (Vec3::Zero()) : Vec3 { f.x(), -f.z(), f.y() };
     };
     hand.press = [&] (unsigned buttons) { falcon.buttons = buttons; };
-    hand.unplug = [&] { falcon.unplug(); };
     const auto report = host::tryDevice (*desk.device, desk.limits, { .pace = 0.3 }, hand);
     INFO (host::trialText (report));
     for (const auto* step : test::steps_of_trial)

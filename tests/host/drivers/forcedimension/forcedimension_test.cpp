@@ -561,7 +561,7 @@ TEST_CASE ("a Falcon behind Force Dimension's library has its own buttons and no
     CHECK (lab.device->about().about == "Falcon of Force Dimension, firmware 3.1, library 3.17.5.");
 }
 
-TEST_CASE ("a trial of an arm of Force Dimension measures its damping, tries walls and the cable, and its capture replays", "[forcedimension][trial]")
+TEST_CASE ("a trial of an arm of Force Dimension finds everything as expected, with at most 0.3 N, and its capture replays", "[forcedimension][trial]")
 {
     Lab lab;
     auto options = Lab::patient();
@@ -581,10 +581,6 @@ TEST_CASE ("a trial of an arm of Force Dimension measures its damping, tries wal
         }));
     };
     hand.force = [&] { return Vec3 { lab.arm().force[1], -lab.arm().force[0], lab.arm().force[2] }; };
-    lab.arm().damping = 2.0;
-    hand.release = [&] (bool is_free) { lab.arm().stiffness = is_free ? 1e-9 : 500.0; };
-    hand.lean = [&] { lab.arm().target[2] = -0.007; };
-    hand.unplug = [&] { lab.arm().is_unplugged = 1; };
     const auto report = host::tryDevice (*lab.device, lab.limits, { .pace = 0.3 }, hand);
     INFO (host::trialText (report));
     for (const auto* step : test::steps_of_trial)
@@ -592,23 +588,8 @@ TEST_CASE ("a trial of an arm of Force Dimension measures its damping, tries wal
         CAPTURE (step);
         CHECK (test::verdictOf (report, step) == "as expected");
     }
-    CHECK (test::verdictOf (report, "damping") == "measured");   // no source gives that of these arms
-    const auto& numbers = report.at ("numbers");
-    CHECK (numbers.at ("damping").get<double>() == Approx (2.0).margin (0.5));
-    CHECK (numbers.at ("mass").get<double>() == Approx (0.2).margin (0.1));
-    CHECK (host::trialNumbers (report, 1000.0)->damping->value == numbers.at ("damping").get<double>());
-    int walls = 0;
-    for (const auto& step : report.at ("steps"))
-        if (contains (step.at ("step").get<std::string>(), "wall of "))
-        {
-            CHECK (step.at ("verdict") == Json ("as expected"));
-            ++walls;
-        }
-    CHECK (walls == 3);
     CHECK (hand.largest > 0.1);
     CHECK (hand.largest <= host::trial_push);
-    CHECK (hand.largest_at_wall <= host::trial_wall);
-    CHECK (test::verdictOf (report, "a pulled cable") == "as expected");
     const auto replayed = host::replayTrial (report);
     REQUIRE (replayed);
     CHECK (*replayed == 0.0);
