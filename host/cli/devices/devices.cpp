@@ -10,6 +10,7 @@
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/audio/card.hpp>
+#include <host/devices/hid/slow_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
@@ -121,7 +122,7 @@ std::string textOf (const SerialPort& p, const LoadedProfiles& profiles)
     if (! p.may_open) return text + "may not be opened by this user: join the group of the port, such as dialout\n";
     if (const auto* device = driverOf (p))
     {
-        const auto slow = slowAdapter (p);
+        const auto slow = hid::slowAdapter (p.path);
         return text + device->what + ": --device ROLE=" + device->driver + ":" + printableName (p.path) + "\n"
                + (slow.empty() ? "" : "    " + printable (slow) + "\n");
     }
