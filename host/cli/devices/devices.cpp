@@ -404,7 +404,7 @@ void addDevices (const Command& app)
                            .type ("DRIVER|ROLE")
                            .excludes (probe)
                            .excludes (capture);
-    command.addOption ("--report", options->report, "The file of the report of --try; default: trial.json").type ("FILE").needs (tried);
+    command.addOption ("--out", options->report, "The file of the report of --try; default: trial.json").type ("FILE").needs (tried);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
@@ -414,7 +414,7 @@ void addDevices (const Command& app)
                     "  tactus devices --probe --duration 2 --json\n"
                     "  tactus devices --probe --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --probe --device haply:localhost:10001\n"
-                    "  tactus devices --try forcedimension:1 --report arm.json\n"
+                    "  tactus devices --try forcedimension:1 --out arm.json\n"
                     "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0\n"
                     "  tactus devices --capture arm.jsonl --device haply:localhost:10001");
     command.callback ([options] { run (*options); });

@@ -83,7 +83,7 @@ TrialSetting::Way bySignal()
 void tryOnDevice (const std::string& what, const std::string& report)
 {
     const std::string file = report.empty() ? "trial.json" : report;
-    if (std::filesystem::exists (file)) fail ("output/exists", file + ": this file exists, and a report cannot be repeated", "name another file with --report");
+    if (std::filesystem::exists (file)) fail ("output/exists", file + ": this file exists, and a report cannot be repeated", "name another file with --out");
     watchForStop();
     const auto profiles = hid::loadProfileLibrary();
     const auto chosen = choose (what, profiles);

@@ -181,7 +181,7 @@ TEST_CASE ("wav: an unfinished recording can be read up to the last flush", "[ho
         for (std::size_t k = 0; k < frames; ++k, ++written)
             REQUIRE (writer->frame (std::vector { 1.0 * static_cast<double> (written), -1.0 }).has_value());
     };
-    for (const std::size_t frames : { 0, 1, 1500, 700 })
+    for (const std::size_t frames : { 0u, 1u, 1500u, 700u })
     {
         write (frames);
         REQUIRE (writer->flush().has_value());
