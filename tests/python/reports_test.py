@@ -162,7 +162,7 @@ class Reports(Case):
             while_busy(_thread.interrupt_main)
             tactus.limits(graph, steps=400)   # takes minutes
         self.assertTrue(eventually(lambda: not any(thread.name.startswith("ThreadPool") for thread in threading.enumerate())))
-        self.assertEqual(tactus.limits(graph, steps=2).columns[0][:9], "stiffness")
+        self.assertEqual(tactus.limits(graph, steps=2).columns[0], "rate (Hz)")
 
     def test_mistakes_have_a_place_a_cause_and_a_remedy(self):
         x, force = strokes(200)

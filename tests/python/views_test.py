@@ -212,7 +212,9 @@ class Reprs(TestCase):
         residual = {"rms": 0.1, "left_out_rms": 0.1, "recording_rms": 1.0, "unit": "N"}
         value = {"name": "mu", "unit": "", "value": 0.3, "low": 0.2, "high": 0.4, "main": True}
         fit = tactus.Fit({"kind": "friction", "verdict": "good", "parameters": [value], "lacking": [], "notes": [], "residual": residual, "rows": 10})
-        return [check, check.conditions[0], limits, tactus.Interval(0.0, 1.0, True, True), fit, fit.values["mu"], tactus.Devices([condition] * 20),
+        loss = dict(id="clip/rate", where="", text="text " * 100, remedy="remedy " * 100)
+        written = tactus.Conversion({"files": [{"name": "a.ahap", "losses": [loss], "differences": ["word " * 100]}], "notes": []})
+        return [check, check.conditions[0], written, limits, tactus.Interval(0.0, 1.0, True, True), fit, fit.values["mu"], tactus.Devices([condition] * 20),
                 tactus.Event(3, "turn", "drag.mu", "text " * 100), tactus.Log({"t": np.zeros(3)}, units={}, rate_hz=4000.0)]
 
     def test_every_public_class_has_a_short_one(self):
