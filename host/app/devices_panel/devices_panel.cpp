@@ -51,10 +51,12 @@ void DevicesPanel::show()
 
 void DevicesPanel::rebuild()
 {
-    retired = std::move (columns);
+    // A row may rebuild the card that contains it, and a list of a card that is already gone may still answer: so they are deleted in a later message.
+    const auto retired = std::make_shared<std::vector<std::unique_ptr<Column>>> (std::move (columns));
     columns.clear();
-    for (auto& c : retired)
+    for (auto& c : *retired)
         sheet.removeChildComponent (c.get());
+    juce::MessageManager::callAsync ([retired] {});
     columns.push_back (made.clock());
     for (std::size_t i = 0; i < shown.roles.size(); ++i)
         columns.push_back (made.role (i));

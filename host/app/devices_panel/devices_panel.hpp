@@ -35,7 +35,7 @@ private:
     DeviceBindings edited;
     DeviceCards made;
     DeviceBindings::Shape shown;
-    std::vector<std::unique_ptr<Column>> columns, retired;   // retired: kept alive, because a row may rebuild the card that contains it
+    std::vector<std::unique_ptr<Column>> columns;
     juce::Viewport scroll;
     juce::Component sheet;
     int refreshes = 0;
