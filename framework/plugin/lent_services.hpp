@@ -81,7 +81,7 @@ public:
         Setup made { .rate_hz = s.rate_hz };
         if (s.services == nullptr) return made;
         if (s.services->build_nearest != nullptr)
-            made.services.nearest_triangle = [lent = s.services] (std::shared_ptr<const Mesh> m) { return build (*lent, *m); };
+            made.services.nearest_triangle = [lent = s.services] (const std::shared_ptr<const Mesh>& m) { return build (*lent, *m); };
         if (s.services->add_query != nullptr)
         {
             queries.push_back (std::make_unique<LentQueries> (*s.services));   // the old ones stay: the node may still have questions there

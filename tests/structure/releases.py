@@ -17,7 +17,7 @@ def said(*command):
 
 
 def runs(program, graph, ticks):
-    """What is wrong with the CSV that the example in C prints."""
+    """The mistakes in the CSV that the example in C prints."""
     done = subprocess.run([program, graph, str(ticks)], capture_output=True, text=True)
     rows = [line.split(",") for line in done.stdout.splitlines()]
     if done.returncode != 0 or len(rows) != ticks + 1:

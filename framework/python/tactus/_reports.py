@@ -299,7 +299,7 @@ def _options(given: Mapping[str, Any]) -> bytes:
 
 
 def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = None) -> Any:
-    """What a function of the library returns as JSON. Python handles Ctrl-C only between its own instructions, so another thread calls the function. After
+    """The answer of a function of the library, from JSON. Python handles Ctrl-C only between its own instructions, so another thread calls the function. After
     Ctrl-C, that call ends by itself within seconds, and frees what it uses; the end of the program waits for it."""
     with ExitStack() as used:
         if graph is not None:

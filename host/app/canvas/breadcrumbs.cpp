@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the canvas goes from patch to patch.
+// The way of the canvas from patch to patch.
 #include "canvas.hpp"
 
 namespace tactus::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the canvas paints again after an edit, and how its view follows undo and redo.
+// The parts of the canvas that are painted again after an edit, and the view after undo and redo.
 #include "canvas.hpp"
 #include "paint/cut_line.hpp"
 #include "paint/paint_nodes.hpp"

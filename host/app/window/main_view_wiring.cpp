@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which part of the window calls what. All connections between its parts are here.
+// The connections between the parts of the window.
 #include "graph_commands.hpp"
 #include "main_view.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Which stems a graph has: their names, their channels, and the taps of a run that they are made of.
+/// The stems of a graph: their names, their channels, and the taps of a run that they are made of.
 
 #include "shadow_mixer.hpp"
 #include "stems.hpp"

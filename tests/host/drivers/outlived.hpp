@@ -22,7 +22,7 @@ namespace tactus::test
 /// The time of the steady clock, in ns, by which fakes say when something has happened.
 inline std::int64_t steadyNow() { return std::chrono::nanoseconds (fromNow (std::chrono::nanoseconds (0)).time_since_epoch()).count(); }
 
-/// How long a force on a fake outlives a signal to the program that plays on it, in ms. The shortest of five times, because a busy computer adds to each of
+/// The time for which a force on a fake outlives a signal to the program that plays on it, in ms. The shortest of five times, because a busy computer adds to each of
 /// them. `zero`: the time at which the fake has lost its force since then, or 0.
 template <typename Pushes, typename Zero>
 double outlived (const std::vector<std::string>& play, int signal, Pushes&& pushes, Zero&& zero)

@@ -241,7 +241,7 @@ class Held:
                 yield other, k
 
     def result(self, number: int) -> Tuple[Any, ...]:
-        """What must be the same in two results of one point."""
+        """The values that must be the same in two results of one point."""
         frame, row = self.frames[self.frame[number]][2], self.row[number]
         return frame.numbers[row].tobytes(), self.problems.get(number, [0])[1:], frame.traces[row].tobytes() if frame.traces else b""
 

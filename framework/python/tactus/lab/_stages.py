@@ -75,7 +75,7 @@ def without_motors(graph: Graph) -> Graph:
 
 
 def _shape(graph: Graph) -> Any:
-    """What a graph is, without the values of its parameters and controls, which ramp."""
+    """A graph without the values of its parameters and controls, which ramp."""
     data = json.loads(graph.text)
     for part in (data, *data.get("graphs", {}).values()):
         for node in part.get("nodes", {}).values():

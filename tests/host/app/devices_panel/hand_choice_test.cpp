@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What moves a tool if the user has a device for it and also a mouse, and what the panels say about that.
+// The hand of a tool for which the user has a device and also a mouse, and the words of the panels about it.
 #include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
 

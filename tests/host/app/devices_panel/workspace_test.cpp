@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the hand is: a role's workspace in the Devices panel, and the box that its device can reach in the scene. The force steps nowhere.
 
+#include "host/app/support/board_bench.hpp"
 #include "host/app/support/desk_stage.hpp"
 #include "host/app/support/film_steps.hpp"
 #include "host/app/support/seen_text.hpp"
@@ -11,6 +12,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::BoardBench;
 using tactus::host::test::DeskRig;
 using tactus::host::test::DeskStage;
 using tactus::host::test::latestStep;
@@ -19,47 +21,24 @@ using tactus::host::test::stepsChecked;
 
 namespace
 {
-/// The panel and the hand with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
-struct Bench : DeskStage
+struct Bench final : BoardBench<DeskStage>
 {
-    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : DeskStage (preset, 1600, 1000), role (std::move (of))
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : BoardBench (preset, std::move (of))
     {
         show<DevicesPanel> (devicesPanel);
         showHand();
-        panel().bindings().bind (role, "simulated PHANTOM 1.0");
-        set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
-        set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
-        REQUIRE (binding().contains ("hand"));
-        click ("3D");
-        run().film().keep (FilmTape::longest_s);
+        bind();
     }
-    Bench (const Bench&) = delete;
-    Bench& operator= (const Bench&) = delete;
 
-    const std::string role;
-
-    LiveRun& run() { return playback.run(); }
-    DevicesPanel& panel() { return dynamic_cast<DevicesPanel&> (*DeskRig::panel->component); }
+    LiveRun& run() override { return playback.run(); }
+    DevicesPanel& panel() override { return dynamic_cast<DevicesPanel&> (*DeskRig::panel->component); }
     SceneView& scene() { return hand->scene(); }
-    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
-
-    Json saved() const { return Json::parse (home.textOf ("session.json")); }
-    Json binding() const { return saved()["roles"][role]; }
-    Json workspace() const { return binding().value ("workspace", Json()); }
-
-    template <typename F>
-    bool until (F&& isSo)
-    {
-        return host::test::waitFor (isSo, 5);
-    }
 
     void start()
     {
         playback.start ({});
-        REQUIRE (until ([&] { return run().tool() && force() > 0.0 && ticks() > 0; }));
+        REQUIRE (isPushing());
     }
-    double force() { return run().tool() ? run().tool()->force.norm() : 0.0; }
-    Vec3 origin() { return run().workspaceOf (role)->offset; }
 
     /// A capture that never triggers ends with the run.
     void watchRun (const char* port)
@@ -68,24 +47,6 @@ struct Bench : DeskStage
         REQUIRE (names);
     }
     bool isSameRun() { return run().isCapturing(); }
-
-    /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
-    juce::TextEditor& field (const juce::String& label)
-    {
-        auto* found = dynamic_cast<juce::TextEditor*> (titledIn (panel(), label));
-        REQUIRE (found != nullptr);
-        const auto isReached = [&] {
-            const auto* at = stage->getComponentAt (middleOf (*found).roundToInt());
-            return at != nullptr && (at == found || found->isParentOf (at));
-        };
-        for (int i = 0; i < 100 && ! isReached(); ++i)   // from the top downwards
-        {
-            stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), i == 0 ? 100.0f : -0.1f, true);
-            settle (2);
-        }
-        REQUIRE (isReached());
-        return *found;
-    }
 
     bool says (const juce::String& text)
     {
@@ -96,8 +57,6 @@ struct Bench : DeskStage
             words.addTokens (seen.text, false);
         return words.joinIntoString (" ").replace ("  ", " ").contains (text);
     }
-
-    std::uint64_t ticks() { return run().film().end(); }
 
     void type (const juce::String& label, const juce::String& text)
     {

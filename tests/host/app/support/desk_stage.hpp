@@ -113,7 +113,7 @@ struct DeskStage : OnStage, DeskRig, private juce::Timer
         settle();
     }
 
-    /// Where a place of the canvas is on the screen.
+    /// The point of the screen at a place of the canvas.
     juce::Point<float> onStage (juce::Point<float> on_canvas) { return stage->getLocalPoint (&canvas, canvas.view().toPixels (on_canvas)); }
 
     const graph::Graph& graph() const { return document.graph(); }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The Take panel beside the hand, with a mouse.
 #include "host/app/support/desk_stage.hpp"
+#include "host/app/support/lowest_place.hpp"
 #include "host/app/support/seen_text.hpp"
 
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/run/views/safety_strip.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <host/app/top_bar/top_bar.hpp>
-#include <host/base/assets/file_assets.hpp>
-#include <tactus/run/log/stretch.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -20,6 +19,7 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskStage;
 using tactus::host::test::latestStep;
+using tactus::host::test::lowest;
 using tactus::host::test::OnStage;
 using tactus::host::test::waitFor;
 
@@ -123,20 +123,6 @@ struct Recorder
     /// Chooses from the list of takes.
     void choose (int steps) { w.choose (w.middleOf (*w.titled ("Takes")), steps, juce::ModifierKeys::leftButtonModifier); }
 };
-
-/// Where the hand was when it was lowest.
-Vec3 lowest (const std::filesystem::path& log, const std::string& program)
-{
-    FileAssets assets;
-    Messages warnings;
-    const auto played = readStretch (log.string(), { .role = "stylus", .assets = &assets, .program = program }, warnings);
-    REQUIRE (played);
-    REQUIRE (played->ticks() > 0);
-    Vec3 place (0.0, 0.0, 1.0);
-    for (auto row = played->movement.begin(); row != played->movement.end(); row += static_cast<std::ptrdiff_t> (played->columns.size()))
-        if (row[3] < place.z()) place = Vec3 (row[1], row[2], row[3]);
-    return place;
-}
 }   // namespace
 
 TEST_CASE ("a press on the surface during a take takes the tool: the take begins again, and the one before stays in the list", "[app][take]")

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closing the window, opening another graph, or a crash loses no film and no take without a question.
+#include "host/app/support/lowest_place.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/take/take_panel.hpp>
-#include <host/base/assets/file_assets.hpp>
 #include <tactus/file/csv.hpp>
-#include <tactus/run/log/stretch.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -13,6 +12,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::lowest;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 namespace fs = std::filesystem;
@@ -74,20 +74,6 @@ struct Closing
         REQUIRE (waitFor ([&] { return take().state() == Take::State::ready; }));
     }
 };
-
-/// Where the hand was when it was lowest.
-Vec3 lowest (const fs::path& log, const std::string& program)
-{
-    FileAssets assets;
-    Messages warnings;
-    const auto played = readStretch (log.string(), { .role = "stylus", .assets = &assets, .program = program }, warnings);
-    REQUIRE (played);
-    REQUIRE (played->ticks() > 0);
-    Vec3 place (0.0, 0.0, 1.0);
-    for (auto row = played->movement.begin(); row != played->movement.end(); row += static_cast<std::ptrdiff_t> (played->columns.size()))
-        if (row[3] < place.z()) place = Vec3 (row[1], row[2], row[3]);
-    return place;
-}
 }   // namespace
 
 TEST_CASE ("closing while a film is being saved waits for it, with progress", "[app][closing]")

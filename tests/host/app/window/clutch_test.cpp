@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clutch by a key, which moves the workspace of a device with the hand. The force steps nowhere.
+#include "host/app/support/board_bench.hpp"
 #include "host/app/support/film_steps.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
@@ -8,6 +9,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::BoardBench;
 using tactus::host::test::stepsChecked;
 using tactus::host::test::WindowRig;
 
@@ -22,68 +24,26 @@ T* partIn (juce::Component& c)
     return nullptr;
 }
 
-/// The window with a board, whose stylus the session binds to a simulated PHANTOM 1.0 in a hand that strokes 1 mm above where the board is.
-struct Bench : WindowRig
+struct Bench final : BoardBench<WindowRig>
 {
-    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : WindowRig (preset, 1600, 1000), role (std::move (of))
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : BoardBench (preset, std::move (of))
     {
-        click ("Devices");
-        panel().bindings().bind (role, "simulated PHANTOM 1.0");
-        set ("/hand", R"({"stiffness": 400, "damping": 4, "path": "circle"})");
-        set ("/guard", R"({"max_force": "4 N", "ramp": "50 ms"})");
-        REQUIRE (binding().contains ("hand"));
-        click ("3D");
-        view->run().film().keep (FilmTape::longest_s);
+        showPanel();
+        bind();
     }
-    ~Bench() { view->run().letGo(); }
-    Bench (const Bench&) = delete;
-    Bench& operator= (const Bench&) = delete;
+    ~Bench() override { view->run().letGo(); }
 
-    const std::string role;
-
-    DevicesPanel& panel() { return *partIn<DevicesPanel> (*view); }
+    DevicesPanel& panel() override { return *partIn<DevicesPanel> (*view); }
+    LiveRun& run() override { return view->run(); }
+    void showPanel() override { click ("Devices"); }
     SceneView& scene() { return *partIn<SceneView> (*view); }
-    void set (const char* pointer, const char* text) { panel().bindings().setPart (role, pointer, text); }
-
-    Json saved() const { return Json::parse (home.textOf ("session.json")); }
-    Json binding() const { return saved()["roles"][role]; }
-    Json workspace() const { return binding().value ("workspace", Json()); }
-
-    template <typename F>
-    bool until (F&& isSo)
-    {
-        return host::test::waitFor (isSo, 5);
-    }
 
     void start()
     {
         view->canvas().grabKeyboardFocus();
         key ("F5");
-        REQUIRE (until ([&] { return view->run().tool() && force() > 0.0 && ticks() > 0; }));
+        REQUIRE (isPushing());
     }
-    double force() { return view->run().tool() ? view->run().tool()->force.norm() : 0.0; }
-    Vec3 origin() { return view->run().workspaceOf (role)->offset; }
-
-    /// The field in the Devices panel with this label, scrolled to where the mouse can reach it.
-    juce::TextEditor& field (const juce::String& label)
-    {
-        click ("Devices");
-        auto* found = dynamic_cast<juce::TextEditor*> (titledIn (panel(), label));
-        REQUIRE (found != nullptr);
-        const auto isReached = [&] {
-            const auto* at = stage->getComponentAt (middleOf (*found).roundToInt());
-            return at != nullptr && (at == found || found->isParentOf (at));
-        };
-        for (int i = 0; i < 100 && ! isReached(); ++i)   // from the top downwards
-        {
-            stage->wheel (stage->getLocalPoint (&panel(), juce::Point<float> (40.0f, 60.0f)), i == 0 ? 100.0f : -0.1f, true);
-            settle (2);
-        }
-        REQUIRE (isReached());
-        return *found;
-    }
-
-    std::uint64_t ticks() { return view->run().film().end(); }
 };
 }   // namespace
 

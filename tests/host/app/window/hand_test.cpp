@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What moves the tool: the mouse, a gesture or a device, from one graph to the next and into a take.
+// The hand that moves the tool, from one graph to the next and into a take: the mouse, a gesture or a device.
 #include "host/app/support/follows_mouse.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
@@ -83,7 +83,8 @@ TEST_CASE ("the welcome page promises the mouse only if no device of the user mo
         CHECK (waitFor ([&, device = has_device] { return reads (w, "moved by the device that you chose for it") == device; }));
         CHECK (reads (w, "with the mouse as your hand") != has_device);
         REQUIRE (w.view->part<WelcomePage>().cards().front().name == "Dry wood");
-        w.stage->click (w.stage->getLocalPoint (&w.view->part<WelcomePage>(), w.view->part<WelcomePage>().getChildComponent (3)->getBounds().getCentre()).toFloat());
+        auto& welcome = w.view->part<WelcomePage>();
+        w.stage->click (w.middleOf (*welcome.getChildComponent (3)));
         auto& run = w.view->run();
         REQUIRE (waitFor ([&] { return ! w.view->part<WelcomePage>().isVisible(); }));
         CHECK ((run.hand() == LiveRun::Hand::pointer()) != has_device);

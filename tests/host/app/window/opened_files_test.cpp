@@ -27,7 +27,7 @@ const fs::path heart = TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", clip
 
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
 
-/// Where a node is on the screen.
+/// The point of the screen at a node.
 juce::Point<float> placeOf (WindowRig& w, const std::string& name)
 {
     auto& canvas = w.view->canvas();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is on the screen is what should be there, whatever has happened before: no place keeps an old picture, and nothing of a run or a graph reaches
+// The screen shows what should be there, whatever has happened before: no place keeps an old picture, and nothing of a run or a graph reaches
 // the next one.
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests in Node.js and in a browser share.
+// Functions that the tests in Node.js and in a browser share.
 
 /** Moves all roles of an exported graph as a trace says, and gives what it records as lines of CSV, as `tactus render` does. */
 export function render (graph, trace, sets)
