@@ -12,7 +12,6 @@ import json
 import pathlib
 import subprocess
 import sys
-import time
 import wave
 
 import numpy
@@ -81,7 +80,7 @@ def compose(w):
     w.wait(lambda: w.has("24 bit"), "the question about the stems")
     w.shot("stems")
     person.key("Return")
-    time.sleep(2.0)  # until the dialog for the folder is there
+    person.wait("New Folder")  # of the dialog for the folder
     person.key("Return")
     folder = w.home / "Documents" / "Tactus" / "Dry wood stems"
     w.wait(lambda: (folder / "stems.json").exists(), "the stems")
@@ -150,7 +149,8 @@ class Window:
 
 def exchange(w):
     manager = subprocess.Popen(["openbox", "--sm-disable"], env=w.environment, stderr=subprocess.DEVNULL)
-    time.sleep(1.0)
+    root = ["xprop", "-root", "_NET_SUPPORTING_WM_CHECK"]
+    w.wait(lambda: b"window id" in subprocess.run(root, env=w.environment, capture_output=True, check=False).stdout, "the window manager")
     one, other = Window(w, "velvet"), Window(w, "dry_wood")
     one.front()
     w.key("ctrl+a", "ctrl+c")
