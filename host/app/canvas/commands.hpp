@@ -34,6 +34,7 @@ struct NodeRequest
     juce::Point<float> at;
     std::optional<PortId> start {};   ///< the port to connect the new node to
     graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
+    bool modulates = false;           ///< what the new node gives to `start`, a param, moves it around its value, and does not set it
 };
 
 /// The commands for the selection of a canvas and for its patch. Each edit is one undo step.
@@ -94,6 +95,9 @@ public:
 
     void requestNode (NodeRequest);                                 ///< asks the user for a node to add
     void addNodeAt (const std::string& type, const NodeRequest&);   ///< adds a node and connects it as requested
+
+    /// Adds a node of this type that moves a param of a node of the patch around its value; "": asks for it. What it reads of the hand is wired, too.
+    void addModulator (const std::string& node, const std::string& param, const std::string& type);
 
     /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.
     void join (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0);

@@ -93,13 +93,22 @@ void Question::resized()
 {
     const int w = std::min (width, getWidth() - 32);
     const int text_height = static_cast<int> (std::ceil (layout (w - 2 * margin).getHeight()));
-    box = getLocalBounds().withSizeKeepingCentre (w, margin + 24 + 8 + text_height + 24 + 32 + margin);
-    auto row = box.reduced (margin).removeFromBottom (32);
-    for (auto b = buttons.rbegin(); b != buttons.rend(); ++b)
-    {
-        (*b)->setBounds (row.removeFromRight ((*b)->widthFor()));
-        row.removeFromRight (8);
-    }
+    constexpr int gap = 8, high = 32;
+    int in_a_row = -gap;
+    for (const auto& b : buttons)
+        in_a_row += b->widthFor() + gap;
+    const bool is_list = in_a_row > w - 2 * margin;   // long labels: one below the other
+    const int rows = is_list ? static_cast<int> (buttons.size()) : 1;
+    box = getLocalBounds().withSizeKeepingCentre (w, margin + 24 + 8 + text_height + 24 + rows * (high + gap) - gap + margin);
+    auto area = box.reduced (margin).removeFromBottom (rows * (high + gap) - gap);
+    for (const auto& b : buttons)
+        if (is_list)
+            b->setBounds (area.removeFromTop (high + gap).withHeight (high));
+        else
+        {
+            b->setBounds (area.withLeft (area.getRight() - in_a_row).withWidth (b->widthFor()));
+            in_a_row -= b->widthFor() + gap;
+        }
 }
 
 void Question::paint (juce::Graphics& g)
@@ -119,9 +128,9 @@ bool Question::keyPressed (const juce::KeyPress& key)
 {
     if (key == juce::KeyPress::returnKey || key == juce::KeyPress::spaceKey)
         answer (marked);
-    else if (key == juce::KeyPress::rightKey || key == juce::KeyPress::tabKey)
+    else if (key == juce::KeyPress::rightKey || key == juce::KeyPress::downKey || key == juce::KeyPress::tabKey)
         mark ((marked + 1) % choices.size());
-    else if (key == juce::KeyPress::leftKey)
+    else if (key == juce::KeyPress::leftKey || key == juce::KeyPress::upKey)
         mark ((marked + choices.size() - 1) % choices.size());
     else
         return false;

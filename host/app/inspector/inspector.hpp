@@ -28,7 +28,9 @@ public:
     std::function<void (const juce::String&)> onHint;     ///< receives the reason why an edit was refused
     std::function<void (const juce::String&)> onNotice;   ///< receives what stays in the status line, such as the range of a param
     std::function<void (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)>
-        onChooseFile;                        ///< asks for a file that a setting names, see EditorContext::choose
+        onChooseFile;   ///< asks for a file that a setting names, see EditorContext::choose
+    std::function<void (const std::string& node, const std::string& param, const std::string& type)>
+        onModulate;                          ///< adds a node of this type that moves a param around its value; "": one that the user chooses
     std::function<Messages()> messagesNow;   ///< returns the messages about the current graph
     LiveValues valuesNow;                    ///< of params of the patch that is inspected
     void refreshLive();                      ///< shows these values; call it many times a second

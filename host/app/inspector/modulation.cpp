@@ -119,6 +119,17 @@ std::optional<graph::Command> changeDepth (const graph::Graph& g, const Modulati
     return graph::Batch { NEEDS_TRANS ("change depth"), { graph::ChangeWire { m.patch, m.wire, std::move (changed) } } };
 }
 
+Result<double> readDepth (const std::string& typed, const Modulation& m, const PortSheet& sheet)
+{
+    auto any = sheet;
+    any.limits = {};   // they are those of the parameter
+    const auto shown = withBestPrefix ({ rounded (std::abs (m.depth)), {}, 1.0 }, any);
+    const auto plain = wholeNumber (typed);
+    const auto read = readQuantity (plain ? QuantityText { *plain, shown.unit, shown.scale }.toJson() : Json (typed), any);
+    if (! read) return read.error();
+    return read->si();
+}
+
 graph::Command removeModulation (const Modulation& m)
 {
     return graph::Batch { NEEDS_TRANS ("end modulation"), { graph::RemoveWire { m.patch, m.wire } } };

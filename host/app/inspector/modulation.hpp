@@ -43,6 +43,9 @@ juce::String textOf (const Modulation&);
 /// that can be changed.
 std::optional<graph::Command> changeDepth (const graph::Graph&, const Modulation&, double to);
 
+/// Reads a depth that the user typed, in SI units of the parameter. A number without a unit has the unit in which the depth is shown.
+Result<double> readDepth (const std::string& typed, const Modulation&, const PortSheet&);
+
 /// Removes the wire.
 graph::Command removeModulation (const Modulation&);
 

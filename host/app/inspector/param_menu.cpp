@@ -73,6 +73,19 @@ void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_na
                         i.assign (n, p, id);
                     });
             }
+            if (onModulate)
+            {
+                juce::PopupMenu by;
+                for (const auto type : { "signal.lfo", "signal.envelope", "signal.noise", "motion.velocity" })
+                    if (const auto* known = catalogue.find (type))
+                        by.addItem (fromUtf8 (known->info.name), [safe = SafePointer (this), at, type] {
+                            if (safe != nullptr) safe->onModulate (at.node, at.port, type);
+                        });
+                by.addItem (TRANS ("Another node..."), [safe = SafePointer (this), at] {
+                    if (safe != nullptr) safe->onModulate (at.node, at.port, {});
+                });
+                menu.addSubMenu (TRANS ("Modulate by"), by);
+            }
             menu.addSeparator();
         }
         if (! patch.name.empty())

@@ -4,8 +4,10 @@
 #include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
@@ -145,12 +147,44 @@ private:
                     if (safe != nullptr) safe->document.perform (removeModulation (m), continues ? graph::Step::joined : graph::Step::own);
                 });
             };
+            ring.onType = [this, &ring] (const juce::String& begun) { typeDepth (ring, begun); };
             ring.onHint = refused;
             addAndMakeVisible (ring);
         }
         for (std::size_t i = 0; i < count; ++i)
             rings[i]->show (modulations[i], siOf (current, sheet), sheet, label().length() > 1 ? label() : spokenName (*port.sheet));
         if (has_changed) resized();
+    }
+
+    /// Opens a field for a depth, over the value. It closes with the keyboard focus, which goes back to the ring after Return.
+    void typeDepth (DepthRing& ring, const juce::String& begun)
+    {
+        depth_field = std::make_unique<TextField>();
+        auto& field = *depth_field;
+        field.setTitle (ring.getTitle());
+        field.show (sizeOf (ring.shown()).trimCharactersAtStart (fromUtf8 ("\xc2\xb1+")));
+        field.onApply = [this, safe = SafePointer (&ring)] (const juce::String& text) {
+            if (safe == nullptr) return;
+            const auto depth = readDepth (text.trim().toStdString(), safe->shown(), sheet);
+            auto command = depth ? changeDepth (document.graph(), safe->shown(), *depth) : std::nullopt;
+            if (command) document.perform (std::move (*command));
+            if (! depth && refused) refused (messageText (depth.error()));
+        };
+        field.onReturnKey = [&field, safe = SafePointer (&ring)] {
+            field.apply();
+            if (safe != nullptr) takeFocus (*safe);
+        };
+        field.onFocusLost = [this] {
+            depth_field->apply();
+            juce::MessageManager::callAsync ([safe = SafePointer (this)] {
+                if (safe != nullptr && safe->depth_field && ! safe->depth_field->hasKeyboardFocus (true)) safe->depth_field.reset();
+            });
+        };
+        addAndMakeVisible (field);
+        field.setBounds (ring.getBounds().withX (numbers.front()->getX()).withRight (ring.getX()));
+        takeFocus (field);
+        field.selectAll();
+        if (begun.isNotEmpty()) field.insertTextAtCaret (begun);
     }
 
     void change (const std::optional<Json>& value, bool continues)
@@ -193,6 +227,7 @@ private:
     bool was_driven = false;
     std::vector<Modulation> modulations;
     std::vector<std::unique_ptr<DepthRing>> rings;
+    std::unique_ptr<TextField> depth_field;   // while a depth is being typed
     std::vector<std::unique_ptr<NumberField>> numbers;
     juce::ComboBox choice;
 };

@@ -4,6 +4,7 @@
 #include <host/app/look/size_in_view.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
@@ -313,19 +314,23 @@ bool LayersPanel::isInterestedInFileDrag (const juce::StringArray& files)
     return isClipExtension (file) || extensionOf (file) == ".json";
 }
 
-void LayersPanel::fileDragEnter (const juce::StringArray&, int, int)
+void LayersPanel::showDrop (const juce::String& hint)
 {
     file_over = true;
-    if (onHint) onHint (TRANS ("Drop the clip to add a layer that plays it."));
+    if (onHint) onHint (hint);
     repaint();
 }
 
-void LayersPanel::fileDragExit (const juce::StringArray&)
+void LayersPanel::endDrop()
 {
     file_over = false;
     if (onHint) onHint ({});
     repaint();
 }
+
+void LayersPanel::fileDragEnter (const juce::StringArray&, int, int) { showDrop (TRANS ("Drop the clip to add a layer that plays it.")); }
+
+void LayersPanel::fileDragExit (const juce::StringArray&) { endDrop(); }
 
 void LayersPanel::filesDropped (const juce::StringArray& files, int, int)
 {
@@ -333,6 +338,17 @@ void LayersPanel::filesDropped (const juce::StringArray& files, int, int)
     const std::filesystem::path file { files[0].toStdString() };
     if (isClipFile (file)) return addClip (file);
     if (onHint) onHint (filled (TRANS ("%1 is not a clip."), printableName (file.filename().string())));
+}
+
+bool LayersPanel::isInterestedInDragSource (const SourceDetails& dragged)
+{
+    return onPresetDropped && ! fileOfDragged (dragged.description.toString().toStdString()).empty();
+}
+
+void LayersPanel::itemDropped (const SourceDetails& dragged)
+{
+    endDrop();
+    onPresetDropped (fileOfDragged (dragged.description.toString().toStdString()));
 }
 
 void LayersPanel::openMenu()

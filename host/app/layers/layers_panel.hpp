@@ -13,8 +13,8 @@ namespace tactus::host
 {
 
 /// A layer mixer of the graph as a mixing desk: a strip for each layer, one for each signal that reaches the motor past it, and the master strip. A clip
-/// file dropped on it becomes a layer.
-class LayersPanel final : public juce::Component, public juce::FileDragAndDropTarget, private Document::Listener
+/// file or a preset dropped on it becomes a layer.
+class LayersPanel final : public juce::Component, public juce::FileDragAndDropTarget, public juce::DragAndDropTarget, private Document::Listener
 {
 public:
     LayersPanel (Document&, Traces&, const Catalogue&);
@@ -25,6 +25,7 @@ public:
     std::function<void (const std::string& patch, graph::Id node)> onSelect;
     std::function<void (const std::string& patch, graph::Id node)> onAdded;   ///< receives the node of a layer that the user has just added
     std::function<void (const juce::String&)> onHint;
+    std::function<void (const std::filesystem::path& file)> onPresetDropped;
     /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. If this is not set, the layer begins without a file.
     std::function<void (std::function<void (const std::filesystem::path&)> chosen)> onChooseClip;
 
@@ -50,6 +51,10 @@ public:
     void fileDragEnter (const juce::StringArray&, int, int) override;
     void fileDragExit (const juce::StringArray&) override;
     void filesDropped (const juce::StringArray&, int, int) override;
+    bool isInterestedInDragSource (const SourceDetails&) override;
+    void itemDragEnter (const SourceDetails&) override { showDrop (TRANS ("Drop it to add it to this graph, as a node and a layer.")); }
+    void itemDragExit (const SourceDetails&) override { endDrop(); }
+    void itemDropped (const SourceDetails&) override;
 
     void paint (juce::Graphics&) override;
     void paintOverChildren (juce::Graphics&) override;
@@ -75,6 +80,8 @@ private:
     juce::AttributedString introductionText (int parts) const;
     void layOutIntroduction();
     void drag (int layer, int x, bool let_go);
+    void showDrop (const juce::String& hint);
+    void endDrop();
 
     Document& document;
     const Catalogue& catalogue;

@@ -3,6 +3,7 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/list_text.hpp>
 
@@ -13,6 +14,19 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// "Dry wood stems 2" if there is a folder "Dry wood stems" among the own files. The dialog would open in it.
+std::string freeFolder (const std::string& name)
+{
+    std::error_code failed;
+    auto free = name;
+    for (int n = 2; std::filesystem::exists (ownFolder() / free, failed); ++n)
+        free = name + ' ' + std::to_string (n);
+    return free;
+}
+}   // namespace
+
 void StemExport::ask()
 {
     const auto& g = desk.document.graph();
@@ -22,7 +36,7 @@ void StemExport::ask()
         return Question::Choice { label, [this, graph, name, options] {
                                      // A point would begin the ending of another kind of file.
                                      const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();
-                                     desk.chooseOwnFile (legal + " stems", [this, graph, options] (const auto& into) { render (*graph, options, into); });
+                                     desk.chooseOwnFile (freeFolder (legal + " stems"), [this, graph, options] (const auto& into) { render (*graph, options, into); });
                                  } };
     };
     constexpr double rate_hz = 48000.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_search.hpp"
 
+#include <host/app/adding/node_palette.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
@@ -21,6 +22,7 @@ struct CommandSearch::Action
     std::function<void()> act;
     std::string key {};                  // what the list calls it; empty: its name
     std::vector<Findable> searched {};   // it is found as the best of them; empty: by its name, and by what is said about it
+    bool comes_last = false;             // after all that is in the graph and in the window
 };
 
 namespace
@@ -143,6 +145,22 @@ void CommandSearch::addNodes (std::vector<Action>& all)
         all.push_back (std::move (f.second));
 }
 
+/// Adds what can be added to the patch that the canvas shows.
+void CommandSearch::addTypes (std::vector<Action>& all)
+{
+    auto& canvas = parts.patching;
+    if (parts.welcome.isVisible()) return;
+    for (auto& t : paletteTypes (parts.edited.graph(), parts.catalogue))
+    {
+        const auto add = [this, &canvas, type = t.entry.type] {
+            parts.turnTo (canvas);
+            addNode (parts.desk, type, { canvas.commands().pointerOrCentre() });
+        };
+        const auto name = filled (TRANS ("Add %1"), t.entry.name.empty() ? t.entry.type : t.entry.name);
+        all.push_back ({ name, TRANS ("A node to add"), add, "add " + t.entry.type, { std::move (t.searched) }, true });
+    }
+}
+
 void CommandSearch::open()
 {
     std::vector<Action> all;
@@ -155,10 +173,12 @@ void CommandSearch::open()
         if (p.panel.actions && ! parts.welcome.isVisible())
             for (auto& a : p.panel.actions())
                 all.push_back ({ std::move (a.name), std::move (a.about), std::move (a.act) });
+    addTypes (all);
     std::map<std::string, std::function<void()>> acts;
     std::vector<PaletteEntry> entries;
     std::vector<Findable> searched;
     std::vector<std::size_t> entry_of;   // by the number in `searched`
+    std::set<std::size_t> last;          // entries
     for (auto& a : all)
     {
         const auto name = a.name.toStdString(), about = a.about.toStdString();
@@ -170,13 +190,15 @@ void CommandSearch::open()
             searched.push_back (std::move (f));
             entry_of.push_back (entries.size());
         }
+        if (a.comes_last) last.insert (entries.size());
         entries.push_back ({ key, name, about });
     }
-    const auto search = [entries, searched, entry_of] (const std::string& query) {
-        std::vector<PaletteEntry> found;
+    const auto search = [entries, searched, entry_of, last] (const std::string& query) {
+        std::vector<PaletteEntry> found, found_last;
         std::set<std::size_t> seen;
         for (const auto i : bestMatches (searched, query))
-            if (seen.insert (entry_of[i]).second) found.push_back (entries[entry_of[i]]);
+            if (seen.insert (entry_of[i]).second) (last.contains (entry_of[i]) ? found_last : found).push_back (entries[entry_of[i]]);
+        if (! juce::String (query).trim().isEmpty()) found.insert (found.end(), found_last.begin(), found_last.end());
         return found;
     };
     const auto choose = [this, acts] (const std::string& chosen) {

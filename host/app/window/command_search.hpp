@@ -22,6 +22,7 @@ private:
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
     void addHands (std::vector<Action>&);
+    void addTypes (std::vector<Action>&);
 
     WindowParts& parts;
     MainMenu& menu;

@@ -171,6 +171,10 @@ void MainView::connect()
     canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (parts.desk, type, request); };
     canvas.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (parts.desk, file); };
 
+    inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) {
+        parts.turnTo (parts.patching);
+        parts.patching.commands().addModulator (node, param, type);
+    };
     inspector.onChooseFile = desk.chooseInput;
     inspector.messagesNow = [this] { return run().messages(); };
     inspector.valuesNow = [this] (const std::string& param) { return parts.live.valuesOf (param); };

@@ -50,7 +50,7 @@ void DepthRing::show (const Modulation& m, double v, const PortSheet& sheet, con
     setTitle (filled (TRANS ("Depth of %1 by %2"), name, m.from));
     const auto text = textOf (m);
     setDescription (text);
-    setTooltip (filled (TRANS ("%1 moves %2: %3. Drag up or down to change the depth, Shift+drag for fine steps; drag it to 0, or press Delete, to end this."),
+    setTooltip (filled (TRANS ("%1 moves %2: %3. Drag up or down to change the depth, Shift+drag for fine steps; double-click to type it; drag it to 0, or press Delete, to end this."),
                         m.from, name, text));
     repaint();
 }
@@ -93,8 +93,19 @@ void DepthRing::mouseUp (const juce::MouseEvent& e)
     if (ends && onEnd) onEnd (true);   // last, because the row and this ring may be replaced
 }
 
+void DepthRing::mouseDoubleClick (const juce::MouseEvent& e)
+{
+    if (onType && ! e.mods.isPopupMenu()) onType ({});
+}
+
 bool DepthRing::keyPressed (const juce::KeyPress& key)
 {
+    const bool is_digit = isTypedNumber (key);
+    if (onType && (is_digit || key.isKeyCode (juce::KeyPress::returnKey)))
+    {
+        onType (is_digit ? juce::String::charToString (key.getTextCharacter()) : juce::String());
+        return true;
+    }
     if (isErasing (key))
     {
         if (onEnd) onEnd (false);

@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// A small dial that shows how far a modulator moves a parameter around its value. Drag up or down to change the depth (shift: fine), also with the arrow
-/// keys. A drag to 0, or Delete, ends the modulation.
+/// keys. Double-click or press Return to type it. A drag to 0, or Delete, ends the modulation.
 class DepthRing final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -25,12 +25,14 @@ public:
 
     std::function<void (double depth, bool continues)> onChange;
     std::function<void (bool continues)> onEnd;
+    std::function<void (const juce::String& begun)> onType;   ///< opens a field for the depth; `begun`: what is typed already
     std::function<void (const juce::String&)> onHint;
 
     void paint (juce::Graphics&) override;
     void mouseDown (const juce::MouseEvent&) override;
     void mouseDrag (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
+    void mouseDoubleClick (const juce::MouseEvent&) override;
     void mouseEnter (const juce::MouseEvent&) override { repaint(); }
     void mouseExit (const juce::MouseEvent&) override { repaint(); }
     void focusGained (FocusChangeType) override { repaint(); }

@@ -219,3 +219,83 @@ TEST_CASE ("a node on the canvas shows how far modulators move its parameter", "
     REQUIRE (w.document.perform (graph::ReplaceGraph { std::make_shared<const graph::Graph> (s.graph) }));
     CHECK (shown ("drag", "static_ratio") == "1.5 " + sign + "0.2 +0.25");
 }
+
+TEST_CASE ("a depth can be typed on its dial, in the unit that it shows", "[app][modulation]")
+{
+    DeskStage w (wavy ("0.02"), 1280, 1000);
+    w.select ("drag");
+    const auto ring = [&] { return dynamic_cast<DepthRing*> (w.titled ("Depth of mu by wave.out")); };
+    REQUIRE (ring() != nullptr);
+    const auto before = writeGraph (w.graph());
+    for (const juce::String begin : { "return", "0" })   // Return selects what is there, and a digit replaces it
+    {
+        ring()->grabKeyboardFocus();
+        w.key (begin);
+        OnStage::settle();
+        w.stage->type (begin == "0" ? ".1" : "0.1");
+        w.key ("return");
+        OnStage::settle();
+        REQUIRE (ring() != nullptr);
+        CHECK (ring()->shown().depth == Approx (0.1));
+        CHECK (ring()->hasKeyboardFocus (false));
+        CHECK (writeGraph (w.graph()).find ("wave.out") != std::string::npos);
+        w.document.undo();
+        CHECK (writeGraph (w.graph()) == before);
+        OnStage::settle();
+    }
+    ring()->grabKeyboardFocus();
+    w.key ("return");
+    OnStage::settle();
+    w.stage->type ("3 N");
+    w.key ("return");
+    OnStage::settle();
+    CHECK (writeGraph (w.graph()) == before);
+    CHECK (w.status.text().contains ("does not fit"));
+
+    const auto all = modulationsAt (w.graph(), "drag.mu", catalogue());
+    PortSheet newtons;
+    newtons.unit = UnitRule { UnitRule::Kind::fixed, unit::newton };
+    const auto small = Modulation { .depth = 0.008, .unit = "N" };
+    CHECK (*readDepth ("30", small, newtons) == Approx (0.03));   // it shows mN
+    CHECK (*readDepth ("30 N", small, newtons) == Approx (30.0));
+    CHECK (*readDepth ("-5", small, newtons) == Approx (-0.005));
+    CHECK_FALSE (readDepth ("much", small, newtons));
+    REQUIRE (all.size() == 1);
+}
+
+TEST_CASE ("the menu of a parameter adds what modulates it: it stays the base, and one undo takes all away", "[app][modulation]")
+{
+    DeskStage w ("dry_wood.json");
+    const auto before = writeGraph (w.graph());
+    const auto choose = [&] (const juce::String& name) {
+        juce::PopupMenu menu;
+        w.inspector.fillParamMenu (menu, "drag", "mu");
+        for (juce::PopupMenu::MenuItemIterator i (menu, true); i.next();)
+            if (i.getItem().text == name && i.getItem().action) return i.getItem().action();
+        FAIL ("there is no " << name);
+    };
+    for (const juce::String type : { "LFO", "Envelope", "Noise" })
+    {
+        INFO (type);
+        w.select ("drag");
+        const auto value = w.graph().root.find ("drag")->params.at ("mu");
+        choose (type);
+        OnStage::settle();
+        const auto made = first (w.graph(), "drag.mu");
+        CHECK (made.depth != 0.0);
+        CHECK (w.graph().root.find ("drag")->params.at ("mu") == value);
+        w.document.undo();
+        CHECK (writeGraph (w.graph()) == before);
+        OnStage::settle();
+    }
+    w.select ("drag");
+    choose ("Velocity");
+    OnStage::settle();
+    const auto made = first (w.graph(), "drag.mu");
+    const auto name = made.from.substr (0, made.from.find ('.'));
+    const auto& wires = w.graph().root.wires;
+    CHECK (std::ranges::any_of (wires, [&] (const graph::Wire& wire) { return wire.to.node == name && wire.to.port == "position"; }));   // of the hand
+    CHECK (made.is_one_sided);
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == before);
+}

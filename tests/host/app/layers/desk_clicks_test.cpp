@@ -5,9 +5,11 @@
 #include <host/app/layers/fader.hpp>
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/presets/preset_list.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 
+#include <algorithm>
 #include <set>
 
 using namespace tactus;
@@ -223,4 +225,25 @@ TEST_CASE ("a layer that was added while nothing runs shows no level of another 
     const std::set<juce::String> marks { "10 N", "1 N", "0.1 N", "10 mN", "1 mN" };   // of the scale
     for (const auto& seen : host::test::readTexts (panel))
         if (seen.text.endsWith (" mN") || seen.text.endsWith (" N")) CHECK (marks.contains (seen.text));
+}
+
+TEST_CASE ("a preset that is dropped on the mixer is a layer of it, in one undo step", "[app][layers]")
+{
+    DeskStage w ("dry_wood.json");
+    auto& panel = w.show<LayersPanel> (layersPanel);
+    const auto before = writeGraph (w.graph());
+    const auto presets = presetsIn (TACTUS_SOURCE_DIR "/graphs", catalogue());
+    const auto bell = std::ranges::find (presets, "Bronze bell", &Preset::name);
+    REQUIRE (bell != presets.end());
+    const juce::DragAndDropTarget::SourceDetails dragged (juce::String (asDragged (*bell)), nullptr, {});
+    CHECK_FALSE (panel.isInterestedInDragSource ({ juce::String ("something else"), nullptr, {} }));
+    REQUIRE (panel.isInterestedInDragSource (dragged));
+    panel.itemDragEnter (dragged);
+    CHECK (w.status.text().contains ("Drop it"));
+    panel.itemDropped (dragged);
+    DeskStage::settle();
+    CHECK (std::ranges::any_of (w.graph().root.nodes, [] (const graph::Node& n) { return n.type.starts_with ("graph:"); }));
+    CHECK (w.status.text().contains ("as a layer"));
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == before);
 }

@@ -3,6 +3,7 @@
 #include "host/app/support/desk_rig.hpp"
 #include "host/app/support/wait_for.hpp"
 
+#include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <host/app/stems/stem_export.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -84,6 +86,26 @@ TEST_CASE ("the stems of the open graph are exported, and they add up to its mix
     }
     CHECK (peak > 0.05);
     CHECK (worst < 1e-5 * (1.0 + peak));
+}
+
+TEST_CASE ("a second export proposes another folder, because the dialog would open in the first one", "[app][stems]")
+{
+    const TemporaryFolder own;
+    const char* before = std::getenv ("TACTUS_GRAPHS");
+    const std::string kept = before != nullptr ? before : "";
+    setenv ("TACTUS_GRAPHS", own.path().c_str(), 1);
+    std::vector<std::filesystem::path> proposed;
+    for (int i = 0; i < 3; ++i)
+    {
+        DeskRig r ("bronze_bell.json");
+        StemExport stems (r.desk);
+        r.desk.chooseFile = [&] (bool, const std::filesystem::path& begin, const auto&) { proposed.push_back (begin); };
+        stems.ask();
+        r.question.answer (0);
+        std::filesystem::create_directories (proposed.back());   // as an export does
+    }
+    kept.empty() ? unsetenv ("TACTUS_GRAPHS") : setenv ("TACTUS_GRAPHS", kept.c_str(), 1);
+    CHECK (proposed == std::vector { own / "Bronze bell stems", own / "Bronze bell stems 2", own / "Bronze bell stems 3" });
 }
 
 TEST_CASE ("a clip of each layer is exported in each format", "[app][stems]")

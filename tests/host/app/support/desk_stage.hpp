@@ -147,6 +147,7 @@ private:
         canvas.onEditParams = [this] { inspector.focusFirst(); };
         canvas.onProbe = [this] (const auto& ports) { desk.probe (ports); };
         canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (desk, g); };
+        inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) { canvas.commands().addModulator (node, param, type); };
         inspector.messagesNow = [this] { return playback.run().messages(); };
         inspector.valuesNow = [this] (const std::string& param) { return live.valuesOf (param); };
     }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/desk_stage.hpp"
+
+#include <host/app/dialogs/question.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <vector>
+
+using namespace tactus::host;
+using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
+
+TEST_CASE ("the answers of a question are readable, in a row or, if they are long, one below the other", "[app][question]")
+{
+    DeskStage w;
+    int answered = -1;
+    const auto ask = [&] (const std::vector<juce::String>& labels) {
+        std::vector<Question::Choice> choices;
+        for (int i = 0; const auto& l : labels)
+            choices.push_back ({ l, [&answered, i = i++] { answered = i; } });
+        w.question.ask ("Where do you feel 'Two fingers'?", "Choose a device of this graph for each of its tools.", std::move (choices));
+        OnStage::settle();
+        std::vector<juce::Rectangle<int>> seen;
+        for (auto* child : w.question.getChildren())
+            if (auto* b = dynamic_cast<PlainButton*> (child))
+            {
+                CHECK (b->getWidth() >= b->widthFor());
+                CHECK (w.question.getLocalBounds().contains (b->getBounds()));
+                CHECK (std::ranges::none_of (seen, [&] (const auto& other) { return other.intersects (b->getBounds()); }));
+                seen.push_back (b->getBounds());
+            }
+        REQUIRE (seen.size() == labels.size());
+        return seen;
+    };
+    const auto row = ask ({ "Save", "Discard", "Cancel" });
+    CHECK (row[0].getY() == row[2].getY());
+    CHECK (row[0].getRight() < row[1].getX());
+    w.question.cancel();
+    CHECK (answered == 2);
+
+    const auto list = ask ({ "thumb on stylus, index on its own device", "index on stylus, thumb on its own device", "Cancel" });
+    CHECK (list[0].getBottom() < list[1].getY());
+    w.key ("cursor down");
+    w.key ("return");
+    CHECK (answered == 1);
+}
