@@ -181,7 +181,9 @@ void FitPanel::fit()
     plot.show (std::move (seen.picture));
     which.showTurned (seen.turned);
     if (unfit.isNotEmpty()) return fail (unfit.toStdString());
-    job.start (*chosen, table, file.string(), settings);
+    job.start (file.string(), [kind = *chosen, read = table, where = file.string(), settings] (FitCourse& course) {
+        return fitRecording (kind, *read, where, settings, &course);
+    });
     showResult();
 }
 

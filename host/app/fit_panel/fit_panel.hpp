@@ -2,11 +2,11 @@
 #pragma once
 
 #include "fit_columns.hpp"
-#include "fit_job.hpp"
 #include "fit_plot.hpp"
 #include "fit_table.hpp"
 
 #include <host/app/look/plain_button.hpp>
+#include <host/app/run/job.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <functional>
@@ -59,7 +59,7 @@ private:
     std::shared_ptr<const Table> table;
     std::filesystem::path file;
     std::optional<FitKind> chosen;
-    FitJob job;
+    Job<FittedGraph, FitCourse> job;
     std::optional<FittedGraph> result;
     juce::String failure;
 

@@ -3,7 +3,6 @@
 
 #include <host/app/text/file_path.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
-#include <tactus/text/caught.hpp>
 
 #include <filesystem>
 #include <set>
@@ -55,42 +54,11 @@ double assetBytes (const graph::Graph& g)
     return sum;
 }
 
-void AssetLoad::start (graph::Graph g, const Catalogue& catalogue)
+std::shared_ptr<const LoadedAssets> loadAssets (const graph::Graph& g, const Catalogue& catalogue)
 {
-    cancel();
-    work = std::make_shared<Work>();
-    began = std::chrono::steady_clock::now();
-    threads.emplace_back (work, std::jthread ([own = work, loaded = work->loaded, g = std::move (g), &catalogue]() mutable {
-                              auto compiled = caught ({}, [&] {
-                                  return compile (g, catalogue, { .assets = &loaded->assets, .services = { .nearest_triangle = nearestByBoxes } });
-                              });
-                              if (compiled) loaded->compiled = std::move (*compiled);   // else the main thread will meet the same error, and report it
-                              loaded.reset();                                           // frees the result if the load was cancelled
-                              own->done = true;
-                          }));
-}
-
-void AssetLoad::cancel()
-{
-    if (work) work->loaded.reset();   // the thread holds the last reference
-    work.reset();
-    forgetFinished();
-}
-
-double AssetLoad::seconds() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now() - began).count(); }
-
-std::shared_ptr<const AssetLoad::Loaded> AssetLoad::take()
-{
-    if (! work || ! work->done) return nullptr;
-    std::shared_ptr<const Loaded> loaded = std::move (work->loaded);
-    work.reset();
-    forgetFinished();
+    auto loaded = std::make_shared<LoadedAssets>();
+    loaded->compiled = compile (g, catalogue, { .assets = &loaded->assets, .services = { .nearest_triangle = nearestByBoxes } });
     return loaded;
-}
-
-void AssetLoad::forgetFinished()
-{
-    std::erase_if (threads, [] (const auto& t) { return t.first->done.load(); });
 }
 
 }   // namespace tactus::host

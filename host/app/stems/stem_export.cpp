@@ -5,8 +5,14 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/base/assets/file_assets.hpp>
+#include <host/devices/live/live_session.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
+#include <tactus/plan/flat/flatten.hpp>
 #include <tactus/text/list_text.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,6 +30,48 @@ std::string freeFolder (const std::string& name)
     for (int n = 2; std::filesystem::exists (ownFolder() / free, failed); ++n)
         free = name + ' ' + std::to_string (n);
     return free;
+}
+
+const Message* errorIn (const Messages& messages)
+{
+    const auto found = std::ranges::find (messages, Message::Severity::error, &Message::severity);
+    return found == messages.end() ? nullptr : &*found;
+}
+
+/// Renders the stems of a graph as `tactus render --stems` does: with the simulated devices of the graph, for the length of the longest path of a hand, or
+/// 10 s. If it is cancelled, nothing is written, unless the run is over. Ids: those of Stems and LiveSession, and run/interrupted.
+Result<WrittenStems> renderStems (const graph::Graph& g, const Catalogue& catalogue, const std::filesystem::path& folder, const StemOptions& options,
+                                  JobCourse& course)
+{
+    if (auto fits = Stems::check (folder); ! fits) return fits.error();
+    FileAssets assets;
+    LiveSession::Options how;
+    how.compile = { .records = Stems::portsOf (plan::flatten (g, catalogue, {}, nullptr, plan::SettingFiles::left_out).flat),
+                    .assets = &assets,
+                    .services = { .nearest_triangle = nearestByBoxes } };
+    how.queries = Run::Queries::within_tick;
+    LiveSession session (catalogue, {}, how);
+    const auto loaded = session.load (g);
+    if (const auto* error = errorIn (loaded)) return *error;
+    const auto opened = session.openDevices();
+    if (const auto* error = errorIn (opened)) return *error;
+
+    auto& run = session.run();
+    double seconds = 0.0;
+    for (const auto& [role, d] : run.devices())
+        seconds = std::max (seconds, d.device->duration());
+    constexpr double usual_s = 10.0, most_s = 600.0;
+    const auto ticks = static_cast<std::size_t> (std::ceil (run.rate() * (seconds > 0.0 ? std::min (seconds, most_s) : usual_s) - 1e-6));
+    Stems stems (run.engine().plan(), options);
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        run.tick();
+        if (auto taken = stems.frame(); ! taken) return taken.error();
+        course.share = static_cast<double> (k) / static_cast<double> (ticks);
+        if (course.cancelled) return Message::error ("run/interrupted", {}, "cancelled; nothing was written", "export the stems again to get them");
+    }
+    course.share = 1.0;
+    return stems.write (folder, g.name);
 }
 }   // namespace
 
@@ -59,7 +107,7 @@ void StemExport::ask()
 void StemExport::render (const graph::Graph& g, const StemOptions& options, const std::filesystem::path& into)
 {
     folder = into;
-    job.start (g, desk.types, into, options);
+    job.start (into.string(), [g, &types = desk.types, into, options] (JobCourse& course) { return renderStems (g, types, into, options, course); });
     title = filled (TRANS ("Rendering stems into %1"), fromUtf8 (into.filename().string()));
     desk.question.ask (title, {}, { { TRANS ("Cancel"), [this] { job.cancel(); } } });
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stem_job.hpp"
-
 #include <host/app/desk/desk.hpp>
+#include <host/app/run/job.hpp>
+#include <host/tools/stems/stems.hpp>
 
 namespace tactus::host
 {
@@ -22,7 +22,7 @@ private:
     void render (const graph::Graph&, const StemOptions&, const std::filesystem::path&);
 
     const Desk& desk;
-    StemJob job;
+    Job<WrittenStems> job;
     std::filesystem::path folder;
     juce::String title;   // of the question that offers to cancel
 };

@@ -4,6 +4,9 @@
 #include "window_parts.hpp"
 
 #include <host/app/run/asset_load.hpp>
+#include <host/app/run/job.hpp>
+
+#include <chrono>
 
 namespace tactus::host
 {
@@ -26,11 +29,12 @@ public:
 
 private:
     WindowParts& parts;
-    AssetLoad load;
-    juce::String title;                                // of the question that offers to cancel
-    std::function<void()> after;                       // shows the graph whose files are being loaded
-    std::shared_ptr<const AssetLoad::Loaded> loaded;   // kept while this graph is open, so that an edit need not load them again
-    const void* loaded_for = nullptr;                  // identity of the graph
+    Job<std::shared_ptr<const LoadedAssets>> load;
+    std::chrono::steady_clock::time_point began;
+    juce::String title;                           // of the question that offers to cancel
+    std::function<void()> after;                  // shows the graph whose files are being loaded
+    std::shared_ptr<const LoadedAssets> loaded;   // kept while this graph is open, so that an edit need not load them again
+    const void* loaded_for = nullptr;             // identity of the graph
 };
 
 }   // namespace tactus::host

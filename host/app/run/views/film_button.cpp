@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_button.hpp"
 
-#include <host/app/film/film_files.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -46,8 +45,8 @@ void FilmButton::refresh()
     tape().keep (isFilming() ? FilmTape::longest_s : length_s);   // a preview has its own tape
     if (job)
     {
-        label (savingText (juce::roundToInt (std::floor (99.0 * job->progress()))));
-        if (job->result()) finish();
+        label (savingText (juce::roundToInt (std::floor (99.0 * job->share()))));
+        if (const auto result = job->take()) finish (*result);
     }
     else if (isFilming())
     {
@@ -152,13 +151,20 @@ void FilmButton::save (std::shared_ptr<const Film> film, const std::filesystem::
     is_saved = false;
     kept = film;
     saved_as = named;
-    job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
+    job.reset();   // it may draw the picture until it has ended
+    picture.emplace (themeOf (*this), space.getLocalBounds(), picture_width);
+    job = std::make_unique<Job<FilmFiles>>();
+    job->start (named.string(), [film = std::move (film), &drawn = *picture, named] (JobCourse& course) {
+        return writeFilm (*film, drawn, named, [&course] (double part) {
+            course.share = part;
+            return ! course.cancelled;
+        });
+    });
     refresh();
 }
 
-void FilmButton::finish()
+void FilmButton::finish (const Result<FilmFiles>& result)
 {
-    const auto& result = *job->result();
     is_saved = result.has_value();
     juce::String text;
     if (result)

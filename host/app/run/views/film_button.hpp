@@ -3,7 +3,8 @@
 
 #include "scene_view.hpp"
 
-#include <host/app/film/film_job.hpp>
+#include <host/app/film/film_files.hpp>
+#include <host/app/run/job.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
@@ -44,7 +45,7 @@ public:
 
     bool isFilming() const noexcept { return first_tick.has_value(); }
     bool isSaving() const noexcept { return job != nullptr; }
-    double progress() const noexcept { return job ? job->progress() : 0.0; }                  ///< of the saving, 0…1
+    double progress() const noexcept { return job ? job->share() : 0.0; }                     ///< of the saving, 0…1
     bool isSaved() const noexcept { return is_saved; }                                        ///< the last film that was to be saved is complete
     double filmed() const { return isFilming() ? tape().secondsSince (*first_tick) : 0.0; }   ///< how much was filmed so far, in s
 
@@ -58,7 +59,7 @@ private:
     void saveOrAskAgain (std::shared_ptr<const Film>, const std::filesystem::path&, const std::function<void()>& then);
     void label (const juce::String&);
     FilmTape& tape() const { return playback.current().film(); }
-    void finish();
+    void finish (const Result<FilmFiles>&);
 
     static constexpr int picture_width = 800;
 
@@ -69,7 +70,8 @@ private:
     std::optional<std::uint64_t> first_tick;   // while it films
     std::shared_ptr<const Film> kept;          // not saved yet
     std::filesystem::path saved_as;            // by the job
-    std::unique_ptr<FilmJob> job;
+    std::optional<FilmPicture> picture;        // drawn by the job
+    std::unique_ptr<Job<FilmFiles>> job;
     bool is_saved = false;
 };
 

@@ -4,7 +4,6 @@
 
 #include "support/waiting.hpp"
 
-#include <host/app/film/film_job.hpp>
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/base/files/wav.hpp>
 #include <host/devices/audio/listening.hpp>
