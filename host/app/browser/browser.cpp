@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "browser.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/presets/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
@@ -19,8 +20,6 @@ namespace tactus::host
 
 namespace
 {
-const graph::Patch* patchOf (const graph::Graph& g, const std::string& name) { return name.empty() ? &g.root : g.find (name); }
-
 bool isNumber (const FacePort& p) { return p.sheet != nullptr && p.width == 1 && ! p.isChoice(); }
 
 /// The value of a param as it is, or would be, written.
@@ -97,7 +96,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
 graph::Batch randomised (const graph::Graph& g, const std::string& patch, std::span<const graph::Id> nodes, const Catalogue& catalogue, std::uint64_t seed)
 {
     graph::Batch batch { filled (NEEDS_TRANS ("randomise, seed %1"), juce::String (seed)).toStdString(), {} };
-    const auto* in = patchOf (g, patch);
+    const auto* in = findPatch (g, patch);
     Random random { seed };
     for (const auto& node : in == nullptr ? std::vector<graph::Node> {} : in->nodes)
     {

@@ -4,6 +4,7 @@
 
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/number_text.hpp>
 
@@ -60,7 +61,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
                              ClipPlays plays, std::optional<double> gain)
 {
     const auto* mixer = findMixer (g, at);
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     if (mixer == nullptr) return mixing::mixerIsGone();
     const int layers = layersOf (*mixer, catalogue);
     const bool fills = layers == 1 && ! type.empty() && wireInto (g, at, 0) == nullptr;   // the only layer is still empty
@@ -112,7 +113,7 @@ Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, co
 
 Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
 {
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* w = wireInto (g, at, layer);
     if (patch == nullptr || findMixer (g, at) == nullptr) return mixing::mixerIsGone();
     if (w == nullptr)

@@ -3,6 +3,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/model/face.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
@@ -25,7 +26,7 @@ constexpr int removed = 1'000'000;   // a list index that cannot exist: marks wh
 void collect (const graph::Graph& g, const std::string& patch, const std::string& path, std::set<std::string>& seen, std::vector<MixerPlace>& found,
               int depth = 0)
 {
-    const auto* in = mixing::patchOf (g, patch);
+    const auto* in = findPatch (g, patch);
     if (in == nullptr || depth > deepest_subgraph || ! seen.insert (patch).second) return;
     for (const auto& n : in->nodes)
     {
@@ -130,7 +131,7 @@ std::vector<MixerPlace> mixersOf (const graph::Graph& g)
 
 const graph::Node* findMixer (const graph::Graph& g, const MixerPlace& at)
 {
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* node = patch == nullptr ? nullptr : patch->find (at.node);
     return node != nullptr && node->id == at.id ? node : nullptr;
 }
@@ -178,7 +179,7 @@ Json layerValue (const graph::Node& node, const Catalogue& catalogue, const std:
 
 const graph::Wire* wireInto (const graph::Graph& g, const MixerPlace& at, int layer)
 {
-    if (const auto* patch = mixing::patchOf (g, at.patch))
+    if (const auto* patch = findPatch (g, at.patch))
         for (const auto& w : patch->wires)
             if (w.to.node == at.node && w.to.port == "in" && w.to.index == layer) return &w;
     return nullptr;
@@ -187,7 +188,7 @@ const graph::Wire* wireInto (const graph::Graph& g, const MixerPlace& at, int la
 std::string_view unitOfLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
 {
     if (at.vectors) return unit::newton.symbol;
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* w = wireInto (g, at, layer);
     const auto* from = w == nullptr ? nullptr : patch->find (graph::firstNameOf (w->from.node));
     if (from == nullptr) return {};

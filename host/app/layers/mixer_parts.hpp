@@ -14,8 +14,6 @@ inline constexpr std::string_view number_mixer = "layer.mix", vector_mixer = "la
 
 inline bool isMixer (std::string_view type) noexcept { return type == number_mixer || type == vector_mixer; }
 
-inline const graph::Patch* patchOf (const graph::Graph& g, const std::string& name) { return name.empty() ? &g.root : g.find (name); }
-
 /// Names in the form in which the setting `names` stores them.
 std::string joined (std::vector<std::string> names);
 

@@ -3,6 +3,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void wireSend (const graph::Wire& layer, bool is_vector, const MixerPlace& bus, 
 Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, const graph::Node& sink,
                                  graph::Batch batch)
 {
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* mixer = findMixer (g, at);
     if (patch == nullptr || mixer == nullptr) return mixing::mixerIsGone();
     const auto* w = wireInto (g, at, layer);
@@ -96,7 +97,7 @@ Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, co
 std::vector<SendTarget> sendTargets (const graph::Graph& g, const MixerPlace& at)
 {
     std::vector<SendTarget> all;
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     if (patch == nullptr) return all;
     const auto driven = wiring::downstreamOf (*patch, at.node);
     for (const auto& n : patch->nodes)
@@ -107,7 +108,7 @@ std::vector<SendTarget> sendTargets (const graph::Graph& g, const MixerPlace& at
 std::vector<Send> sendsOf (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
 {
     std::vector<Send> all;
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* w = wireInto (g, at, layer);
     if (patch == nullptr || w == nullptr) return all;
     for (auto& target : sendTargets (g, at))
@@ -124,7 +125,7 @@ std::vector<Send> sendsOf (const graph::Graph& g, const MixerPlace& at, const Ca
 
 Result<graph::Command> addSend (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, const std::string& sink)
 {
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     const auto* to = patch == nullptr ? nullptr : patch->find (sink);
     if (to == nullptr || inputOf (*to).empty()) return mixing::mixerIsGone();
     return sendInto (g, at, catalogue, layer, *to, { filled (TRANS ("send a layer to %1"), sink).toStdString(), {} });
@@ -132,7 +133,7 @@ Result<graph::Command> addSend (const graph::Graph& g, const MixerPlace& at, con
 
 Result<graph::Command> addSendToNewMotor (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
 {
-    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* patch = findPatch (g, at.patch);
     if (patch == nullptr) return mixing::mixerIsGone();
     graph::Node motor;
     motor.name = freeName (*patch, {}, "shaker");

@@ -69,4 +69,17 @@ juce::TextLayout wrapText (const juce::String& text, const juce::Font& font, juc
     return layout;
 }
 
+void drawFittedText (juce::Graphics& g, const juce::String& text, const juce::Font& font, juce::Colour colour, juce::Rectangle<int> area)
+{
+    const auto layOut = [&] (const juce::String& s) { return wrapText (s, font, colour, static_cast<float> (area.getWidth())); };
+    auto shown = text;
+    auto layout = layOut (shown);
+    while (layout.getHeight() > static_cast<float> (area.getHeight()) && shown.containsChar (' '))
+    {
+        shown = shown.upToLastOccurrenceOf (" ", false, false).trimEnd();
+        layout = layOut (shown.trimCharactersAtEnd (".,:;") + " " + dots);
+    }
+    if (layout.getHeight() <= static_cast<float> (area.getHeight())) layout.draw (g, area.toFloat());
+}
+
 }   // namespace tactus::host

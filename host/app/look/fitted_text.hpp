@@ -21,4 +21,7 @@ juce::String withFittedPath (const juce::String& text, const juce::Font&, float 
 /// Wraps text to a width. A word that is wider, such as a path, is shortened in the middle.
 juce::TextLayout wrapText (const juce::String& text, const juce::Font&, juce::Colour, float width);
 
+/// Draws wrapped text. Text that is too long for the area ends after a whole word, with an ellipsis.
+void drawFittedText (juce::Graphics&, const juce::String& text, const juce::Font&, juce::Colour, juce::Rectangle<int> area);
+
 }   // namespace tactus::host

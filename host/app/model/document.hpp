@@ -53,8 +53,7 @@ public:
     std::uint64_t version() const noexcept { return changes; }
 
     /// The name of a step of the history, with values in the units of the catalogue.
-    std::string stepName (std::size_t step) const { return host::stepName (edits, step, *types); }
-    void setCatalogue (const Catalogue& c) { types = &c; }   ///< the default is catalogue()
+    std::string stepName (std::size_t step) const { return host::stepName (edits, step, catalogue()); }
     const std::filesystem::path& file() const noexcept { return origin().source.file; }
     const std::filesystem::path& preset() const noexcept { return origin().source.preset; }
 
@@ -129,7 +128,6 @@ private:
 
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
-    const Catalogue* types = &catalogue();
     graph::History edits;                                                                // accepts edits with errors: the window shows them as problems, and offers to mend them
     std::vector<std::shared_ptr<Origin>> origins;                                        // one per position of the history
     std::vector<std::pair<std::function<void()>, std::function<void()>>> window_steps;   // one per step of the history: how to undo and redo it

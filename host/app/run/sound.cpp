@@ -71,9 +71,8 @@ void Sound::block (const float* const*, int, float* const* out, int outs, int fr
     if (outs == 0) return;
     for (int from = 0; from < frames; from += longest_block)
         stream->render ({ out[0] + from, static_cast<std::size_t> (std::min (longest_block, frames - from)) });
-    const float gain = volume.load (std::memory_order_relaxed);
     for (int i = 0; i < frames; ++i)
-        out[0][i] = std::tanh (gain * out[0][i]);
+        out[0][i] = std::tanh (out[0][i]);
     for (int c = 1; c < outs; ++c)
         std::copy_n (out[0], frames, out[c]);
 }

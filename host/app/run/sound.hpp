@@ -17,7 +17,7 @@ namespace tactus::host
 class Sound final : private audio::CardUser
 {
 public:
-    static constexpr double newton_at_full_scale = 4.0;
+    static constexpr double newton_at_full_scale = 5.0;
     static constexpr double lowest_hz = 20.0;
     static constexpr int channels = 2;   ///< plays on the first channels of the card, at most this many
 
@@ -31,7 +31,6 @@ public:
     void poll() { keeper.poll(); }   ///< call many times a second; reopens a card that was lost [main thread]
 
     void setTickRate (double hz);                                     ///< call only while nothing ticks [main thread]
-    void setVolume (float v) noexcept { volume = v; }                 ///< 0…1
     void push (double newton) noexcept;                               ///< [tick thread]
     audio::StreamReport report() const { return stream->report(); }   ///< [main thread]
 
@@ -41,7 +40,6 @@ private:
     Result<> open();
 
     std::atomic<bool> on = false;
-    std::atomic<float> volume = 0.8f;
     double tick_rate = 4000.0;
     audio::HighPass high_pass { lowest_hz, tick_rate };
     std::unique_ptr<audio::OutStream> stream;

@@ -2,8 +2,8 @@
 #include "welcome_page.hpp"
 
 #include <host/app/look/button.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/presets/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>

@@ -34,7 +34,6 @@ TEST_CASE ("a vibration is played at its pitch, without clicks", "[app][sound]")
 {
     FakeCards card;
     Sound sound { card };
-    sound.setVolume (1.0f);
     const auto heard = play (sound, card, 4000.0, 2.0, [] (double t) { return std::sin (2.0 * M_PI * 250.0 * t); });
     int rises = 0;
     float loudest = 0.0f, steepest = 0.0f;
