@@ -35,7 +35,11 @@ void Canvas::documentChanged()
     rebuild();
     patch() == patch_before ? repaintEdit (*previous) : repaint();
     if (breadcrumbs().size() != depth_before) frameStart();   // the patch that was shown is gone
-    if (document.isStepping()) followStep (*previous);
+    if (document.isStepping())
+    {
+        followStep (*previous);
+        revealStep();
+    }
     // A view that the user has not moved stays fitted when a node appears outside of it or is moved there, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {
         const auto b = n.bounds();

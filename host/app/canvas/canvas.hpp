@@ -165,6 +165,7 @@ private:
     }
     ViewState viewState() const { return { patch(), window, framed, framed_around }; }
     void followStep (const Scene& before);
+    void revealStep();
     void rebuild();
     TextWidth textWidth() const;
     void repaintEdit (const Scene& before);   ///< what differs from the scene before an edit

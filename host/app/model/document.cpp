@@ -50,7 +50,7 @@ void Document::call (std::string name)
 
 void Document::addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo)
 {
-    if (is_stepping) return;
+    if (isStepping()) return;
     const auto at = edits.position();
     const auto place = [] (std::size_t i) { return static_cast<std::ptrdiff_t> (i); };
     for (auto i = window_steps.size(); i-- > at;)
@@ -99,11 +99,11 @@ void Document::goTo (std::size_t position)
     if (edits.position() == before) return;
     for (auto step = std::min (before, edits.position()); step < std::max (before, edits.position()); ++step)
         if (! std::ranges::all_of (edits.commandsOf (step), onlyMoves)) ++changes;
-    is_stepping = true;
+    stepped_from = before;
     notifyChanged();
     for (const auto& change : of_window)
         if (change) change();
-    is_stepping = false;
+    stepped_from.reset();
 }
 
 bool Document::isChanged() const

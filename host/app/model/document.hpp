@@ -75,8 +75,9 @@ public:
     void redo() { goTo (edits.position() + 1); }
     void goTo (std::size_t position);   ///< undoes or redoes up to that position of the history
 
-    /// True while the listeners are told about an undo or a redo.
-    bool isStepping() const noexcept { return is_stepping; }
+    /// The position before an undo or a redo, while the listeners are told about it.
+    std::optional<std::size_t> steppedFrom() const noexcept { return stepped_from; }
+    bool isStepping() const noexcept { return stepped_from.has_value(); }
 
     /// Replaces the graph as one undo step of that name.
     void open (graph::Graph, Source, const std::string& step);
@@ -134,7 +135,7 @@ private:
     std::vector<Listener*> listeners;
     mutable std::optional<bool> differs;   // from the file; empty until somebody asks
     std::uint64_t changes = 0;             // for version()
-    bool is_stepping = false;
+    std::optional<std::size_t> stepped_from;
 };
 
 /// Joins the edits of one text into one undo step, though the text is applied again and again while it is being typed. Another step in between begins

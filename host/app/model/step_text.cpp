@@ -221,7 +221,57 @@ std::string withObjects (const std::string& name, const graph::History& history,
         if (name.find (objects[i]) == std::string::npos) text += (i == 0 ? " " : ", ") + objects[i];
     return text;
 }
+
+/// Collects what commands change, by patch.
+struct PartsByPatch
+{
+    std::map<std::string, StepParts>& parts;
+    std::set<std::string>& notes;   ///< of the root, as texts: more than one if they change
+
+    void operator() (const graph::AddNode& c) const { parts[c.patch].nodes.insert (c.node.name); }
+    void operator() (const graph::RemoveNode& c) const { parts[c.patch].nodes.insert (c.name); }
+    void operator() (const graph::ExpandNode& c) const { parts[c.patch].nodes.insert (c.name); }
+    void operator() (const graph::RenameNode& c) const { parts[c.patch].nodes.insert ({ c.name, c.to }); }
+    void operator() (const graph::CollapseNodes& c) const { parts[c.patch].nodes.insert (c.name); }
+    void operator() (const graph::AddWire& c) const { parts[c.patch].wires.insert (c.wire.id); }
+    void operator() (const graph::Batch& c) const
+    {
+        for (const auto& command : c.commands)
+            std::visit (*this, withoutPlaces (command).edit);
+    }
+
+    /// The header of the root stores more than its notes, such as snapshots, which no patch shows.
+    void operator() (const graph::SetHeader& c) const
+    {
+        if (! c.patch.empty())
+            parts[c.patch];
+        else if (c.ui)
+            notes.insert (c.ui->is_object() ? c.ui->value ("notes", Json()).dump() : Json().dump());
+    }
+
+    template <typename Other>
+    void operator() (const Other& c) const
+    {
+        if constexpr (requires { parts[c.patch].nodes.insert (c.node); })
+            parts[c.patch].nodes.insert (c.node);
+        else if constexpr (requires { parts[c.patch].wires.insert (c.wire); })
+            parts[c.patch].wires.insert (c.wire);
+        else if constexpr (requires { parts[c.patch]; })
+            parts[c.patch];
+    }
+};
 }   // namespace
+
+std::map<std::string, StepParts> partsOf (const graph::History& history, std::size_t step)
+{
+    std::map<std::string, StepParts> parts;
+    std::set<std::string> notes;
+    for (const auto& all : { history.commandsOf (step), history.inversesOf (step) })
+        for (const auto& c : all)
+            std::visit (PartsByPatch { parts, notes }, withoutPlaces (c).edit);
+    if (notes.size() > 1) parts[""];
+    return parts;
+}
 
 std::string stepName (const graph::History& history, std::size_t step, const Catalogue& catalogue)
 {

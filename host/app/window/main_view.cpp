@@ -10,6 +10,7 @@
 #include <host/base/files/preset_pack.hpp>
 #include <host/base/juce/native_window.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::host
@@ -27,6 +28,15 @@ bool isRecording (const fs::path& file)
 {
     const auto extension = extensionOf (file);
     return extension == ".csv" || extension == ".tsv" || extension == ".txt";
+}
+
+/// What an undo or a redo has done: it may have changed something that is not in view.
+juce::String steppedText (const Document& document)
+{
+    const auto from = *document.steppedFrom(), to = document.history().position();
+    const auto first = std::min (from, to), steps = std::max (from, to) - first;
+    const auto what = steps == 1 ? valueText (document.stepName (first)) : filled (TRANS ("%1 steps"), steps);
+    return filled (to < from ? TRANS ("Undone: %1") : TRANS ("Redone: %1"), what);
 }
 }   // namespace
 
@@ -223,8 +233,8 @@ void MainView::pollLiveNodes()
 void MainView::documentChanged()
 {
     wake();
-    parts.status.clearNotice();
     auto& edited = parts.edited;
+    edited.isStepping() ? parts.status.tell (steppedText (edited)) : parts.status.clearNotice();
     auto& patching = parts.patching;
     const bool is_other = edited.identity() != shown_identity;
     if (is_other)

@@ -5,6 +5,8 @@
 #include <host/app/look/look.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <utility>
+
 namespace tactus::host
 {
 
@@ -15,11 +17,23 @@ class StatusLine final : public juce::Component, public juce::TooltipClient
 public:
     static constexpr int height = 26;
 
-    void hint (const juce::String& text) { show (text, notice); }   ///< empty: no hint
-    void notify (const juce::String& text)                          ///< empty: like clearNotice(), and also removes the hint
+    void hint (const juce::String& text)   ///< empty: no hint
+    {
+        if (text.isNotEmpty() && text == covered) return;
+        covered = {};
+        show (text, notice);
+    }
+    void notify (const juce::String& text)   ///< empty: like clearNotice(), and also removes the hint
     {
         refused = {};
+        covered = {};
         show ({}, text);
+    }
+    void tell (const juce::String& what)   ///< like notify(), and comes before the hint about what is under the pointer now
+    {
+        const auto now = hinted.isNotEmpty() ? hinted : covered;
+        notify (what);
+        covered = now;
     }
     void refuse (const juce::String& why)
     {
@@ -29,7 +43,7 @@ public:
     void clearNotice()
     {
         refused = {};
-        show (hinted, {});
+        show (covered.isNotEmpty() ? std::exchange (covered, {}) : hinted, {});
     }
     void endRefusal() { refused = {}; }   ///< from now on, hints come first again
 
@@ -66,7 +80,8 @@ private:
     }
 
     juce::String hinted, notice;
-    juce::Time refused;   // when the notice came, if it says why something was refused
+    juce::String covered;   // the hint that the notice comes before
+    juce::Time refused;     // when the notice came, if it says why something was refused
 };
 
 }   // namespace tactus::host

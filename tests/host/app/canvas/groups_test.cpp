@@ -196,3 +196,90 @@ TEST_CASE ("groups within groups show their ports at every depth, are no problem
     }
     CHECK (w.graph().graphs.empty());
 }
+
+TEST_CASE ("undo and redo go to the patch that they change, and select what has changed", "[app][canvas][groups][undo]")
+{
+    GroupBench w (1280, 720);
+    w.click ({ "grain", "grain_felt", "drag" });
+    w.key ("g");
+    REQUIRE (w.graph().graphs.size() == 1);
+    const auto inner = w.graph().graphs.front().first;
+    const auto group = std::ranges::find (w.graph().root.nodes, "graph:" + inner, &graph::Node::type)->name;
+    const auto outside = [&] {
+        w.canvas.leaveTo (0);
+        w.canvas.select ({});
+        REQUIRE (w.canvas.patch().empty());
+    };
+    const auto selected = [&] {
+        std::set<std::string> names;
+        for (const auto id : w.canvas.selection())
+            if (const auto* n = w.scene().find (id))
+                names.insert (n->name);
+            else if (w.scene().findWire (id) != nullptr)
+                names.insert ("a wire");
+        return names;
+    };
+    w.canvas.enter (w.node (group));
+    struct Edit
+    {
+        graph::Command command;
+        std::set<std::string> undone, redone;   // what is selected after it
+    };
+    auto delayed = w.graph().find (inner)->wires.front();
+    delayed.delay = 1;
+    const std::vector<Edit> edits {
+        { graph::SetParam { inner, "drag", "mu", Json (0.2) }, { "drag" }, { "drag" } },
+        { graph::RenameNode { inner, "grain", "bark" }, { "grain" }, { "bark" } },
+        { graph::SetNodeKey { inner, "drag", "bypass", Json (true) }, { "drag" }, { "drag" } },
+        { graph::SetHeader { .patch = inner, .ui = Json { { "notes", Json::array() } } }, {}, {} },
+        { graph::ChangeWire { inner, delayed.id, delayed }, { "a wire" }, { "a wire" } },
+        { graph::RemoveNode { inner, "drag" }, { "drag" }, {} },
+    };
+    for (const auto& e : edits)
+    {
+        INFO (graph::nameOf (e.command));
+        REQUIRE (w.document.perform (e.command));
+        outside();
+        w.document.undo();
+        CHECK (w.canvas.patch() == inner);
+        CHECK (std::ranges::includes (selected(), e.undone));
+        CHECK (selected().empty() == e.undone.empty());
+        for (const auto& n : w.scene().nodes())
+            if (e.undone.contains (n.name)) CHECK (w.isInView (n.bounds()));
+        outside();
+        w.document.redo();
+        CHECK (w.canvas.patch() == inner);
+        CHECK (std::ranges::includes (selected(), e.redone));
+        CHECK (selected().empty() == e.redone.empty());
+        w.document.undo();
+    }
+
+    // The other way: the group is shown, and what is undone was done around it.
+    outside();
+    const auto note = setNotes (w.graph(), {}, { Note { { 0.0f, 0.0f, 90.0f, 60.0f }, "bark", {} } }, "add note");
+    for (const auto& command : { graph::Command (graph::SetParam { "", "touch", "window", Json ("0.3 mm") }), note })
+    {
+        REQUIRE (w.document.perform (command));
+        w.canvas.enter (w.node (group));
+        REQUIRE (w.canvas.patch() == inner);
+        w.document.undo();
+        CHECK (w.canvas.patch().empty());
+    }
+
+    // What no patch shows leaves the canvas where it is, and so does a step in the patch that is shown.
+    w.canvas.enter (w.node (group));
+    w.canvas.select ({ w.node ("drag").id });
+    const auto other = w.graph().controls.front();
+    auto turned = other;
+    turned.value = other.value > 0.5 ? 0.1 : 0.9;
+    const auto snapshots = graph::SetHeader { .ui = Json { { "snapshots", Json::array() } } };
+    for (const auto& command : { graph::Command (graph::ChangeControl { other.id, turned }), graph::Command (snapshots),
+                                 graph::Command (graph::SetParam { inner, "grain", "spatial_frequency", Json ("900 1/m") }) })
+    {
+        INFO (graph::nameOf (command));
+        REQUIRE (w.document.perform (command));
+        w.document.undo();
+        CHECK (w.canvas.patch() == inner);
+        CHECK (selected() == std::set<std::string> { "drag" });
+    }
+}

@@ -257,6 +257,39 @@ TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, anot
     };
     const auto at = place ("wall", "damping");
     const auto type = [&] (const juce::String& text) {
+TEST_CASE ("what was undone is said over the hint about what is under the pointer, until the pointer is elsewhere", "[app][words][undo]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    const auto moveTo = [&] (const std::string& name) {
+        const auto& node = *std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
+        w.stage->move (w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.at + juce::Point<float> (30.0f, 10.0f))));
+        WindowRig::settle();
+    };
+    moveTo ("drag");
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "board", "stiffness", Json ("700 N/m") }));
+    moveTo ("drag");
+    const auto hint = w.view->statusText();
+    CHECK (hint.contains ("friction"));
+    w.key ("ctrl + z");
+    WindowRig::settle (100);
+    CHECK (w.view->statusText() == "Undone: board: Stiffness 2 N/mm -> 700 N/m");
+    w.key ("ctrl + y");
+    WindowRig::settle (100);
+    CHECK (w.view->statusText().startsWith ("Redone: board: Stiffness"));
+    moveTo ("motor");
+    CHECK_FALSE (w.view->statusText().startsWith ("Redone"));
+    CHECK (w.view->statusText() != hint);
+    moveTo ("drag");
+    CHECK (w.view->statusText() == hint);
+
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "board", "stiffness", Json ("800 N/m") }));
+    w.view->document().goTo (w.view->document().history().position() - 2);
+    CHECK (w.view->statusText() == "Undone: 2 steps");
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "board", "stiffness", Json ("900 N/m") }));
+    CHECK (w.view->statusText() == hint);   // as before
+}
+
         w.stage->doubleClick (at);
         WindowRig::settle();
         w.key ("ctrl + a");
