@@ -5,6 +5,7 @@
 #include "on_stage.hpp"
 
 #include <host/app/adding/add_graph.hpp>
+#include <host/app/adding/node_palette.hpp>
 #include <host/app/compose/banks.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/run/views/hand_panel.hpp>
@@ -146,6 +147,11 @@ private:
         canvas.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };
         canvas.onEditParams = [this] { inspector.focusFirst(); };
         canvas.onProbe = [this] (const auto& ports) { desk.probe (ports); };
+        canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (desk, file, {}, at); };
+        canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { host::addNode (desk, type, request); };
+        desk.addNode = [this] (const std::string& type) {
+            host::addNode (desk, type, { canvas.view().toCanvas (canvas.getLocalBounds().getCentre().toFloat()) });
+        };
         canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (desk, g); };
         inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) { canvas.commands().addModulator (node, param, type); };
         inspector.messagesNow = [this] { return playback.run().messages(); };

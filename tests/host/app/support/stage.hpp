@@ -8,7 +8,7 @@ namespace tactus::host::test
 
 /// A window on a virtual screen, with a simulated mouse and keyboard. Their events take the same path as in a real window:
 /// through focus, hovering, menus and any component in front of the target.
-class Stage final : public juce::Component
+class Stage final : public juce::Component, public juce::DragAndDropContainer
 {
 public:
     Stage (int width, int height)

@@ -19,22 +19,6 @@ using tactus::host::test::WindowRig;
 namespace
 {
 const std::filesystem::path templates = TACTUS_SOURCE_DIR "/graphs/templates";
-
-/// Where a node of the list is on the screen.
-juce::Point<float> rowOf (WindowRig& w, const std::string& type)
-{
-    auto& nodes = w.view->part<NodeList>();
-    juce::ListBox* list = nullptr;
-    for (auto* child : nodes.getChildren())
-        if (auto* l = dynamic_cast<juce::ListBox*> (child)) list = l;
-    const auto at = std::ranges::find (nodes.entries(), type, &PaletteEntry::type);
-    REQUIRE (list != nullptr);
-    REQUIRE (at != nodes.entries().end());
-    const auto row = static_cast<int> (at - nodes.entries().begin());
-    list->scrollToEnsureRowIsOnscreen (row);
-    WindowRig::settle();
-    return w.stage->getLocalPoint (list, list->getRowPosition (row, true).getCentre()).toFloat();
-}
 }   // namespace
 
 TEST_CASE ("an empty graph offers five templates, each of which can be felt at once", "[app][beginnings]")
@@ -160,71 +144,4 @@ TEST_CASE ("the tour that was seen is not offered at the next start", "[app][beg
     CHECK (other.part<WelcomePage>().isShowing());
     CHECK (WindowRig::buttonIn (other, "Show me around") == nullptr);
     CHECK (WindowRig::buttonIn (other, "New empty graph") != nullptr);
-}
-
-TEST_CASE ("a node is dragged from the list to the canvas", "[app][beginnings]")
-{
-    WindowRig w ("dry_wood.json", 1600, 900);
-    w.click ("Nodes");
-    REQUIRE (w.view->part<NodeList>().isShowing());
-    auto& canvas = w.view->canvas();
-    const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
-    const auto count = w.graph().root.nodes.size();
-    const juce::Point<float> free { 16.0f, 16.0f };
-    const auto place = canvas.view().toCanvas (free);
-    w.stage->drag (rowOf (w, "signal.lfo"), onStage (free));
-    WindowRig::settle();
-    REQUIRE (w.graph().root.nodes.size() == count + 1);
-    CHECK (w.graph().root.nodes.back().type == "signal.lfo");
-    CHECK (canvas.scene().nodes().back().at.getDistanceFrom (place) < 40.0f);
-    CHECK (canvas.hasKeyboardFocus (true));
-    w.key ("ctrl + z");
-    CHECK (w.graph().root.nodes.size() == count);
-}
-
-TEST_CASE ("a node is dragged from the list into a wire", "[app][beginnings]")
-{
-    WindowRig w ("dry_wood.json", 1600, 900);
-    w.click ("Nodes");
-    auto& canvas = w.view->canvas();
-    const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
-    const auto count = w.graph().root.nodes.size();
-    auto* search = w.titled ("Search nodes");
-    REQUIRE (search != nullptr);
-    w.stage->click (w.middleOf (*search));
-    w.stage->type ("reconstruction");
-    REQUIRE (waitFor ([&] { return w.view->part<NodeList>().entries().front().type == "filter.reconstruction"; }));
-    const auto wire = std::ranges::find (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text);
-    REQUIRE (wire != canvas.scene().wires().end());
-    const auto path = wire->path();
-    w.stage->drag (rowOf (w, "filter.reconstruction"), onStage (canvas.view().toPixels (path.getPointAlongPath (path.getLength() / 2))));
-    WindowRig::settle();
-    REQUIRE (w.graph().root.nodes.size() == count + 1);
-    CHECK (std::ranges::count (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text) == 0);
-    CHECK (std::ranges::count (canvas.scene().wires(), "drag.force -> reconstruction.in", &SceneWire::text) == 1);
-}
-
-TEST_CASE ("the list of nodes finds as the palette does, Return adds, and Esc gives the keyboard back", "[app][beginnings]")
-{
-    WindowRig w ("dry_wood.json");
-    w.click ("Nodes");
-    auto* search = w.titled ("Search nodes");
-    REQUIRE (search != nullptr);
-    w.stage->click (w.middleOf (*search));
-    w.stage->type ("grating");
-    REQUIRE (waitFor ([&] { return w.view->part<NodeList>().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
-    const auto count = w.graph().root.nodes.size();
-    w.key ("return");
-    CHECK (w.graph().root.nodes.size() == count + 1);
-    w.stage->click (w.middleOf (*search));
-    w.key ("escape");
-    CHECK (w.view->canvas().hasKeyboardFocus (true));
-
-    w.click ("Presets");
-    w.key ("ctrl + f");
-    w.stage->type ("steel");
-    w.key ("escape");
-    CHECK (w.view->canvas().hasKeyboardFocus (true));
-    w.key ("ctrl + z");   // for the canvas
-    CHECK (w.graph().root.nodes.size() == count);
 }

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hand that moves the tool, from one graph to the next and into a take: the mouse, a gesture or a device.
+// The hand that moves the tool, from one graph to the next and into a take: the mouse, a gesture, or a device and its clutch. Presses that last, and clicks by
+// another button than the left one.
+#include "host/app/support/board_bench.hpp"
+#include "host/app/support/film_steps.hpp"
 #include "host/app/support/follows_mouse.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/devices_panel/devices_panel.hpp>
+#include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/gestures.hpp>
 
 #include <algorithm>
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::BoardBench;
 using tactus::host::test::followsMouse;
+using tactus::host::test::stepsChecked;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
@@ -25,6 +32,49 @@ bool reads (WindowRig& w, const char* text)
     const auto texts = tactus::host::test::readTexts (*w.view);
     return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
 }
+
+bool showsText (juce::Component& in, const juce::String& text)
+{
+    return std::ranges::any_of (tactus::host::test::readTexts (in), [&] (const auto& t) { return t.text == text; });
+}
+
+void forButtons (juce::Component& in, const std::function<void (juce::Button&)>& f)
+{
+    if (auto* b = dynamic_cast<juce::Button*> (&in); b != nullptr && b->isShowing()) f (*b);
+    for (auto* child : in.getChildren())
+        forButtons (*child, f);
+}
+
+template <typename T>
+T* partIn (juce::Component& c)
+{
+    if (auto* part = dynamic_cast<T*> (&c)) return part;
+    for (auto* child : c.getChildren())
+        if (auto* part = partIn<T> (*child)) return part;
+    return nullptr;
+}
+
+struct Bench final : BoardBench<WindowRig>
+{
+    explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : BoardBench (preset, std::move (of))
+    {
+        showPanel();
+        bind();
+    }
+    ~Bench() override { view->run().letGo(); }
+
+    DevicesPanel& panel() override { return *partIn<DevicesPanel> (*view); }
+    LiveRun& run() override { return view->run(); }
+    void showPanel() override { click ("Devices"); }
+    SceneView& scene() { return *partIn<SceneView> (*view); }
+
+    void start()
+    {
+        view->canvas().grabKeyboardFocus();
+        key ("F5");
+        REQUIRE (isPushing());
+    }
+};
 }   // namespace
 
 TEST_CASE ("the mouse or the gesture that the user has chosen moves the next preset's tool, too, until the user chooses otherwise", "[app][hand]")
@@ -144,4 +194,199 @@ TEST_CASE ("a take that begins while the tool is held in a surface gives no knoc
     CHECK (farthest < 2e-3);
     CHECK (waitFor ([&] { return run.tool() && run.tool()->force.norm() == Approx (before.force.norm()).epsilon (0.1); }));
     w.view->run().letGo();
+}
+
+TEST_CASE ("pressing the surface before there is a graph starts nothing", "[app][mouse]")
+{
+    WindowRig w ({}, 1280, 720, false);
+    REQUIRE (w.view->part<WelcomePage>().isVisible());
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = w.middleOf (*surface);
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle (100);
+    CHECK_FALSE (w.view->run().isWanted());
+    CHECK (w.view->part<WelcomePage>().isVisible());
+    CHECK (showsText (*w.titled ("Hand"), "Nothing to feel yet: choose a preset, or add a node."));
+
+    w.click ("Dry wood");
+    w.stage->drag (at, at.translated (30.0f, 0.0f));
+    WindowRig::settle();
+    CHECK (w.view->run().isWanted());
+    w.view->run().letGo();
+}
+
+TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][mouse][safety]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto& run = w.view->run();
+    REQUIRE (run.isWanted());
+    auto& canvas = w.view->canvas();
+    const auto node = [&]() -> const SceneNode& { return *std::ranges::find (canvas.scene().nodes(), "grain", &SceneNode::name); };
+    const auto place = node().at;
+    const auto steps = w.view->document().history().position();
+    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (place + juce::Point<float> (40.0f, 14.0f)));
+    w.stage->hold();
+    w.stage->move (at);
+    w.stage->press();
+    w.stage->move (at.translated (30.0f, 20.0f));
+    w.stage->move (at.translated (60.0f, 40.0f));
+    REQUIRE (node().at != place);
+    w.key ("escape");
+    CHECK (node().at == place);
+    CHECK (w.view->document().history().position() == steps);
+    CHECK_FALSE (run.isWanted());
+    w.stage->move (at.translated (90.0f, 60.0f));
+    w.stage->release();
+    CHECK (node().at == place);
+    run.letGo();
+}
+
+TEST_CASE ("a drag ends when another program gets the keyboard, because the window may not hear of the release", "[app][mouse][hand]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& run = w.view->run();
+    auto* surface = w.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = w.middleOf (*surface);
+    w.stage->move (at);
+    w.stage->press();
+    w.stage->move (at.translated (5.0f, 0.0f));
+    REQUIRE (waitFor ([&] { return run.isRunning() && run.tool() && run.tool()->position.z() < 0.0; }));
+    w.stage->loseKeyboard();
+    WindowRig::settle();
+    CHECK (waitFor ([&] { return run.tool() && run.tool()->position.z() > 0.0; }));
+
+    // Nor does a drag on the canvas go on.
+    w.stage->release();
+    w.stage->regainKeyboard();
+    auto& canvas = w.view->canvas();
+    const auto& board = *std::ranges::find (canvas.scene().nodes(), "board", &SceneNode::name);
+    const auto header = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (board.bounds().getCentre().withY (board.bounds().getY() + 8.0f)));
+    w.stage->move (header);
+    w.stage->press();
+    w.stage->loseKeyboard();
+    WindowRig::settle();
+    const auto before = w.view->document().history().position();
+    w.stage->move (header.translated (40.0f, 40.0f));
+    CHECK (w.view->document().history().position() == before);
+    w.stage->release();
+}
+
+TEST_CASE ("a right or middle click on any button changes nothing, except that any click on STOP stops", "[app][click]")
+{
+    for (const int button : { juce::ModifierKeys::rightButtonModifier, juce::ModifierKeys::middleButtonModifier })
+    {
+        WindowRig w ("dry_wood.json");
+        w.key ("ctrl + 1");
+        REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+        WindowRig::settle();
+        const auto text = [&] { return writeGraph (w.graph()); };
+        const auto before = text();
+        const auto running = w.view->run().isRunning();
+        std::vector<juce::Component::SafePointer<juce::Button>> all;
+        forButtons (*w.view, [&] (juce::Button& b) { all.emplace_back (&b); });
+        REQUIRE (all.size() > 20);
+        for (const auto& b : all)
+        {
+            if (b == nullptr || ! b->isShowing() || b->getButtonText() == "STOP") continue;
+            INFO (b->getButtonText() << " " << b->getTitle());
+            w.stage->click (w.middleOf (*b), button);
+            juce::PopupMenu::dismissAllActiveMenus();
+            WindowRig::settle();
+            CHECK (text() == before);
+            CHECK (w.view->run().isRunning() == running);
+        }
+    }
+}
+
+TEST_CASE ("S moves the workspace with the hand while it is held, and the force does not step", "[app][sessions][safety]")
+{
+    Bench w;
+    w.start();
+    w.view->canvas().grabKeyboardFocus();
+    const auto hold = [&] {   // a key that is held is repeated
+        w.stage->key ("s");
+        WindowRig::settle (10);
+        w.stage->keyUp();   // as some systems do between two repetitions
+        w.stage->key ("s");
+    };
+    REQUIRE (w.until ([&] {
+        hold();
+        return w.force() == 0.0;
+    }));
+    CHECK (w.view->statusText().contains ("until you release S"));
+    SafetyStrip* strip = nullptr;
+    for (auto* child : w.view->getChildren())
+        if (auto* found = dynamic_cast<SafetyStrip*> (child)) strip = found;
+    REQUIRE (strip != nullptr);
+    CHECK (w.until ([&] {
+        hold();
+        return strip->guardText().contains ("its workspace is being moved");
+    }));
+    CHECK_FALSE (strip->isAlarmed());   // it is what the person wants
+    const auto after = [&] (std::uint64_t more) {
+        return w.until ([&, from = w.ticks()] {
+            hold();
+            return w.ticks() > from + more;
+        });
+    };
+    REQUIRE (after (10));
+    const auto place = w.view->run().tool()->position;
+    for (int i = 0; i < 10; ++i)
+    {
+        REQUIRE (after (100));
+        CHECK (w.force() == 0.0);
+        CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
+    }
+    w.stage->keyUp();
+    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip->guardText().contains ("being moved"); }));
+    CHECK (w.origin().norm() > 1e-4);
+    CHECK (stepsChecked (w.view->run()) == 0);   // nor does the tool jump
+    CHECK_FALSE (w.workspace().contains ("offset"));
+
+    SECTION ("in the scene, too, until something else gets the keyboard")
+    {
+        w.scene().grabKeyboardFocus();
+        w.stage->key ("s");
+        REQUIRE (w.until ([&] { return w.force() == 0.0; }));
+        auto& field = w.field ("scale");
+        w.stage->click (w.middleOf (field));
+        CHECK (w.until ([&] { return w.force() > 0.0; }));
+        w.stage->key ("s");   // is text now
+        CHECK (field.getText() == "s");
+        CHECK_FALSE (w.view->statusText().contains ("until you release S"));
+        w.key ("escape");
+    }
+    SECTION ("but not without a device of the session")
+    {
+        w.panel().bindings().bind ("stylus", "as in the graph");
+        REQUIRE (w.until ([&] { return w.view->run().isRunning() && w.force() > 0.0; }));
+        w.view->canvas().grabKeyboardFocus();
+        w.stage->key ("s");
+        CHECK (w.view->statusText().contains ("bind one"));
+        WindowRig::settle (100);
+        CHECK (w.until ([&] { return w.force() > 0.0; }));   // the stroke presses again
+    }
+    SECTION ("and a STOP stops")
+    {
+        w.stage->key ("s");
+        w.key ("shift + escape");
+        w.stage->keyUp();
+        REQUIRE (w.until ([&] { return w.view->run().isStoppedForGood() && w.force() == 0.0; }));
+        WindowRig::settle (200);
+        CHECK (w.force() == 0.0);
+    }
+}
+
+TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("F1");
+    REQUIRE (w.view->part<HelpPanel>().isOpen());
+    bool is_listed = false;
+    for (const auto& seen : host::test::readTexts (w.view->part<HelpPanel>()))
+        is_listed = is_listed || seen.text.contains ("S, held");
+    CHECK (is_listed);
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keyboard is never lost: after everything that takes it for a while, the keys of the canvas work again.
+// The keyboard is never lost: after everything that takes it for a while, the keys of the canvas work again. With the palette or a menu open, Esc stops the
+// run first.
 #include "host/app/support/window_rig.hpp"
+
+#include "support/waiting.hpp"
 
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <tactus/file/graph_file.hpp>
+
+#include <set>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -15,13 +20,13 @@ using tactus::host::test::WindowRig;
 namespace
 {
 /// A window with a graph that may be saved.
-struct Desk
+struct GraphDesk
 {
     TemporaryFolder folder;
     std::filesystem::path file = folder / "mine.json";
     std::unique_ptr<WindowRig> w;
 
-    Desk()
+    GraphDesk()
     {
         std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
         w = std::make_unique<WindowRig> (file.string(), 1280, 1000);   // the row of a parameter is in view
@@ -52,6 +57,37 @@ struct Desk
     void select (const std::string& node) { w->view->canvas().select ({ w->graph().root.find (node)->id }); }
 };
 
+/// Opens a menu by a click, calls f with it, and closes it.
+template <typename F>
+void withMenu (WindowRig& w, juce::Component& at, int button, F f)
+{
+    bool was_open = false;
+    int waits = 0;
+    // In a message, because JUCE closes a menu at its first timer call if no window of the program has the keyboard of the X server.
+    const std::function<void()> look = [&] {
+        auto* menu = juce::Component::getCurrentlyModalComponent();
+        if (menu == nullptr && ++waits < 1000) return void (juce::MessageManager::callAsync (look));
+        waits = 1000;
+        if (menu == nullptr) return;
+        was_open = true;
+        f (*menu);
+        juce::PopupMenu::dismissAllActiveMenus();
+    };
+    w.stage->click (w.middleOf (at), button);
+    look();
+    while (waits < 1000 || juce::Component::getNumCurrentlyModalComponents() > 0)
+        WindowRig::settle();
+    REQUIRE (was_open);
+}
+
+bool runs (WindowRig& w)
+{
+    return tactus::test::eventually ({}, [&] {
+        WindowRig::settle (5);
+        return w.view->run().isRunning();
+    });
+}
+
 juce::Component* firstTextEditor (juce::Component& c)
 {
     if (dynamic_cast<juce::TextEditor*> (&c) != nullptr && c.isVisible()) return &c;
@@ -63,7 +99,7 @@ juce::Component* firstTextEditor (juce::Component& c)
 
 TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas work", "[app][keyboard]")
 {
-    Desk d;
+    GraphDesk d;
     auto& w = *d.w;
     w.stage->grabKeyboardFocus();   // as the window system does when it shows the window
     d.checkKeys ("a start with a file");
@@ -138,7 +174,7 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
 
 TEST_CASE ("another program gets the keyboard while the palette is open, and keeps it until the user comes back", "[app][keyboard]")
 {
-    Desk d;
+    GraphDesk d;
     auto& w = *d.w;
     w.stage->grabKeyboardFocus();
     d.select ("drag");
@@ -206,32 +242,6 @@ TEST_CASE ("the keyboard alone leads from the welcome page to a force, and throu
     w.view->run().letGo();
 }
 
-TEST_CASE ("in the search for presets, what Return opens is selected, and the arrow keys choose another", "[app][keyboard]")
-{
-    WindowRig w;
-    auto* rows = dynamic_cast<juce::ListBox*> (w.titled ("Presets"));
-    for (auto* child : w.titled ("Search presets")->getParentComponent()->getChildren())
-        if (auto* list = dynamic_cast<juce::ListBox*> (child)) rows = list;
-    REQUIRE (rows != nullptr);
-    const auto name = [&] (int row) { return rows->getModel()->getNameForRow (row).toStdString(); };
-    w.key ("ctrl + f");
-    CHECK (rows->getSelectedRow() < 0);
-    w.stage->type ("wood");
-    WindowRig::settle();
-    REQUIRE (rows->getModel()->getNumRows() > 2);
-    CHECK (rows->getSelectedRow() == 0);
-    w.key ("cursor up");
-    CHECK (rows->getSelectedRow() == 0);
-    w.key ("cursor down");
-    w.key ("cursor down");
-    CHECK (rows->getSelectedRow() == 2);
-    w.key ("cursor up");
-    const auto second = name (1);
-    w.key ("return");
-    CHECK (w.graph().name == second);
-    w.view->run().letGo();
-}
-
 TEST_CASE ("keys reach the buttons of the welcome page, and every tab", "[app][keyboard]")
 {
     WindowRig w;
@@ -278,85 +288,6 @@ TEST_CASE ("keys reach the buttons of the welcome page, and every tab", "[app][k
     {
         INFO (tab);
         CHECK (shown.contains (tab));
-    }
-}
-
-TEST_CASE ("the search for commands finds what a click can do, wherever it is", "[app][keyboard]")
-{
-    WindowRig w ("dry_wood.json");
-    const auto find = [&] (const char* words) {
-        INFO (words);
-        w.key ("ctrl + k");
-        REQUIRE (w.titled ("Palette") != nullptr);
-        w.stage->type (words);
-        w.key ("return");
-        WindowRig::settle();
-        CHECK (w.titled ("Palette") == nullptr);
-    };
-    find ("history");
-    REQUIRE (w.titled ("History") != nullptr);
-    CHECK (WindowRig::focused() == &w.view->canvas());
-    find ("select all");
-    CHECK (w.view->canvas().selection().size() >= w.graph().root.nodes.size());
-    w.key ("z");   // all panels are folded
-    find ("take");
-    CHECK (w.view->part<TakePanel>().isShowing());
-    CHECK (w.view->part<TakePanel>().getHeight() > 100);
-    const bool was_dark = themeOf (*w.view).is_dark;
-    find ("light theme");
-    CHECK (themeOf (*w.view).is_dark != was_dark);
-    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
-    const auto before = w.graph().controls.size();
-    find ("stiffness new control");
-    CHECK (w.graph().controls.size() == before + 1);
-}
-
-TEST_CASE ("W wires a vector into a number: the list asks for the component", "[app][keyboard]")
-{
-    WindowRig w ("dry_wood.json");
-    w.view->canvas().select ({ w.graph().root.find ("hand")->id });
-    w.key ("w");
-    w.stage->type ("touch depth");
-    WindowRig::settle();   // JUCE tells of typed text later
-    w.key ("return");
-    WindowRig::settle();
-    REQUIRE (w.titled ("Palette") != nullptr);
-    w.stage->type ("position.z");
-    WindowRig::settle();
-    w.key ("return");
-    WindowRig::settle();
-    CHECK (w.titled ("Palette") == nullptr);
-    CHECK (std::ranges::count (w.view->canvas().scene().wires(), "hand.position.z -> touch.depth", &SceneWire::text) == 1);
-    CHECK (WindowRig::focused() == &w.view->canvas());
-}
-
-TEST_CASE ("a key that erases or moves is for the value that has the focus, not for the selected node", "[app][keyboard]")
-{
-    WindowRig w { "dry_wood.json", 1280, 720, false };
-    const auto board = [&]() -> const graph::Node& { return *w.graph().root.find ("board"); };
-    const auto params = board().params, at = board().extra;   // and where it is
-    w.view->canvas().select ({ board().id });
-    WindowRig::settle();
-    w.key ("return");   // to its first value
-    w.key ("cursor right");
-    CHECK (board().params != params);
-    CHECK (board().extra == at);
-    w.key ("cursor left");
-    CHECK (board().extra == at);
-
-    for (const char* key : { "backspace", "delete" })
-    {
-        w.key (key);   // begins to type
-        REQUIRE (w.graph().root.find ("board") != nullptr);
-        w.stage->type ("900");
-        w.key ("return");
-        CHECK (board().params.dump().find ("900") != std::string::npos);
-        w.key (key);
-        w.key ("escape");
-        REQUIRE (w.graph().root.find ("board") != nullptr);
-        CHECK (board().params.dump().find ("900") != std::string::npos);
-        w.key ("return");
-        REQUIRE (w.graph().root.find ("board") != nullptr);
     }
 }
 
@@ -476,4 +407,45 @@ TEST_CASE ("after a new graph is opened, what is typed is for the canvas and not
     REQUIRE (w.graph().root.nodes.size() == 1);
     CHECK (w.graph().root.nodes[0].type == "deform.plane");
     CHECK_FALSE (w.view->run().isRunning());
+}
+
+TEST_CASE ("with the palette open, Esc stops the run first, and then closes the palette", "[app][keys][safety]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    REQUIRE (runs (w));
+    REQUIRE_FALSE (w.view->run().drivesDevice());
+    w.view->canvas().grabKeyboardFocus();
+    w.key ("ctrl + k");
+    auto* palette = w.titled ("Palette");
+    REQUIRE (palette != nullptr);
+    w.key ("escape");
+    CHECK_FALSE (w.view->run().isWanted());
+    CHECK (palette->isVisible());
+    w.key ("escape");
+    CHECK_FALSE (palette->isVisible());
+}
+
+TEST_CASE ("with a menu open, Esc stops the run first, and then closes the menu", "[app][keys][safety]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    REQUIRE (runs (w));
+    withMenu (w, *w.titled ("Menu"), juce::ModifierKeys::leftButtonModifier, [&] (juce::Component& menu) {
+        w.stage->key ("escape");
+        CHECK_FALSE (w.view->run().isWanted());
+        CHECK (juce::Component::getCurrentlyModalComponent() == &menu);
+        w.stage->key ("escape");
+    });
+}
+
+TEST_CASE ("no menu covers STOP, however low the window is", "[app][keys][safety]")
+{
+    const auto [width, height] = GENERATE (table<int, int> ({ { 1280, 720 }, { 1024, 420 }, { 512, 350 } }));
+    INFO (width << " x " << height);
+    WindowRig w ("dry_wood.json", width, height);
+    const auto isClear = [&] (juce::Component& menu) {
+        CHECK (w.view->getLocalArea (&menu, menu.getLocalBounds()).getY() >= SafetyStrip::height);
+        CHECK (w.view->isParentOf (&menu));
+    };
+    withMenu (w, *w.titled ("Menu"), juce::ModifierKeys::leftButtonModifier, isClear);
+    withMenu (w, w.view->canvas(), juce::ModifierKeys::rightButtonModifier, isClear);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One search finds nodes: to go to, to add, and to wire.
+// The search for commands (Ctrl+K): it finds nodes, what moves the tool, and what a click can do.
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/take/take_panel.hpp>
 #include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
@@ -55,8 +56,6 @@ struct SearchDesk
         w.key ("return");
         WindowRig::settle();
     }
-
-    bool hasWire (const std::string& text) { return std::ranges::count (canvas().scene().wires(), text, &SceneWire::text) > 0; }
 };
 
 /// A graph with a hand and a node of each kind of friction.
@@ -140,105 +139,6 @@ TEST_CASE ("the same words find the same nodes in the same order, to add, to wir
     }
 }
 
-TEST_CASE ("W wires into the selected node, too, and finds names before descriptions", "[app][keyboard]")
-{
-    SearchDesk d ("dry_wood.json");
-    d.canvas().select ({ d.id ("motor") });
-    d.choose ("w", "grain force");
-    CHECK (d.hasWire ("grain.force -> motor.force"));
-    d.w.key ("ctrl + z");
-    REQUIRE_FALSE (d.hasWire ("grain.force -> motor.force"));
-
-    const auto count = d.w.graph().root.nodes.size();
-    d.canvas().select ({ d.id ("motor") });
-    d.choose ("w", "torque new");   // a new node before the motor
-    d.w.stage->type ("edge");
-    WindowRig::settle();
-    d.w.key ("return");
-    WindowRig::settle();
-    REQUIRE (d.w.graph().root.nodes.size() == count + 1);
-    const auto& added = d.w.graph().root.nodes.back();
-    CHECK (added.type == "cut.edge");
-    CHECK (d.hasWire (added.name + ".torque -> motor.torque"));
-    CHECK (d.shown (added.name).bounds().getRight() < d.shown ("motor").bounds().getX());
-
-    d.canvas().select ({ d.id ("board") });
-    bool was_described = false;
-    int named = 0;
-    for (const auto& e : d.listed ("w", "gain"))
-        if (e.name.empty())   // a wire between nodes that are there
-        {
-            const bool is_named = e.type.find ("gain") != std::string::npos;
-            CHECK_FALSE ((was_described && is_named));
-            was_described = was_described || ! is_named;
-            named += static_cast<int> (is_named);
-        }
-    CHECK (named > 0);
-    d.w.key ("escape");
-
-    d.canvas().select ({});
-    d.w.key ("w");
-    CHECK (d.w.titled ("Palette") == nullptr);
-    const auto texts = tactus::host::test::readTexts (*d.w.view);
-    CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.contains ("Select one node first"); }));
-}
-
-TEST_CASE ("a wire that is dropped from an input offers what the input is made for first", "[app][canvas]")
-{
-    SearchDesk d ("dry_wood.json");
-    for (const auto& [port, type, wire] :
-         { std::tuple { "normal_force", "cut.blade", "resistance" }, std::tuple { "position", "device.position", "position" } })
-    {
-        INFO (port);
-        const auto* socket = d.shown ("drag").box.find (Role::input, port);
-        REQUIRE (socket != nullptr);
-        auto to = d.canvas().view().toPixels (d.shown ("drag").bounds().getCentre());
-        const auto isTaken = [&, &scene = d.canvas().scene()] {
-            const auto at = d.canvas().view().toCanvas (to);
-            return scene.nodeAt (at) != nullptr || scene.wireAt (at, 12.0f) != nullptr;
-        };
-        while (isTaken())
-            to.y += 10.0f;
-        REQUIRE (d.canvas().getLocalBounds().toFloat().contains (to));
-        d.w.key ("spacebar");   // what was chosen before is no better
-        d.w.stage->type ("lfo");
-        WindowRig::settle();
-        d.w.key ("return");
-        const auto count = d.w.graph().root.nodes.size();
-        const auto from = d.canvas().view().toPixels (d.shown ("drag").placeOf (*d.shown ("drag").box.find (Role::input, port)));
-        d.w.stage->drag (d.w.stage->getLocalPoint (&d.canvas(), from), d.w.stage->getLocalPoint (&d.canvas(), to));
-        WindowRig::settle();
-        auto* palette = dynamic_cast<Palette*> (d.w.titled ("Palette"));
-        REQUIRE (palette != nullptr);
-        const auto texts = tactus::host::test::readTexts (*palette);
-        CHECK (std::ranges::any_of (texts, [from = "Connect " + juce::String (port) + " from"] (const auto& t) { return t.text == from; }));
-        CHECK (palette->entries()[0].name == "Fits best");
-        CHECK (std::ranges::count (palette->entries(), std::string (type), &PaletteEntry::type) == 1);   // not listed again
-
-        if (std::string (port) == "position")   // there are such nodes, but they make forces
-        {
-            d.w.stage->type ("hunt");
-            WindowRig::settle();
-            REQUIRE (palette->entries().size() == 1);
-            CHECK (palette->entries()[0].isTitle());
-            CHECK (palette->entries()[0].name.ends_with ("has no port for this wire"));
-            CHECK (tactus::host::test::cutOff (tactus::host::test::readTexts (*palette), palette->getLocalBounds().toFloat()).isEmpty());
-            d.w.key ("return");
-            CHECK (palette->isVisible());
-            CHECK (d.w.graph().root.nodes.size() == count);
-            for (int i = 0; i < 4; ++i)
-                d.w.key ("backspace");
-            WindowRig::settle();
-        }
-        d.w.key ("return");
-        WindowRig::settle();
-        REQUIRE (d.w.graph().root.nodes.size() == count + 1);
-        const auto& added = d.w.graph().root.nodes.back();
-        CHECK (added.type == type);
-        CHECK (d.hasWire (added.name + "." + wire + " -> drag." + port));
-    }
-}
-
 TEST_CASE ("Ctrl+K finds what moves the tool: the mouse, a gesture, and the devices of a role", "[app][keyboard][hand]")
 {
     SearchDesk d ("dry_wood.json");
@@ -265,4 +165,90 @@ TEST_CASE ("Ctrl+K finds what moves the tool: the mouse, a gesture, and the devi
     REQUIRE (simulated != names.end());
     d.choose ("ctrl + k", simulated->c_str());
     CHECK (d.w.view->document().history().position() == before + 1);   // the choice is a step
+}
+
+TEST_CASE ("the search for commands finds what a click can do, wherever it is", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto find = [&] (const char* words) {
+        INFO (words);
+        w.key ("ctrl + k");
+        REQUIRE (w.titled ("Palette") != nullptr);
+        w.stage->type (words);
+        w.key ("return");
+        WindowRig::settle();
+        CHECK (w.titled ("Palette") == nullptr);
+    };
+    find ("history");
+    REQUIRE (w.titled ("History") != nullptr);
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    find ("select all");
+    CHECK (w.view->canvas().selection().size() >= w.graph().root.nodes.size());
+    w.key ("z");   // all panels are folded
+    find ("take");
+    CHECK (w.view->part<TakePanel>().isShowing());
+    CHECK (w.view->part<TakePanel>().getHeight() > 100);
+    const bool was_dark = themeOf (*w.view).is_dark;
+    find ("light theme");
+    CHECK (themeOf (*w.view).is_dark != was_dark);
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    const auto before = w.graph().controls.size();
+    find ("stiffness new control");
+    CHECK (w.graph().controls.size() == before + 1);
+}
+
+TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    int quits = 0;
+    w.view->allowQuit ([&] { ++quits; });
+    w.key ("ctrl + q");
+    CHECK (quits == 1);
+    w.choose (w.middleOf (*w.titled ("Menu")), -1, juce::ModifierKeys::leftButtonModifier);   // the last entry
+    CHECK (quits == 2);
+    w.key ("ctrl + k");
+    w.stage->type ("quit");
+    w.key ("return");
+    WindowRig::settle();
+    CHECK (quits == 3);
+}
+
+TEST_CASE ("the search for commands finds OSC, and says at which port messages arrive", "[app][keyboard][osc]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto told = [&] {
+        w.key ("ctrl + k");
+        w.stage->type ("osc");
+        w.key ("return");
+        WindowRig::settle();
+        REQUIRE (w.view->asked().isOpen());
+        CHECK (w.view->asked().title().contains ("OSC"));
+        const auto text = w.view->asked().getDescription();
+        w.key ("escape");
+        return text;
+    };
+    CHECK (told().startsWith ("No OSC messages"));
+    MainView::StartOptions start { .home = w.home.path(), .safe = true };
+    start.osc = OscListen { .port = 0 };
+    w.view = std::make_unique<MainView> (catalogue());
+    w.stage->fill (*w.view);
+    w.view->begin (start);
+    WindowRig::settle();
+    CHECK (told().contains ("UDP port "));
+    CHECK_FALSE (told().contains ("UDP port 0"));
+}
+
+TEST_CASE ("a search for commands says nothing about nodes", "[app][small][palette]")
+{
+    WindowRig w ("dry_wood.json", 640, 360);
+    w.key ("ctrl + k");
+    const auto isSaid = [&] (const juce::String& text) {
+        return std::ranges::any_of (host::test::readTexts (*w.titled ("Palette")), [&] (const auto& t) { return t.text.contains (text); });
+    };
+    CHECK (isSaid ("Search by name"));
+    CHECK_FALSE (isSaid ("unit"));
+    w.stage->type ("zzqq");
+    WindowRig::settle();
+    CHECK (isSaid ("No match"));
+    CHECK_FALSE (isSaid ("friction"));
 }
