@@ -12,11 +12,14 @@ import pathlib
 import random
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import tracemalloc
 import unittest
+from unittest import mock
 from xml.etree import ElementTree
 
 import numpy as np
@@ -127,9 +130,9 @@ class Measures(Quiet):
     def test_a_band_holds_the_rms_of_what_is_in_it(self):
         t = np.arange(1000) / 1000.0
         sine = 3.0 * np.sin(2 * np.pi * 50.0 * t) + 2.0 * np.sin(2 * np.pi * 300.0 * t) + 7.0
-        self.assertAlmostEqual(_measures.band(sine, 1000.0, 40.0, 60.0), 3.0 / np.sqrt(2.0), places=9)
-        self.assertAlmostEqual(_measures.band(np.stack([sine, sine, 0 * sine], axis=1), 1000.0, 0.0, 501.0), np.sqrt(13.0), places=9)
-        self.assertAlmostEqual(_measures.band(np.arange(1000) % 2, 1000.0, 0.0, 501.0), 0.5, places=9)   # all of it at half the rate
+        for values, low, high, rms in ((sine, 40.0, 60.0, 3.0 / np.sqrt(2.0)), (np.stack([sine, sine, 0 * sine], axis=1), 0.0, 501.0, np.sqrt(13.0)),
+                                       (np.arange(1000) % 2, 0.0, 501.0, 0.5)):   # the last: all of it at half the rate
+            self.assertAlmostEqual(_measures.band(values, 1000.0, low, high), rms, places=9)
 
     def test_stable_follows_the_closed_form_of_the_wall(self):
         study = wall(measures=[lab.Measure("stable", "stable", places=8)], duration=2.0,
@@ -186,8 +189,7 @@ class Renders(Quiet):
             together, alone = render(points), [render([point]) for point in points]
             self.assertEqual([error[1:] for error in together["errors"]], [error[1:] for each in alone for error in each["errors"]], file.name)
             self.assertEqual(together["warnings"], {key: text for each in reversed(alone) for key, text in each["warnings"].items()}, file.name)
-            for i, each in enumerate(alone):
-                self.assertEqual(together["rows"][i].tobytes(), each["rows"][0].tobytes(), (file.name, i))
+            self.assertEqual([rows.tobytes() for rows in together["rows"]], [each["rows"][0].tobytes() for each in alone], file.name)
             different += together["rows"][0].tobytes() != together["rows"][1].tobytes()
         self.assertGreater(different, 30)   # the points are not all the same
 
@@ -293,12 +295,44 @@ class Results(Quiet):
         self.fails("study/exists", large.run, self.folder / "out")
         progress = _drive.drive(large.prepare(), self.folder / "out", resume=True)
         self.assertEqual((progress.total, progress._first), (6, 2))   # the key of a result does not depend on the design
-        sizes = [frame.about["n"] for _, _, frame in _parts.Folder(large.prepare(), self.folder / "out", False, False).frames()]
-        self.assertEqual(sum(sizes), 6)
+        self.assertEqual(len(_parts.Folder(large.prepare(), self.folder / "out", False, False).results().keys), 6)
         merged = lab._parts.merge(large.prepare(), self.folder / "out")
         fresh = large.run(self.folder / "fresh")
         self.same_bits(merged["peak"], fresh["peak"])
         self.fails("study/other", dataclasses.replace(small, duration=0.06).run, self.folder / "out", resume=True)
+
+    def test_equal_points_are_rendered_once(self):
+        study = wall(design=lab.Latin(points=50), factors=[lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("wall.damping", values=[0, 1.0])])
+        with mock.patch.object(_drive, "BLOCK", 7):
+            results = study.run(self.folder / "out")
+            self.assertEqual((len(self.held(study)), results.rows), (4, 50))
+            self.assertEqual(_drive.drive(study.prepare(), self.folder / "out", resume=True)._first, 50)
+        by_number = {(k, b): v for k, b, v in zip(results["wall.stiffness"], results["wall.damping"], results["peak"])}
+        self.assertEqual(len(by_number), 4)
+
+    def held(self, study):
+        return _parts.Folder(study.prepare(), self.folder / "out", False, False).results().keys
+
+    def test_memory_does_not_grow_with_the_points(self):
+        def peak(count):
+            study = wall(duration=0.002, design=lab.Sobol(points=count), factors=[lab.Factor("wall.stiffness", low=1000.0, high=5000.0),
+                                                                                  lab.Factor("wall.damping", low=0.0, high=1.0)])
+            prepared, out, found = study.prepare(), self.folder / str(count), []
+            tracemalloc.start()
+            for step in (lambda: _drive.drive(prepared, out), lambda: _parts.merge(prepared, out),
+                         lambda: _study_report.write(prepared, _columns.Results(out / "results.tcol", keeps=False), out / "report.html", [])):
+                tracemalloc.reset_peak()
+                with mock.patch.object(_drive._Sizes, "learn", lambda sizes, *_: sizes.__dict__.update(points=1000, seconds=2.0)):   # chunks of 500 points
+                    step()
+                found.append(tracemalloc.get_traced_memory()[1])
+            tracemalloc.stop()
+            return np.array(found)
+
+        peak(1000)   # what is imported or made once
+        growth = (peak(24000) - peak(8000)) / 16000
+        print(f"bytes per point: {growth}", file=sys.__stderr__)
+        self.assertLess(growth[0], 24)   # renders
+        self.assertLess(growth.max(), 64)   # merge and report
 
     def test_what_a_crash_cuts_off_is_rendered_again(self):
         study = wall()
@@ -322,11 +356,11 @@ class Results(Quiet):
         study.run(self.folder / "out")
         prepared = study.prepare()
         part = _parts.Part(self.folder / "out/parts", prepared.context, _worker.stamp())
-        chunk = _worker.Worker(prepared, False).render([prepared.design.at(3)])
-        part.add(prepared.key(prepared.design.at(3)), chunk)
+        chunk, key = _worker.Worker(prepared, False).render([prepared.design.at(3)]), prepared.key(prepared.design.at(3))
+        part.add(key, chunk)
         lab._parts.merge(prepared, self.folder / "out")   # the same result twice is one row
         chunk.numbers[0, 0] = np.nextafter(chunk.numbers[0, 0], np.inf)
-        part.add(prepared.key(prepared.design.at(3)), chunk)
+        part.add(key, chunk)
         part.close()
         self.fails("study/differs", lab._parts.merge, prepared, self.folder / "out")
 
@@ -354,8 +388,8 @@ class Results(Quiet):
         exec(source, names)
         for file in ("results.tcol", "times.tcol"):
             mine, about = names["read_columns"](self.folder / "out" / file)
-            theirs, same = _columns.read(self.folder / "out" / file)
-            self.assertEqual(about, same)
+            theirs = _columns.Results(self.folder / "out" / file)
+            self.assertEqual(about, theirs.about)
             for name, values in theirs.items():
                 pairs = zip(mine[name], values) if isinstance(values, list) and values and not isinstance(values[0], str) else [(mine[name], values)]
                 for a, b in pairs:
@@ -363,7 +397,7 @@ class Results(Quiet):
         data = (self.folder / "out/results.tcol").read_bytes()
         for cut in range(0, len(data), 97):
             (self.folder / "cut").write_bytes(data[:cut])
-            self.fails("study/unreadable", _columns.read, self.folder / "cut")
+            self.fails("study/unreadable", _columns.Results, self.folder / "cut")
 
     def test_chunks_are_about_a_second(self):
         sizes = _drive._Sizes(1, 10**6)
@@ -398,8 +432,8 @@ class Report(Quiet):
     def test_a_map_shows_each_cell_at_its_place(self):
         measures = [lab.Measure("k", "function", function="f", outputs=["z", "k"])]
         results = wall(measures=measures).run(self.folder / "out", functions={"f": last_and_stiffness})
-        axis = _study_report._axis("wall.stiffness", results["wall.stiffness"], "")
-        self.assertEqual(list(axis.middles), sorted(set(results["wall.stiffness"])))
+        axis = _study_report._Axis("wall.stiffness", results["wall.stiffness"], "")
+        self.assertEqual(list(axis._middles), sorted(set(results["wall.stiffness"])))
         self.assertTrue(np.allclose(axis.at(np.array([1000.0, 1400.0, 5000.0])), [0.5, 1.0, 5.5]))
         colours = _study_report._colour(np.array([0.0, 1.0, np.nan]))
         self.assertEqual([tuple(c) for c in colours], [(68, 1, 84), (253, 231, 37), _study_report.GREY])
@@ -424,119 +458,121 @@ class Killed(Quiet):
     def begin_study(self):
         self.study = wall(duration=100.0, factors=[lab.Factor("wall.stiffness", low=1000.0, high=5000.0, count=20),
                                                    lab.Factor("wall.damping", values=[0, 0.5, -1, 2])])
-        self.file = self.folder / "s.json"
-        self.file.write_text(self.study.text())
+        (self.folder / "s.json").write_text(self.study.text())
         self.study.run(self.folder / "whole")
         self.prepared = self.study.prepare()
 
-    def held(self, out="out"):
-        """The points with results, and how many results there are."""
-        if not (self.folder / out / "study.json").exists():
-            return set(), 0
-        keys = _parts.Folder(self.prepared, self.folder / out, False, False).results().keys.tolist()
-        return set(keys), len(keys)
+    def start(self, *words, file="s.json", out="out", before=(), **options):
+        return subprocess.Popen([*before, sys.executable, "-B", "-m", "tactus.lab", "study", str(self.folder / file), "--out", str(self.folder / out), *words],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder, **options)
 
-    def survives(self, start, victims, is_over=lambda process: process.poll() is not None, out="out"):
-        """start: begins or resumes the study. victims: the numbers of processes that may be killed."""
+    def held(self):
+        """The points with results; each has one."""
+        if not (self.folder / "out/study.json").exists():
+            return set()
+        keys = _parts.Folder(self.prepared, self.folder / "out", False, False).results().keys.tolist()
+        self.assertEqual(len(set(keys)), len(keys), "a point was rendered twice")
+        return set(keys)
+
+    def same(self):
+        self.assertEqual((self.folder / "out/results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes())
+
+    def survives(self, start, victims, is_over=lambda process: process.poll() is not None, stays=False):
+        """start: begins or resumes the study. victims: the numbers of processes that may be killed. stays: the last kill is that of the process that was
+        started, in the first half of the study, and the study stays as it is then."""
         seed = int(os.environ.get("TACTUS_SEED", "1"))
         print(f"{self.id()}: seed {seed}, {KILLS} kills", file=sys.__stderr__)
-        draw, known, kills = random.Random(seed), set(), 0
+        draw, known, kills, count = random.Random(seed), set(), 0, self.prepared.design.count
 
         def next_kill():
-            return len(known) + draw.randrange(1, 25) if kills < KILLS else self.prepared.design.count + 1
+            return len(known) + draw.randrange(1, 25) if kills < KILLS else count + 1
 
         while True:
             process, wanted = start(), next_kill()
             while not is_over(process):
-                now, _ = self.held(out)
-                self.assertLessEqual(known, now, f"results were lost; seed {seed}")
-                known = now
-                if len(known) >= wanted and (alive := victims(process)):
+                now = self.held()
+                self.assertLessEqual(known, now, "results were lost")
+                known, is_last = now, stays and kills == KILLS - 1
+                if len(known) >= wanted and (alive := victims(process)) and (not is_last or len(known) < count // 2):
                     with contextlib.suppress(ProcessLookupError):
-                        os.kill(draw.choice(alive), signal.SIGKILL)
+                        os.kill(process.pid if is_last else draw.choice(alive), signal.SIGKILL)
                         kills += 1
                     wanted = next_kill()
                 waiting.let_pass(0.01)
-            if process:
+            if isinstance(process, subprocess.Popen):
                 process.communicate()
-            known, results = self.held(out)
-            self.assertEqual(len(known), results, f"a point was rendered twice; seed {seed}")
-            if len(known) == self.prepared.design.count and (not process or process.returncode == 0):
-                self.assertEqual((self.folder / out / "results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes(), f"seed {seed}")
+            known = self.held()
+            if stays and kills == KILLS:
+                return
+            if len(known) == count and (self.folder / "out/results.tcol").exists():
+                self.same()
                 if kills >= KILLS:
                     return
-                for path in (self.folder / out / "parts").iterdir():
-                    path.unlink()   # it was faster than the kills; begin again
+                shutil.rmtree(self.folder / "out")   # it was faster than the kills; begin again
                 known = set()
 
 
 class Command(Killed):
-    def start(self, file, *words, **options):
-        return subprocess.Popen([sys.executable, "-B", "-m", "tactus.lab", "study", str(file), *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                cwd=self.folder, **options)
-
-    def ran(self, file, *words, status=0, **options):
-        process = self.start(file, *words, **options)
+    def ran(self, *words, status=0, **options):
+        process = self.start(*words, **options)
         said = process.communicate()
         self.assertEqual(process.returncode, status, said)
         return said[0] + said[1]
 
-    def written(self, study):
-        path = self.folder / "s.json"
-        path.write_text(study.text())
-        return path
+    def write(self, study):
+        (self.folder / "s.json").write_text(study.text())
 
     def test_killed_at_random_it_loses_nothing(self):
         self.begin_study()
-        self.survives(lambda: self.start(self.file, "--out", "out", "--workers", "2", "--resume"),
+        self.survives(lambda: self.start("--workers", "2", "--resume"),
                       lambda process: [process.pid, *(pid for pid, words in descendants(process.pid).items() if "spawn_main" in words)])
 
     def test_a_full_disk_loses_nothing(self):
-        file = self.written(wall(keep=["motor.force"], duration=0.5))
-        self.ran(file, "--out", "whole", "--executor", "serial")
+        self.write(wall(keep=["motor.force"], duration=0.5))
+        self.ran("--executor", "serial", out="whole")
 
         def small():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))   # a file cannot become larger, as on a disk that is full
 
-        said = self.ran(file, "--out", "out", "--executor", "serial", status=1, preexec_fn=small)
+        said = self.ran("--executor", "serial", status=1, preexec_fn=small)
         self.assertIn("--resume", said)
         count = int(re.search(r"(\d+) points of this process are on the disk", said)[1])
         self.assertTrue(0 < count < 30, said)
-        self.assertIn(f"{count} of 30 points", self.ran(file, "--out", "out", "--status"))
-        self.ran(file, "--out", "out", "--executor", "serial", "--resume")
-        self.assertEqual((self.folder / "out/results.tcol").read_bytes(), (self.folder / "whole/results.tcol").read_bytes())
+        self.assertIn(f"{count} of 30 points", self.ran("--status"))
+        self.ran("--executor", "serial", "--resume")
+        self.same()
 
     def test_functions_come_from_the_person_only(self):
-        file = self.written(wall(measures=[lab.Measure("f", "function", function="f")]))
-        self.assertIn("--functions", self.ran(file, status=1))
+        self.write(wall(measures=[lab.Measure("f", "function", function="f")]))
+        self.assertIn("--functions", self.ran(status=1))
         (self.folder / "f.py").write_text("def f(records, point):\n    return point['wall.stiffness'] if point['wall.damping'] else 1 / 0\n")
-        said = self.ran(file, "--functions", "f.py", "--out", "a", "--workers", "2", "--to", "csv")
+        said = self.ran("--functions", "f.py", "--workers", "2", "--to", "csv")
         self.assertIn("6 with errors", said)
-        self.ran(file, "--functions", "f.py", "--out", "b", "--executor", "serial")
-        self.assertEqual((self.folder / "a/results.tcol").read_bytes(), (self.folder / "b/results.tcol").read_bytes())
-        results = lab.load_results(self.folder / "a")
+        self.ran("--functions", "f.py", "--executor", "serial", out="whole")
+        self.same()
+        results = lab.load_results(self.folder / "out")
         self.assertEqual(results["error_place"][0], "functions.py:2")
-        words = re.search(r"<code>(tactus study .*?)</code>", (self.folder / "a/report.html").read_text())[1].split()   # of the worst point
-        self.ran(file, *words[3:], "--out", "a")
+        words = re.search(r"<code>(tactus study .*?)</code>", (self.folder / "out/report.html").read_text())[1].split()   # of the worst point
+        self.ran(*words[3:])
         self.assertEqual(int(words[-1]), int(np.nanargmax(results["f"])))
-        self.assertTrue((self.folder / f"a/point-{words[-1]}.csv").exists())
-        self.assertEqual(len((self.folder / "a/results.csv").read_text().splitlines()), 31)
+        self.assertTrue((self.folder / f"out/point-{words[-1]}.csv").exists())
+        self.assertEqual(len((self.folder / "out/results.csv").read_text().splitlines()), 31)
 
     def test_one_point_and_wrong_uses(self):
         factors = [lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("device:tool/mass", values=[0.2])]
-        file = self.written(wall(set={"wall.damping": 1}, factors=factors))
-        self.assertIn("tactus-host", self.ran(file, "--out", "out", "--point", "1"))
+        self.write(wall(set={"wall.damping": 1}, factors=factors))
+        self.assertIn("tactus-host", self.ran("--point", "1"))
         rows = np.loadtxt(self.folder / "out/point-1.csv", delimiter=",", skiprows=1)
         there = tactus.Graph(self.folder / "out/point-1.json").render(duration=0.05)
         self.assertEqual(len(rows), 50)
         self.same_bits(rows[:, 3], there["motor.force"][:, 2])
         for words in (["--point", "2"], ["--shard", "2/2"], ["--workers", "0"], ["--executor", "none"]):
-            self.ran(file, *words, status=2)
-        self.ran(file, "--status", "--out", "none", status=1)
-        self.assertIn("--array=0-1", self.ran(file, "--executor", "slurm", "--workers", "8", "--dry-run"))
+            self.ran(*words, status=2)
+        self.ran("--status", out="none", status=1)
+        self.assertIn("--array=0-1", self.ran("--executor", "slurm", "--workers", "8", "--dry-run"))
         if PROGRAM:
-            done = subprocess.run([PROGRAM, "study", str(file), "--out", "cli", "--executor", "serial"], capture_output=True, text=True, cwd=self.folder,
+            done = subprocess.run([PROGRAM, "study", "s.json", "--out", "cli", "--executor", "serial"], capture_output=True, text=True, cwd=self.folder,
                                   env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"})
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("2 points, 0 with errors", done.stdout)

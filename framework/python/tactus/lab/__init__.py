@@ -20,7 +20,7 @@ from ._functions import probability
 from ._marks import Receiver, mark
 from ._measures import Measure
 from ._observers import Observer
-from ._parts import Results
+from ._columns import Results
 from ._parts import load as load_results
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema

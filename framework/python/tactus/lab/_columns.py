@@ -6,49 +6,83 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import shutil
 import struct
-from typing import Any, BinaryIO, Dict, List, Mapping, Sequence, Tuple, Union
+import tempfile
+from typing import Any, BinaryIO, Callable, Dict, Iterator, List, Mapping, Union
 
 import numpy as np
 
 from .._messages import fail
 
 MAGIC = b"TACTCOL1"
+BLOCK = 4096   # rows of a large table that are in memory at a time
 Values = Any   # an array of numbers, shape (n,) or (n, k); or a list of texts; or a list of arrays
 
 
-def _packed(name: str, values: Values, unit: str) -> Tuple[Dict[str, Any], List[bytes]]:
-    """The entry of a column in the header, without its place, and its bytes."""
-    if isinstance(values, list):
-        is_text = not values or isinstance(values[0], str)
-        each = [v.encode() for v in values] if is_text else [np.ascontiguousarray(v, "<f8").tobytes() for v in values]
-        ends = np.concatenate([[0], np.cumsum([len(data) for data in each], dtype="<u8")]).astype("<u8")
-        return {"name": name, "type": "text" if is_text else "list", "unit": unit}, [(ends if is_text else ends // 8).astype("<u8").tobytes(), *each]
-    array = np.ascontiguousarray(values)
-    kind = {"f": "<f8", "i": "<i4", "u": "|u1"}[array.dtype.kind]
-    return {"name": name, "type": kind, "unit": unit, "shape": list(array.shape)}, [array.astype(kind, copy=False).tobytes()]
+class _Column:
+    """A column that is being written: its type, and its bytes in files that vanish. Texts and lists have one more file, of where each ends."""
+
+    def __init__(self, values: Values, folder: pathlib.Path):
+        if isinstance(values, list):
+            self.about: Dict[str, Any] = {"type": "text" if isinstance(values[0], str) else "list"}
+        else:
+            self.about = {"type": {"f": "<f8", "i": "<i4", "u": "|u1"}[values.dtype.kind], "shape": list(values.shape[1:])}
+        self.files: List[Any] = [tempfile.TemporaryFile(dir=folder) for _ in range(2 if isinstance(values, list) else 1)]
+        self.end = 0
+        if isinstance(values, list):
+            self.files[0].write(bytes(8))
+
+    def add(self, values: Values) -> None:
+        if not isinstance(values, list):
+            self.files[0].write(values.astype(self.about["type"], copy=False).tobytes())
+            return
+        is_text = self.about["type"] == "text"
+        each = [v.encode(errors="replace") for v in values] if is_text else [np.ascontiguousarray(v, "<f8").tobytes() for v in values]
+        ends = self.end + np.cumsum([len(data) if is_text else len(data) // 8 for data in each], dtype="<u8")
+        self.files[0].write(ends.tobytes())
+        self.files[1].writelines(each)
+        self.end = int(ends[-1])
 
 
-def write(path: pathlib.Path, columns: Mapping[str, Values], about: Mapping[str, Any], units: Mapping[str, str]) -> None:
-    """Writes columns of one length. After a crash, either the old file or the new one exists."""
-    entries, parts, at = [], [], 0
-    for name, values in columns.items():
-        entry, data = _packed(name, values, units.get(name, ""))
-        size = sum(map(len, data))
-        entries.append({**entry, "at": at, "bytes": size})
-        parts += [*data, bytes(-size % 64)]
-        at += size + -size % 64
-    header = json.dumps({**about, "columns": entries}, ensure_ascii=False, sort_keys=True).encode()
-    header += b" " * (-(len(header) + 16) % 64)
+class Writer:
+    """Writes columns of one length, some rows at a time, so that few of them are in memory."""
 
-    def put(file: BinaryIO) -> None:
-        file.write(MAGIC + struct.pack("<Q", len(header)) + header)
-        file.writelines(parts)
+    def __init__(self, path: pathlib.Path):
+        self._path, self._rows = path, 0
+        self._columns: Dict[str, _Column] = {}
 
-    replace(path, put)
+    def add(self, columns: Mapping[str, Values]) -> None:
+        """Adds rows, at least one."""
+        for name, values in columns.items():
+            self._columns.setdefault(name, _Column(values, self._path.parent) if name not in self._columns else self._columns[name]).add(values)
+        self._rows += len(next(iter(columns.values())))
+
+    def close(self, about: Mapping[str, Any], units: Mapping[str, str]) -> None:
+        """Makes the file. After a crash, either the old file or the new one exists."""
+        entries, at = [], 0
+        for name, column in self._columns.items():
+            size = sum(file.tell() for file in column.files)
+            if "shape" in column.about:
+                column.about["shape"].insert(0, self._rows)
+            entries.append({**column.about, "name": name, "unit": units.get(name, ""), "at": at, "bytes": size})
+            at += size + -size % 64
+        header = json.dumps({**about, "rows": self._rows, "columns": entries}, ensure_ascii=False, sort_keys=True).encode()
+        header += b" " * (-(len(header) + 16) % 64)
+
+        def put(out: BinaryIO) -> None:
+            out.write(MAGIC + struct.pack("<Q", len(header)) + header)
+            for column in self._columns.values():
+                for file in column.files:
+                    file.seek(0)
+                    shutil.copyfileobj(file, out)
+                    file.close()
+                out.write(bytes(-out.tell() % 64))
+
+        replace(self._path, put)
 
 
-def replace(path: pathlib.Path, put: Any) -> None:
+def replace(path: pathlib.Path, put: Callable[[BinaryIO], Any]) -> None:
     """Writes a file that takes the place of an old one when it is complete and on the disk."""
     part = path.with_name(f"{path.name}.{os.getpid()}.new")
     try:
@@ -61,36 +95,47 @@ def replace(path: pathlib.Path, put: Any) -> None:
         part.unlink(missing_ok=True)
 
 
-def read(path: Union[str, "os.PathLike[str]"]) -> Tuple[Dict[str, Values], Dict[str, Any]]:
-    """The columns of a file by name, and its header."""
-    try:
-        data = pathlib.Path(path).read_bytes()
-        if data[:8] != MAGIC:
-            raise ValueError("it does not begin with TACTCOL1")
-        start = 16 + struct.unpack_from("<Q", data, 8)[0]
-        about: Dict[str, Any] = json.loads(data[16:start].decode())
-        columns: Dict[str, Values] = {}
-        for entry in about["columns"]:
-            at, n = start + entry["at"], about["rows"]
-            if at + entry["bytes"] > len(data):
-                raise ValueError("it was cut off")
-            if entry["type"] in ("text", "list"):
-                ends = np.frombuffer(data, "<u8", n + 1, at).astype(np.int64)
-                at += 8 * (n + 1)
-                if entry["type"] == "text":
-                    columns[entry["name"]] = [data[at + a:at + b].decode() for a, b in zip(ends, ends[1:])]
-                else:
-                    columns[entry["name"]] = [np.frombuffer(data, "<f8", b - a, at + 8 * a) for a, b in zip(ends, ends[1:])]
-            else:
-                columns[entry["name"]] = np.frombuffer(data, entry["type"], int(np.prod(entry["shape"])), at).reshape(entry["shape"])
-        return columns, about
-    except (OSError, ValueError, KeyError, TypeError, struct.error) as why:
-        fail("study/unreadable", os.fspath(path), f"the file of columns cannot be read: {why}", "merge the study again")
+class Results(Mapping[str, Values]):
+    """The merged results of a study: columns by name, one row for each point. about: the header of their file."""
 
+    def __init__(self, path: Union[str, "os.PathLike[str]"], keeps: bool = True):
+        """keeps: all columns are read at once, and kept; otherwise each is read whenever it is asked for."""
+        self.path = pathlib.Path(path)
+        try:
+            with open(path, "rb") as file:
+                start = file.read(16)
+                if start[:8] != MAGIC:
+                    raise ValueError("it does not begin with TACTCOL1")
+                self._start = 16 + struct.unpack_from("<Q", start, 8)[0]
+                self.about: Dict[str, Any] = json.loads(file.read(self._start - 16).decode())
+                self._entries = {entry["name"]: entry for entry in self.about["columns"]}
+                if any(self._start + entry["at"] + entry["bytes"] > os.fstat(file.fileno()).st_size for entry in self.about["columns"]):
+                    raise ValueError("it was cut off")
+            self._kept: Dict[str, Values] = {}
+            self._kept = dict(self) if keeps else {}
+        except (OSError, ValueError, KeyError, TypeError, OverflowError, struct.error) as why:
+            fail("study/unreadable", os.fspath(path), f"the file of columns cannot be read: {why}", "merge the study again")
 
-def numbers_or_texts(texts: Sequence[str]) -> Values:
-    """JSON values as an array if all are numbers, otherwise as texts."""
-    known: Dict[str, Any] = {text: json.loads(text) for text in set(texts)}
-    if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in known.values()):
-        return np.array([known[text] for text in texts], "<f8")
-    return [known[text] if isinstance(known[text], str) else text for text in texts]
+    @property
+    def rows(self) -> int:
+        """The number of points."""
+        return int(self.about["rows"])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __getitem__(self, name: str) -> Values:
+        if name in self._kept:
+            return self._kept[name]
+        entry = self._entries[name]
+        with open(self.path, "rb") as file:
+            file.seek(self._start + entry["at"])
+            if "shape" in entry:
+                return np.fromfile(file, entry["type"], int(np.prod(entry["shape"]))).reshape(entry["shape"])
+            ends = np.fromfile(file, "<u8", self.rows + 1)
+            if entry["type"] == "list":
+                return np.split(np.fromfile(file, "<f8", ends[-1]), ends[1:-1])
+            return [file.read(size).decode() if size else "" for size in np.diff(ends)]

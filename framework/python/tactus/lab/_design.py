@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import csv
+import functools
 import glob
 import json
 import math
+import operator
 import os
 from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union
+
+import numpy as np
 
 from .._messages import fail
 from ._draw import Draw
@@ -83,10 +87,23 @@ def text_of(value: Any) -> str:
 
 
 class Design:
-    """Points by their number. They are made when they are asked for, so a large design takes no memory."""
+    """Points by their number. They are made when they are asked for, so a large grid or sequence takes no memory."""
 
-    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point]):
-        self.names, self.count, self.at = list(names), count, at
+    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], numeric: Sequence[bool], repeats: bool):
+        """numeric: of each factor, whether all its values are numbers. repeats: some points may be equal."""
+        self.names, self.count, self.at, self.numeric, self.repeats = list(names), count, at, numeric, repeats
+
+    def columns(self, points: Sequence[Point]) -> Dict[str, Any]:
+        """The values of some points by factor: arrays of numbers, or lists of texts."""
+        found: Dict[str, Any] = {}
+        for name, numeric, texts in zip(self.names, self.numeric, zip(*points)):
+            known = {text: json.loads(text) for text in set(texts)}
+            found[name] = np.array([known[text] for text in texts], float) if numeric else [v if isinstance(v := known[t], str) else t for t in texts]
+        return found
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
@@ -98,28 +115,20 @@ def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
     if isinstance(kind, FromTable):
         return _table(kind, factors, folder)
     levels = [_levels(factor, f"/factors/{i}", folder) for i, factor in enumerate(factors)]
+    numeric = [all(map(_is_number, each)) for each in levels]
     if isinstance(kind, Grid):
-        texts = [[text_of(v) for v in (each or _steps(factor))] for each, factor in zip(levels, factors)]
-        return _grid(names, texts)
+        texts = [[text_of(v) for v in (each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)])] for each, factor in zip(levels, factors)]
+        sizes = [len(each) for each in texts]
+        parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(texts)]
+        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), numeric,
+                      any(len(set(each)) < len(each) for each in texts))
     columns = _latin(kind, len(factors)) if isinstance(kind, Latin) else _sobol(len(factors))
 
     def at(index: int) -> Point:
         return tuple(text_of(each[min(int(u * len(each)), len(each) - 1)] if each else _between(factor, u))
                      for each, factor, u in zip(levels, factors, columns(index)))
 
-    return Design(names, kind.points, at)
-
-
-def _grid(names: List[str], texts: List[List[str]]) -> Design:
-    sizes = [len(each) for each in texts]
-
-    steps = [math.prod(sizes[k + 1:]) for k in range(len(sizes))]
-    parts = list(zip(texts, steps, sizes))
-
-    def at(index: int) -> Point:
-        return tuple([each[index // step % size] for each, step, size in parts])
-
-    return Design(names, math.prod(sizes), at)
+    return Design(names, kind.points, at, numeric, all(levels))
 
 
 def _levels(factor: Factor, where: str, folder: str) -> List[Any]:
@@ -148,15 +157,13 @@ def _between(factor: Factor, u: float) -> float:
     return float(f"{math.exp(math.log(low) * (1.0 - u) + math.log(high) * u) if factor.log else low + (high - low) * u:.12g}")
 
 
-def _steps(factor: Factor) -> List[float]:
-    return [_between(factor, k / (factor.count - 1)) for k in range(factor.count)]
-
-
 def _latin(kind: Latin, width: int) -> Callable[[int], List[float]]:
-    draws = [Draw("study", kind.seed, k) for k in range(width)]
-    orders = [draw.order(range(kind.points)) for draw in draws]
-    places = [[draw.uniform() for _ in range(kind.points)] for draw in draws]
-    return lambda index: [(order[index] + place[index]) / kind.points for order, place in zip(orders, places)]
+    columns = []
+    for k in range(width):
+        draw = Draw("study", kind.seed, k)
+        order = np.array(draw.order(range(kind.points)), float)
+        columns.append((order + np.array([draw.uniform() for _ in range(kind.points)])) / kind.points)
+    return lambda index: [float(column[index]) for column in columns]
 
 
 # Primitive polynomials (degree, coefficients) and first direction numbers: the file new-joe-kuo-6.21201 of Joe and Kuo (2008).
@@ -181,14 +188,8 @@ def _sobol(width: int) -> Callable[[int], List[float]]:
 
     def at(index: int) -> List[float]:
         gray = index ^ (index >> 1)
-        found = []
-        for directions in table[:width]:
-            x = 0
-            for k in range(_BITS):
-                if gray >> k & 1:
-                    x ^= directions[k]
-            found.append(x / 2.0**_BITS)
-        return found
+        chosen = [k for k in range(_BITS) if gray >> k & 1]
+        return [functools.reduce(operator.xor, (directions[k] for k in chosen), 0) / 2.0**_BITS for directions in table]
 
     return at
 
@@ -210,7 +211,8 @@ def _table(kind: FromTable, factors: Sequence[Factor], folder: str) -> Design:
         if len(row) != len(rows[0]):
             fail("study/value", f"{kind.path}:{number}", f"the row has {len(row)} values, and the header {len(rows[0])}", "correct the row")
     points = [tuple(text_of(_cell(row[c])) for c in columns) for row in rows[1:]]
-    return Design(names, len(points), lambda index: points[index])
+    numeric = [all(_is_number(json.loads(text)) for text in texts) for texts in zip(*points)]
+    return Design(names, len(points), lambda index: points[index], numeric, len(set(points)) < len(points))
 
 
 def _cell(text: str) -> Any:

@@ -4,19 +4,21 @@
 from __future__ import annotations
 
 import concurrent.futures
+import datetime
 import os
 import pickle
 import shlex
 import sys
 import time
 from concurrent.futures import BrokenExecutor, Future
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Set, TextIO, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence, Set, TextIO, Tuple
 
 import numpy as np
 
 from .._messages import fail
+from ._columns import BLOCK
 from ._design import Point
-from ._parts import Folder, Part, merge
+from ._parts import Folder, Held, Part
 from ._worker import Chunk, Worker, work
 
 if TYPE_CHECKING:
@@ -52,13 +54,7 @@ class Progress:
         fresh = self.done - self._first
         left = (self._clock() - self._begin) / fresh * (self.total - self.done) if fresh else 0.0
         errors = f", {self.bad} with errors" if self.bad else ""
-        return f"{self.done} of {self.total} points{errors}" + (f", {clock_text(left)} left" if self.done < self.total and fresh else "")
-
-
-def clock_text(seconds: float) -> str:
-    """A time as h:mm:ss."""
-    whole = int(seconds + 0.5)
-    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+        return f"{self.done} of {self.total} points{errors}" + (f", {datetime.timedelta(seconds=round(left))} left" if self.done < self.total and fresh else "")
 
 
 class _Sizes:
@@ -99,16 +95,32 @@ def drive(prepared: "Prepared", out: Any, make: Optional[Callable[[], Any]] = No
             fail("study/exists", str(folder.path), f"the folder has the results of {len(held.keys)} points",
                  "go on with --resume, or choose another folder with --out")
         wanted = range(shard[0], prepared.design.count, shard[1])
-        keys = prepared.keys(wanted)
-        at = held.find(keys)
-        _, first = np.unique(keys, return_index=True)   # two equal points are one
-        todo = np.sort(first[at[first] < 0])
-        progress = Progress(len(wanted), len(wanted) - len(todo), int(np.isin(at, list(held.problems)).sum()), report)
+        todo, bad = missing(prepared, held, wanted)
+        progress = Progress(len(wanted), len(wanted) - len(todo), bad, report)
+        del held
         if len(todo):
-            _Driver(prepared, folder, progress, keys[todo], np.array(wanted)[todo], max(1, workers)).run(make)
+            _Driver(prepared, folder, progress, todo, max(1, workers)).run(make)
         return progress
     finally:
         os.close(lock)
+
+
+def missing(prepared: "Prepared", held: Held, wanted: range) -> Tuple[Sequence[int], int]:
+    """The points that have no result yet, and how many of the others have errors. Equal points are one."""
+    design = prepared.design
+    if not len(held.keys) and not design.repeats:
+        return wanted, 0   # no point needs memory
+    todo, bad, seen = [], 0, np.zeros(0, "S16")
+    for first in range(0, len(wanted), BLOCK):
+        numbers = np.array(wanted[first:first + BLOCK])
+        keys = prepared.keys([design.at(i) for i in numbers.tolist()])
+        at = held.find(keys)
+        bad += int(np.isin(at, held.bad).sum())
+        keys, row = np.unique(keys, return_index=True)
+        new = row[(at[row] < 0) & ~np.isin(keys, seen)]
+        todo.append(numbers[np.sort(new)])
+        seen = np.union1d(seen, keys) if design.repeats else seen
+    return np.concatenate(todo), bad
 
 
 def _lock(folder: Folder, is_shared: bool) -> int:
@@ -124,21 +136,21 @@ def _lock(folder: Folder, is_shared: bool) -> int:
 
 
 class _Driver:
-    def __init__(self, prepared: "Prepared", folder: Folder, progress: Progress, keys: Any, todo: Any, workers: int):
+    def __init__(self, prepared: "Prepared", folder: Folder, progress: Progress, todo: Sequence[int], workers: int):
         self.prepared, self.folder, self.progress, self.workers = prepared, folder, progress, workers
-        self.keys, self.todo, self.at = keys, todo, 0
+        self.todo, self.at = todo, 0
         self.sizes = _Sizes(workers, len(todo))
         self.parts: Dict[Tuple[str, str], Part] = {}
         self.told: set[str] = set()
-        self.again: List[range] = []   # chunks that were lost with a worker; a chunk is a part of the list `todo`
+        self.again: List[List[Point]] = []   # chunks that were lost with a worker
         self.pickled = b""
 
     def run(self, make: Optional[Callable[[], Any]]) -> None:
         try:
             if make is None:
                 worker = Worker(self.prepared, is_far=False)
-                while chunk := self._next():
-                    self._keep(chunk, worker.render(self._points(chunk)))
+                while points := self._next():
+                    self._keep(points, worker.render(points))
                 return
             self.pickled = pickle.dumps(self.prepared, 4)
             tries = 0
@@ -156,29 +168,26 @@ class _Driver:
             for part in self.parts.values():
                 part.close()
 
-    def _next(self) -> range:
+    def _next(self) -> List[Point]:
         if self.again:
             return self.again.pop()
         size = self.sizes.next() if self.at < len(self.todo) else 0
         self.at += size
-        return range(self.at - size, self.at)
-
-    def _points(self, chunk: range) -> List[Point]:
-        return [self.prepared.design.at(i) for i in self.todo[chunk.start:chunk.stop].tolist()]
+        return [self.prepared.design.at(int(i)) for i in self.todo[self.at - size:self.at]]
 
     def _with(self, executor: Any) -> None:
         """Works on an executor until nothing is left, or until it breaks."""
-        flying: Dict["Future[Optional[Chunk]]", range] = {}
+        flying: Dict["Future[Optional[Chunk]]", List[Point]] = {}
         try:
             while True:
-                while len(flying) < 2 * self.workers and (chunk := self._next()):
-                    flying[executor.submit(work, self.prepared.context, None, self._points(chunk))] = chunk
+                while len(flying) < 2 * self.workers and (points := self._next()):
+                    flying[executor.submit(work, self.prepared.context, None, points)] = points
                 if not flying:
                     return
                 for future in self._done(executor, flying):
                     result = self._result(future)
                     if result is None:   # this worker has not got the study yet
-                        flying[executor.submit(work, self.prepared.context, self.pickled, self._points(flying[future]))] = flying[future]
+                        flying[executor.submit(work, self.prepared.context, self.pickled, flying[future])] = flying[future]
                     else:
                         self._keep(flying[future], result)
                     del flying[future]
@@ -188,7 +197,7 @@ class _Driver:
             self.again += list(flying.values())
             raise
 
-    def _done(self, executor: Any, flying: Dict["Future[Optional[Chunk]]", range]) -> "Set[Future[Optional[Chunk]]]":
+    def _done(self, executor: Any, flying: Dict["Future[Optional[Chunk]]", List[Point]]) -> "Set[Future[Optional[Chunk]]]":
         """The chunks that have come back, at least one. A pool of processes that breaks while it is given a chunk forgets that chunk (before Python 3.12),
         but it refuses the next one."""
         while True:
@@ -209,26 +218,25 @@ class _Driver:
                 raise BrokenExecutor(f"{type(why).__name__}: {why}") from why
             raise
 
-    def _keep(self, chunk: range, made: Chunk) -> None:
+    def _keep(self, points: List[Point], made: Chunk) -> None:
         if made.stamp not in self.parts:
-            self.folder.accept(made.stamp, made.host)
+            self.folder.accept(made.stamp, f"the worker on {made.host}")
             self.parts[made.stamp] = Part(self.folder.parts_path, self.prepared.context, made.stamp)
-        self.parts[made.stamp].add(self.keys[chunk.start:chunk.stop].tobytes(), made)
-        self.sizes.learn(len(chunk), float(made.seconds.sum()))
+        self.parts[made.stamp].add(self.prepared.keys(points).tobytes(), made)
+        self.sizes.learn(len(points), float(made.seconds.sum()))
         for kind, text in made.warnings.items():
             if kind not in self.told and len(self.told) < 20:
                 self.told.add(kind)
                 print(f"warning: {text}", file=sys.stderr)
-        self.progress.add(len(chunk), len(made.problems))
+        self.progress.add(len(points), len(made.problems))
 
 
-def slurm_script(words: List[str], out: str, shards: int, name: str) -> str:
-    """A job array that renders a study: one task for each shard."""
-    command = " ".join(shlex.quote(word) for word in words)
+def slurm_script(words: List[str], out: str, name: str, shards: int = 0) -> str:
+    """A job that runs a command. shards: an array of jobs, each of which renders a shard."""
     path = f"export PYTHONPATH={shlex.quote(os.environ['PYTHONPATH'])}\n" if os.environ.get("PYTHONPATH") else ""
-    return (f"#!/bin/sh\n#SBATCH --job-name=tactus-{name}\n#SBATCH --array=0-{shards - 1}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n"
-            f"#SBATCH --output={shlex.quote(out)}/slurm-%A_%a.log\n#SBATCH --open-mode=append\n#SBATCH --requeue\n"
-            f"{path}exec {command} --shard \"$SLURM_ARRAY_TASK_ID/{shards}\"\n")
+    array, log, more = (f"#SBATCH --array=0-{shards - 1}\n", "%A_%a", f' --shard "$SLURM_ARRAY_TASK_ID/{shards}"') if shards else ("", "%j", "")
+    return (f"#!/bin/sh\n#SBATCH --job-name=tactus-{name}\n{array}#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n"
+            f"#SBATCH --output={shlex.quote(out)}/slurm-{log}.log\n#SBATCH --open-mode=append\n#SBATCH --requeue\n{path}exec {shlex.join(words)}{more}\n")
 
 
-__all__ = ["Progress", "drive", "merge", "slurm_script"]
+__all__ = ["Progress", "drive", "missing", "slurm_script"]

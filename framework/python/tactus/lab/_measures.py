@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, Optional
+from typing import Any, Dict, List, Literal
 
 import numpy as np
 
@@ -72,12 +72,12 @@ def checked(measures: List[Measure]) -> None:
         fail("study/value", "/measures", "there are two measures `stable`", "one is enough")
 
 
-def gauge(measure: Measure, recording: Optional[Dict[str, Array]]) -> Dict[str, Any]:
+def gauge(measure: Measure, recording: Dict[str, Array]) -> Dict[str, Any]:
     """A measure as the C++ side computes it."""
     found: Dict[str, Any] = {"kind": measure.kind, "port": measure.port, "position": measure.position, "level": measure.level, "hold": measure.hold,
                              "above": measure.above}
     if measure.kind == "misfit":
-        if recording is None or measure.column not in recording:
+        if measure.column not in recording:
             fail("study/no_column", f"/measures/{measure.name}", f"the recording has no column '{measure.column}'" if recording else "there is no recording",
                  f"its columns: {', '.join(recording)}" if recording else "add the factor `recording`")
         found["reference"] = recording[measure.column]

@@ -2,43 +2,39 @@
 """The results of a study in a folder: each process adds to a file of its own, chunk by chunk, and a merge makes one table of them.
 
 A part is a sequence of frames: length and CRC-32 of the rest (4 bytes each, little endian), then the rest. The first frame is JSON about the process, each
-other one a chunk: the length of its JSON (4 bytes), the JSON, keys (16 bytes a point), numbers and seconds (8 bytes each), and records. A frame that was cut
-off by a crash is left out when it is read."""
+other one a chunk: an .npz of numpy. A frame that was cut off by a crash is left out when it is read."""
 
 from __future__ import annotations
 
-import itertools
+import contextlib
+import io
 import json
-import mmap
 import os
 import pathlib
 import socket
 import struct
+import uuid
 import zlib
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
-from .._checks import Array
 from .._messages import fail
-from . import _columns
-from ._worker import Chunk, stamp
+from ._columns import BLOCK, Results, Writer
+from ._worker import Chunk, Stamp, stamp
 
 if TYPE_CHECKING:
     from ._study import Prepared
 
 MAGIC = b"TACTPRT1"
-Stamp = Tuple[str, str]
+_load: Any = np.load   # numpy has no types for it
 
 
-class Frame(NamedTuple):
-    """A chunk in a part."""
+class DiskError(Exception):
+    """The results cannot be written."""
 
-    about: Dict[str, Any]
-    keys: bytes
-    numbers: Array
-    seconds: Array
-    traces: List[Array]
+    def __init__(self, folder: pathlib.Path, what: str, why: OSError, kept: str):
+        super().__init__(f"{folder}: the results cannot be {what}: {why.strerror}; {kept}\n    make room, and go on with --resume")
 
 
 class Part:
@@ -46,32 +42,21 @@ class Part:
 
     def __init__(self, folder: pathlib.Path, context: bytes, mark: Stamp):
         host = "".join(c if c.isalnum() else "_" for c in socket.gethostname())[:40]
-        for number in itertools.count():
-            self.path = folder / f"{host}-{os.getpid()}-{number}.part"
-            try:
-                self._file = open(self.path, "xb", buffering=0)
-                break
-            except FileExistsError:
-                continue
-            except OSError as why:
-                raise disk(folder, why, 0) from None
+        self.path = folder / f"{host}-{os.getpid()}-{uuid.uuid4().hex}.part"
         self._size = self.points = 0
         try:
-            self._put(MAGIC, json.dumps({"study": context.hex(), "tactus": mark[0], "computer": mark[1]}).encode())
+            self._file = open(self.path, "xb", buffering=0)
         except OSError as why:
-            raise disk(folder, why, 0) from None
+            raise DiskError(folder, "written", why, "no point of this process is on the disk") from None
+        self._put(MAGIC, json.dumps({"study": context.hex(), "tactus": mark[0], "computer": mark[1]}).encode())
 
     def add(self, keys: bytes, chunk: Chunk) -> None:
         """Adds a chunk; returns once it is on the disk."""
-        about = {"n": len(chunk.seconds), "columns": chunk.numbers.shape[1], "problems": chunk.problems, "host": chunk.host, "process": chunk.process,
-                 "kept": chunk.kept, "ticks": [len(trace) for trace in chunk.traces]}
-        text = json.dumps(about, ensure_ascii=False).encode(errors="replace")
-        data = b"".join([struct.pack("<I", len(text)), text, keys, chunk.numbers.astype("<f8").tobytes(), chunk.seconds.astype("<f8").tobytes(),
-                         *(trace.astype("<f8").tobytes() for trace in chunk.traces)])
-        try:
-            self._put(b"", data)
-        except OSError as why:
-            raise disk(self.path.parent, why, self.points) from None
+        about = {"problems": chunk.problems, "host": chunk.host, "process": chunk.process, "kept": chunk.kept}
+        data = io.BytesIO()
+        np.savez(data, about=np.bytes_(json.dumps(about)), keys=np.frombuffer(keys, "S16"), numbers=chunk.numbers, seconds=chunk.seconds,
+                 ticks=np.array([len(trace) for trace in chunk.traces], int), traces=np.concatenate([np.zeros((0, len(chunk.kept))), *filter(len, chunk.traces)]))
+        self._put(b"", data.getvalue())
         self.points += len(chunk.seconds)
 
     def _put(self, before: bytes, data: bytes) -> None:
@@ -81,12 +66,10 @@ class Part:
             while at < len(frame):
                 at += self._file.write(frame[at:]) or 0
             os.fsync(self._file.fileno())
-        except OSError:
-            try:
+        except OSError as why:
+            with contextlib.suppress(OSError):   # a reader leaves out what was cut off
                 os.ftruncate(self._file.fileno(), self._size)
-            except OSError:
-                pass   # a reader leaves out what was cut off
-            raise
+            raise DiskError(self.path.parent, "written", why, f"{self.points} points of this process are on the disk") from None
         self._size += len(frame)
 
     def close(self) -> None:
@@ -94,48 +77,36 @@ class Part:
         self._file.close()
 
 
-class DiskError(Exception):
-    """The results cannot be written."""
+class Frame(NamedTuple):
+    """Where a chunk is, and whose it is."""
+
+    path: pathlib.Path
+    at: int
+    size: int
+    first: int   # the number of its first result in the folder
+    mark: Stamp
+    worker: Tuple[str, int]   # host and process
+    kept: List[str]
 
 
-def disk(folder: pathlib.Path, why: OSError, points: int) -> DiskError:
-    return DiskError(f"{folder}: the results cannot be written: {why.strerror}; {points} points of this process are on the disk\n"
-                     "    make room, and go on with --resume")
-
-
-def frames(path: pathlib.Path) -> Iterator[Tuple[Dict[str, Any], Optional[Frame]]]:
-    """The header of a part, once with None, and then its frames. Ends at the first one that is not whole."""
+def bodies(path: pathlib.Path) -> Iterator[Tuple[int, bytes]]:
+    """The frames of a part, and where they are. Ends at the first one that is not whole."""
     with open(path, "rb") as file:
-        if os.fstat(file.fileno()).st_size <= len(MAGIC):
+        begin = file.read(len(MAGIC) + 1)
+        if len(begin) <= len(MAGIC):
             return
-        data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    if data[:8] != MAGIC:
-        fail("study/part", str(path), "the file is not a part of a study", "take it out of the folder")
-    at, header = 8, None
-    while at + 8 <= len(data):
-        size, check = struct.unpack_from("<II", data, at)
-        body = data[at + 8:at + 8 + size]
-        if len(body) != size or zlib.crc32(body) != check:
-            return
-        at += 8 + size
-        if header is None:
-            header = json.loads(bytes(body).decode())
-            yield header, None
-            continue
-        length = struct.unpack_from("<I", body, 0)[0]
-        about = json.loads(bytes(body[4:4 + length]).decode())
-        n, m, here = about["n"], about["columns"], 4 + length
-        keys = bytes(body[here:here + 16 * n])
-        here += 16 * n
-        numbers = np.frombuffer(body, "<f8", n * m, here).reshape(n, m)
-        seconds = np.frombuffer(body, "<f8", n, here + 8 * n * m)
-        here += 8 * n * (m + 1)
-        traces = []
-        for ticks in about["ticks"]:
-            width = len(about["kept"]) if ticks else 0
-            traces.append(np.frombuffer(body, "<f8", ticks * width, here).reshape(ticks, width))
-            here += 8 * ticks * width
-        yield header, Frame(about, keys, numbers, seconds, traces)
+        if begin[:-1] != MAGIC:
+            fail("study/part", str(path), "the file is not a part of a study", "take it out of the folder")
+        file.seek(len(MAGIC))
+        while len(head := file.read(8)) == 8:
+            size, check = struct.unpack("<II", head)
+            body = file.read(size)
+            if len(body) != size or zlib.crc32(body) != check:
+                return
+            yield file.tell() - size, body
+
+
+_MARKS: List[Callable[[Frame], Any]] = [lambda frame: frame.mark, lambda frame: frame.worker, lambda frame: frame.path.name]
 
 
 class Folder:
@@ -161,7 +132,7 @@ class Folder:
         if self.about.get("study") != mine["study"]:
             fail("study/other", str(self.path), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
                  "choose another folder with --out")
-        self._check((self.about["tactus"], self.about["computer"]), stamp(), "this process")
+        self.accept(stamp(), "this process")
 
     def _begin(self, about: Dict[str, Any]) -> None:
         new = self.path / f"study.json.{socket.gethostname()}.{os.getpid()}.new"
@@ -176,7 +147,9 @@ class Folder:
         finally:
             new.unlink()
 
-    def _check(self, begun: Stamp, mark: Stamp, who: str) -> None:
+    def accept(self, mark: Stamp, who: str) -> None:
+        """Refuses the results of another version, or of a computer that computes differently."""
+        begun = self.about["tactus"], self.about["computer"]
         if begun == mark or self.mixed:
             return
         what = f"Tactus {mark[0]}, and the study began with {begun[0]}" if begun[0] != mark[0] else \
@@ -184,38 +157,50 @@ class Folder:
         fail("study/other_version", str(self.path), f"{who} has {what}, so its results may have other bits",
              "use what the study began with, choose another folder, or take and mark such results with --mixed")
 
-    def accept(self, mark: Stamp, host: str) -> None:
-        """Refuses the results of a worker with another version, or on a computer that computes differently."""
-        self._check((self.about["tactus"], self.about["computer"]), mark, f"the worker on {host}")
-
-    def frames(self) -> Iterator[Tuple[Stamp, str, Frame]]:
-        """What is there: the mark of each frame, the name of its part, and the frame."""
-        for path in sorted(self.parts_path.glob("*.part")):
-            for header, frame in frames(path):
-                if header["study"] != self.prepared.context.hex():
-                    break
-                mark = (header["tactus"], header["computer"])
-                self._check((self.about["tactus"], self.about["computer"]), mark, path.name)
-                if frame is not None:
-                    yield mark, path.name, frame
-
     def results(self) -> "Held":
         """All results that are there."""
-        return Held(list(self.frames()))
+        frames, keys, bad = [], bytearray(), []
+        for path in sorted(self.parts_path.glob("*.part")):
+            mark: Optional[Stamp] = None
+            for at, body in bodies(path):
+                if mark is None:
+                    header = json.loads(body)
+                    if header["study"] != self.prepared.context.hex():
+                        break
+                    mark = header["tactus"], header["computer"]
+                    self.accept(mark, path.name)
+                    continue
+                with _load(io.BytesIO(body)) as held:
+                    about = json.loads(held["about"].item())
+                    bad += [len(keys) // 16 + problem[0] for problem in about["problems"]]
+                    frames.append(Frame(path, at, len(body), len(keys) // 16, mark, (about["host"], about["process"]), about["kept"]))
+                    keys += held["keys"].tobytes()
+        return Held(frames, keys, bad)
 
 
 class Held:
-    """The results in a folder, numbered from 0 in the order of their parts."""
+    """The results in a folder, numbered from 0 in the order of their parts. Of each result, its address and its number are in memory (24 bytes), to find it;
+    its values are read when they are asked for."""
 
-    def __init__(self, frames_: List[Tuple[Stamp, str, Frame]]):
-        self.frames = frames_
-        sizes = [frame.about["n"] for _, _, frame in frames_]
-        self.frame = np.repeat(np.arange(len(sizes)), sizes)   # by result: the number of its frame, and its row there
-        starts = np.cumsum([0, *sizes])
-        self.row = np.arange(starts[-1]) - np.repeat(starts[:-1], sizes)
-        self.keys = np.frombuffer(b"".join(frame.keys for _, _, frame in frames_), "S16")
-        self.problems = {int(start) + p[0]: p for start, (_, _, frame) in zip(starts, frames_) for p in frame.about["problems"]}
+    def __init__(self, frames: Sequence[Frame], keys: bytearray, bad: List[int]):
+        self.frames, self.bad = frames, np.array(bad, int)   # bad: the results with errors
+        self._starts = np.array([frame.first for frame in frames], int)
+        self.keys = np.frombuffer(keys, "S16")
         self._order = np.argsort(self.keys, kind="stable")
+        self._read: Dict[int, Chunk] = {}
+
+    def chunk(self, number: int) -> Chunk:
+        """The chunk of a frame. A few that were read last are kept, as points that follow each other are often in one."""
+        if number not in self._read:
+            frame = self.frames[number]
+            with open(frame.path, "rb") as file:
+                file.seek(frame.at)
+                with _load(io.BytesIO(file.read(frame.size))) as held:
+                    traces = np.split(held["traces"], np.cumsum(held["ticks"])[:-1])
+                    self._read[number] = Chunk(held["numbers"], held["seconds"], json.loads(held["about"].item())["problems"], traces)
+            for old in list(self._read)[:-4]:
+                del self._read[old]
+        return self._read[number]
 
     def find(self, keys: Any) -> Any:
         """By key: the number of its first result; -1 if there is none."""
@@ -224,45 +209,33 @@ class Held:
         at = self._order[np.minimum(np.searchsorted(self.keys, keys, sorter=self._order), len(self.keys) - 1)]
         return np.where(self.keys[at] == keys, at, -1)
 
-    def taken(self, at: Any, parts: List[Array], missing: float) -> Any:
-        """Values of frames or of their rows, by point; `at` says which result a point has."""
-        found = np.full((len(at), *(parts[0].shape[1:] if parts else ())), missing)
-        if parts:
-            found[at >= 0] = (np.concatenate(parts) if parts[0].ndim else np.array(parts)[self.frame])[at[at >= 0]]
-        return found
+    def place(self, at: Any) -> Tuple[Any, Any]:
+        """By number: the number of its frame, and its row there."""
+        frame = np.searchsorted(self._starts, at, "right") - 1
+        return frame, at - self._starts[frame]
 
     def twice(self) -> Iterator[Tuple[int, int]]:
         """Pairs of results of one point on equal computers."""
-        ordered = self.keys[self._order]
         first: Dict[Tuple[bytes, Stamp], int] = {}
-        for k in np.flatnonzero(np.isin(self.keys, ordered[1:][ordered[1:] == ordered[:-1]])).tolist():
-            other = first.setdefault((self.keys[k].tobytes(), self.frames[self.frame[k]][0]), k)
-            if other != k:
-                yield other, k
+        for at in range(0, len(self.keys), BLOCK):
+            some = self._order[at:at + BLOCK + 1]
+            same = self.keys[some[1:]] == self.keys[some[:-1]]
+            for k in np.union1d(some[1:][same], some[:-1][same]).tolist():
+                other = first.setdefault((self.keys[k].tobytes(), self.frames[self.place(k)[0]].mark), k)
+                if other != k:
+                    yield other, k
 
     def result(self, number: int) -> Tuple[Any, ...]:
         """The values that must be the same in two results of one point."""
-        frame, row = self.frames[self.frame[number]][2], self.row[number]
-        return frame.numbers[row].tobytes(), self.problems.get(number, [0])[1:], frame.traces[row].tobytes() if frame.traces else b""
-
-
-class Results(Dict[str, Any]):
-    """The merged results of a study: columns by name, one row for each point. about: the header of their file."""
-
-    def __init__(self, columns: Dict[str, Any], about: Dict[str, Any]):
-        super().__init__(columns)
-        self.about = about
-
-    @property
-    def rows(self) -> int:
-        """The number of points."""
-        return int(self.about["rows"])
+        frame, row = self.place(number)
+        chunk = self.chunk(int(frame))
+        return chunk.numbers[row].tobytes(), [p[1:] for p in chunk.problems if p[0] == row], chunk.traces[row].tobytes() if len(chunk.traces) > row else b""
 
 
 def load(path: Any) -> Results:
     """The results of a study: its folder, or the file results.tcol in it."""
     given = pathlib.Path(path)
-    return Results(*_columns.read(given / "results.tcol" if given.is_dir() else given))
+    return Results(given / "results.tcol" if given.is_dir() else given)
 
 
 def merge(prepared: "Prepared", out: Any, mixed: bool = False, partial: bool = False) -> Results:
@@ -273,43 +246,49 @@ def merge(prepared: "Prepared", out: Any, mixed: bool = False, partial: bool = F
         if held.result(a) != held.result(b):
             fail("study/differs", str(folder.path), f"a point was rendered twice, and its results differ (key {held.keys[a].hex()})",
                  "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
-    count = prepared.design.count
-    keys = prepared.keys(range(count))
-    at = held.find(keys)
-    if (at < 0).any() and not partial:
-        fail("study/missing", str(folder.path), f"{(at < 0).sum()} of {count} points have no results yet",
-             "go on with --resume, or merge what is there with --partial")
-    marks, parts = [mark for mark, _, _ in held.frames], [name for _, name, _ in held.frames]
-    workers = [(frame.about["host"], frame.about["process"]) for _, _, frame in held.frames]
-    origins = sorted({marks[f] for f in set(held.frame[at[at >= 0]].tolist())})
-
-    def numbered(known: List[Any], each: List[Any]) -> Any:
-        return held.taken(at, [np.array(known.index(v) if v in known else -1) for v in each], -1).astype("<i4")
-
-    columns: Dict[str, Any] = {"key": keys.view("|u1").reshape(count, 16)}
-    for c, name in enumerate(prepared.names):
-        columns[name] = _columns.numbers_or_texts([prepared.design.at(i)[c] for i in range(count)])
-    numbers = held.taken(at, [np.zeros((0, len(prepared.study.columns))), *(frame.numbers for _, _, frame in held.frames)], np.nan)
-    columns.update({name: numbers[:, i] for i, name in enumerate(prepared.study.columns)})
-    errors, places = [""] * count, [""] * count
-    for row in np.flatnonzero((at < 0) | np.isin(at, list(held.problems))).tolist():
-        _, name, places[row], text = held.problems.get(int(at[row]), (0, "study/missing", "", "the point has no result yet"))
-        errors[row] = f"{name}: {text}"
-    columns.update({"error": errors, "error_place": places, "origin": numbered(origins, marks)})
-    for c, name in enumerate(next((frame.about["kept"] for _, _, frame in held.frames if frame.about["kept"]), [])):
-        traces = [held.frames[held.frame[k]][2].traces[held.row[k]] if k >= 0 else np.zeros((0, 0)) for k in at]
-        columns[f"trace:{name}"] = [np.ascontiguousarray(trace[:, c]) if trace.size else np.zeros(0) for trace in traces]
-    about = {"format": "tactus-study-results", "version": 1, "name": prepared.study.name, "study": prepared.context.hex(), "rows": count,
-             "factors": prepared.names, "measures": prepared.study.columns, "origins": [{"tactus": t, "computer": c} for t, c in origins]}
-    used, known = sorted(set(parts)), sorted(set(workers))
-    times = {"seconds": held.taken(at, [frame.seconds for _, _, frame in held.frames], np.nan), "part": numbered(used, parts), "worker": numbered(known, workers)}
+    count, missing = prepared.design.count, 0
+    origins, workers, parts = (sorted({getter(frame) for frame in held.frames}) for getter in _MARKS)
+    results, times = Writer(folder.path / "results.tcol"), Writer(folder.path / "times.tcol")
     try:
-        _columns.write(folder.path / "results.tcol", columns, about, prepared.study.units)
-        _columns.write(folder.path / "times.tcol", times, {"format": "tactus-study-times", "rows": count, "parts": used,
-                                                           "workers": [{"host": h, "process": p} for h, p in known]}, {"seconds": "s"})
+        for first in range(0, count, BLOCK):
+            points = [prepared.design.at(i) for i in range(first, min(first + BLOCK, count))]
+            keys = prepared.keys(points)
+            at = held.find(keys)
+            missing += int((at < 0).sum())
+            rows = _rows(prepared, held, at, [origins, workers, parts])
+            times.add({name: rows.pop(name) for name in ("seconds", "part", "worker")})
+            results.add({"key": keys.view("|u1").reshape(-1, 16), **prepared.design.columns(points), **rows})
+        if missing and not partial:
+            fail("study/missing", str(folder.path), f"{missing} of {count} points have no results yet",
+                 "go on with --resume, or merge what is there with --partial")
+        times.close({"format": "tactus-study-times", "parts": parts, "workers": [{"host": h, "process": p} for h, p in workers]}, {"seconds": "s"})
+        results.close({"format": "tactus-study-results", "version": 1, "name": prepared.study.name, "study": prepared.context.hex(), "factors": prepared.names,
+                       "measures": prepared.study.columns, "origins": [{"tactus": t, "computer": c} for t, c in origins]}, prepared.study.units)
     except OSError as why:
-        raise DiskError(f"{folder.path}: the results cannot be merged: {why.strerror}\n    make room, and merge again; no result is lost") from None
-    return Results(columns, about)
+        raise DiskError(folder.path, "merged", why, "none is lost") from None
+    return Results(folder.path / "results.tcol", keeps=False)
+
+
+def _rows(prepared: "Prepared", held: Held, at: Any, known: List[List[Any]]) -> Dict[str, Any]:
+    """The columns of some points; `at` has the numbers of their results."""
+    n = len(at)
+    kept: List[str] = next((frame.kept for frame in held.frames if frame.kept), [])
+    numbers, seconds, marks = np.full((n, len(prepared.study.columns)), np.nan), np.full(n, np.nan), np.full((3, n), -1)
+    problems: List[Any] = [(0, "study/missing", "", "the point has no result yet") if k < 0 else None for k in at.tolist()]
+    traces = [np.zeros((0, len(kept)))] * n
+    frames, row = held.place(at) if held.frames else (at, at)
+    for number in np.unique(frames[at >= 0]).tolist():
+        chunk, mine = held.chunk(number), np.flatnonzero((frames == number) & (at >= 0))
+        numbers[mine], seconds[mine] = chunk.numbers[row[mine]], chunk.seconds[row[mine]]
+        marks[:, mine] = [[each.index(getter(held.frames[number]))] for each, getter in zip(known, _MARKS)]
+        bad = {problem[0]: problem for problem in chunk.problems}
+        for i in mine.tolist() if bad or kept else ():
+            problems[i] = bad.get(row[i])
+            traces[i] = chunk.traces[row[i]].reshape(-1, len(kept)) if kept else traces[i]
+    origin, worker, part = marks.astype("<i4")
+    return {**{name: numbers[:, i] for i, name in enumerate(prepared.study.columns)}, "error": [f"{p[1]}: {p[3]}" if p else "" for p in problems],
+            "error_place": [p[2] if p else "" for p in problems], "origin": origin,
+            **{f"trace:{name}": [trace[:, c] for trace in traces] for c, name in enumerate(kept)}, "seconds": seconds, "part": part, "worker": worker}
 
 
 __all__ = ["DiskError", "Folder", "Part", "Results", "load", "merge"]

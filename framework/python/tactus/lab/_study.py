@@ -8,10 +8,11 @@ import hashlib
 import json
 import math
 import os
+import pathlib
 import pickle
 import platform
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from ._measures import Measure
 from ._procedures import note
 
 if TYPE_CHECKING:
-    from ._parts import Results
+    from ._columns import Results
 
 Functions = Mapping[str, Callable[..., Any]]
 Path = Union[str, "os.PathLike[str]"]
@@ -39,7 +40,7 @@ class Map:
     of: str = field(metadata=note("the column of a measure"))
     x: str = field(metadata=note("a factor"))
     y: str = field(metadata=note("another factor"))
-    limits: bool = field(default=False, metadata=note("draw the limits that `tactus limits` computes; needs that program"))
+    limits: bool = field(default=False, metadata=note("draw the limits that `tactus limits` computes"))
 
 
 @dataclass(frozen=True)
@@ -106,11 +107,12 @@ class Study:
         functions: the functions in Python that measures name. They get the Records and a dict with the values of the point.
         graph: instead of the one that the study names. assets: as for Graph.render; for workers, a dict.
         resume: go on in a folder that has results. mixed: also with those of other versions of Tactus or other computers; they are marked."""
-        from ._drive import drive, merge   # noqa: PLC0415: they need this module
+        from ._drive import drive   # noqa: PLC0415: they need this module
+        from ._parts import load, merge   # noqa: PLC0415
 
         prepared = self.prepare(functions, "", graph, assets)
         drive(prepared, out, (lambda: executor) if executor is not None else None, workers, resume=resume, mixed=mixed)
-        return merge(prepared, out, mixed=mixed)
+        return load(merge(prepared, out, mixed=mixed).path)
 
 
 def schema() -> Dict[str, Any]:
@@ -143,13 +145,16 @@ class Prepared:
         self.assets = assets if assets is None or callable(assets) else dict(assets)
         self.design: Design = _design.make(study.design, study.factors, study.folder)
         self.names = self.design.names
+        self.fast = [i for i, name in enumerate(self.names) if ":" not in name and name not in ("rate", "recording", "seed")]   # set between renders
+        self.slow = [i for i, name in enumerate(self.names) if i not in self.fast and name != "seed"]
+        self.records = list(dict.fromkeys([*study.keep, *(port for m in study.measures if m.kind not in ("stable", "function")
+                                                          for port in (m.port, m.position) if port)]))
         self.described: Dict[str, Any] = json.loads(self.graph.text).get("devices", {})
         self.devices = {role: simulated(role, given, f"/devices/{role}") for role, given in study.devices.items()}
         self._check_names()
         self.files = self._files()
         self.recordings = self._recordings()
         self.context = self._context()
-        self._hash = hashlib.blake2b(self.context, digest_size=16)
 
     def _check_names(self) -> None:
         """Refuses names that no point could use."""
@@ -184,28 +189,21 @@ class Prepared:
                 asked.append(path)
             return supplied
 
-        fast = [i for i, name in enumerate(self.names) if ":" not in name and name not in ("rate", "recording", "seed")]
         first = self.design.at(0)
-        ports = [*self.study.keep, *self.study.feed, *(port for m in self.study.measures for port in (m.port, m.position) if port)]
         common = {name: _design.text_of(value) for name, value in self.study.set.items()}
-        nothing: Tuple[List[str], List[str], List[str]] = ([], [], [])
-        for records, names, values in ((ports, [self.names[i] for i in fast], [first[i] for i in fast]), nothing):
-            tried = _tactus.render_points(self.graph._graph, 0.0, records, common, names, [values], {}, "", None, find, 1e-9, [], False, 0)
+        for fast in (self.fast, self.fast[:0]):   # with nothing, the graph reads all its files even if the point has errors
+            names, records = [self.names[i] for i in fast], [*self.records, *self.study.feed] if fast else []
+            tried = _tactus.render_points(self.graph._graph, 0.0, records, common, names, [[first[i] for i in fast]], {}, "", None, find, 1e-9, [], False, 0)
             for _, name, where, text in tried["errors"]:
-                if "unknown" in name and names:   # at each point; other errors may be those of single points
+                if "unknown" in name and fast:   # at each point; other errors may be those of single points
                     fail(name, where, text, "correct the name in the study")
         named = [v for factor in self.study.factors if factor.vary != "recording" for v in factor.values]
         for value in [*named, *self.devices.values(), *self.described.values()]:
-            for text in (value if isinstance(value, str) else "", value.get("path") if isinstance(value, dict) else "",
-                         (value.get("hand") or {}).get("path") if isinstance(value, dict) and isinstance(value.get("hand"), dict) else ""):
+            hand = value.get("hand") if isinstance(value, dict) else None
+            for text in (value, *(each.get("path") for each in (value, hand) if isinstance(each, dict))):
                 if isinstance(text, str) and text:
                     asked += [os.path.join(folder, text) for folder in (self.graph._graph.folder(), self.study.folder)]
-        found = {}
-        for path in asked:
-            if os.path.isfile(path):
-                with open(path, "rb") as file:
-                    found[os.path.abspath(path)] = file.read()
-        return found
+        return {os.path.abspath(path): pathlib.Path(path).read_bytes() for path in asked if os.path.isfile(path)}
 
     def _recordings(self) -> Dict[str, str]:
         """The hash of each recording. Recordings are not sent: workers read them, and compare."""
@@ -232,19 +230,16 @@ class Prepared:
 
     def key(self, point: Tuple[str, ...]) -> bytes:
         """The address of the result of a point, 16 bytes."""
-        text = "\x1f".join(point)
         if self.recordings:
-            text += "\x1f" + self.recordings[json.loads(point[self.names.index("recording")])]
-        made = self._hash.copy()
-        made.update(text.encode())
-        return made.digest()
+            point = *point, self.recordings[json.loads(point[self.names.index("recording")])]
+        return hashlib.blake2b("\x1f".join(point).encode(), digest_size=16, key=self.context).digest()
 
-    def keys(self, numbers: Iterable[int]) -> Any:
+    def keys(self, points: Sequence[_design.Point]) -> Any:
         """The addresses of the results of some points, shape (n,)."""
-        return np.fromiter((self.key(self.design.at(i)) for i in numbers), "S16")
+        return np.array([self.key(point) for point in points], "S16")
 
     def __getstate__(self) -> Dict[str, Any]:
-        state = {key: value for key, value in self.__dict__.items() if key not in ("design", "_hash")}   # a worker gets points, and no keys
+        state = {key: value for key, value in self.__dict__.items() if key != "design"}   # a worker gets points
         if self.source:
             state["functions"] = {}
         return state
@@ -260,8 +255,7 @@ def _code_of(function: Any) -> str:
 def digest_of(path: str) -> str:
     """The hash of a file."""
     try:
-        with open(path, "rb") as file:
-            return hashlib.sha256(file.read()).hexdigest()
+        return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
     except OSError as why:
         fail("study/no_recording", path, f"the file cannot be read: {why.strerror}", "check its name and permissions")
 

@@ -16,16 +16,14 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ProcessPoolExecutor
-from typing import Any, Callable, Dict, Iterator, List, NoReturn, Optional, Tuple
-
-import numpy as np
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
 from .._graph import Graph
 from .._messages import fail
 from . import _study_report
 from ._design import values_of
-from ._drive import drive, slurm_script
-from ._parts import Folder, Results, merge
+from ._drive import drive, missing, slurm_script
+from ._parts import Folder, merge
 from ._study import Prepared, Study
 from ._worker import Worker
 from ._writers import Table, table_of
@@ -56,33 +54,35 @@ def run(given: argparse.Namespace) -> int:
     if given.workers < 1:
         raise ValueError(f"--workers: {given.workers} is not a number of processes; give 1 or more")
     study = Study.load(given.file)
-    source = ""
-    if given.functions:
-        try:
-            source = pathlib.Path(given.functions).read_text(encoding="utf-8")
-        except (OSError, ValueError) as why:
-            raise ValueError(f"--functions: {given.functions} cannot be read: {why}") from None
+    try:
+        source = pathlib.Path(given.functions).read_text(encoding="utf-8") if given.functions else ""
+    except (OSError, ValueError) as why:
+        raise ValueError(f"--functions: {given.functions} cannot be read: {why}") from None
     prepared = study.prepare(source=source)
-    out = given.out or study.name
+    out = pathlib.Path(given.out or study.name)
     if given.status:
         return _status(prepared, out, given.mixed)
     if given.point >= 0:
-        return _point(prepared, pathlib.Path(out), given.point)
+        return _point(prepared, out, given.point)
     if given.executor == "slurm" and not given.merge and not given.shard:
         return _slurm(prepared, out, given)
     if not given.merge:
         shard = _shard(given.shard)
         with _executor(given.executor if not given.shard else "serial", given.workers, given.dask) as (make, workers):
-            if make is _IDLE:
+            if workers == 0:
                 return 0   # a worker of MPI, whose work is over
             progress = drive(prepared, out, make, workers, shard, given.resume or bool(given.shard), given.mixed, sys.stderr)
-            if given.shard:
-                print(f"shard {given.shard}: {progress.line()}")
-                return 0
+        if given.shard:
+            print(f"shard {given.shard}: {progress.line()}")
+            return 0
     results = merge(prepared, out, given.mixed, given.partial)
-    _write(results, pathlib.Path(out), given.to)
+    if given.to:
+        names = [name for name in results if name != "key" and not name.startswith("trace:")]
+        table = Table({name: results[name] for name in names}, {entry["name"]: entry["unit"] for entry in results.about["columns"] if entry["unit"]})
+        for each in given.to:
+            table.write(out / f"results.{each}")
     words = ["tactus", "study", os.path.basename(given.file), *(["--functions", os.path.basename(given.functions)] if given.functions else [])]
-    _study_report.write(prepared, results, pathlib.Path(out) / "report.html", words)
+    _study_report.write(prepared, results, out / "report.html", words)
     bad = sum(map(bool, results["error"]))
     print(f"{out}/results.tcol: {results.rows} points, {bad} with errors; report: {out}/report.html")
     return 0
@@ -97,134 +97,101 @@ def _shard(text: str) -> Tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def _write(results: Results, out: pathlib.Path, formats: List[str]) -> None:
-    if not formats:
-        return
-    columns = {name: results[name] for name in [*results.about["factors"], *results.about["measures"], "error", "error_place", "origin"]}
-    units = {entry["name"]: entry["unit"] for entry in results.about.get("columns", []) if entry["unit"]}
-    for each in formats:
-        Table(columns, units).write(out / f"results.{each}")
-
-
 # ---------------------------------------------------------------------------- Executors
-
-Make = Optional[Callable[[], Any]]
-
-
-def _IDLE() -> None:
-    """Stands for a process that has served others."""
-
 
 def end_with_parent() -> None:
     """A worker ends when the process that started it ends, also if that is killed."""
+    def end(sentinel: int) -> None:
+        multiprocessing.connection.wait([sentinel])
+        os._exit(1)
+
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_after(sentinel: int) -> None:
-    multiprocessing.connection.wait([sentinel])
-    os._exit(1)
+        threading.Thread(target=end, args=(parent.sentinel,), daemon=True).start()
 
 
 @contextlib.contextmanager
-def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Make, int]]:
-    """A function that gives an executor, and the number of its workers."""
+def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[Callable[[], Any]], int]]:
+    """A function that gives an executor, or None for this process, and the number of its workers. 0: this process has served others."""
     if kind == "serial" or kind == "local" and workers == 1:
         yield None, 1
     elif kind == "local":
-        pools: List[ProcessPoolExecutor] = []
-
-        def make() -> ProcessPoolExecutor:
-            end()
-            pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
-            return pools[-1]
-
-        def end() -> None:
-            for child in multiprocessing.active_children():   # a pool that is broken may wait for them
-                child.kill()
-
-        try:
-            yield make, workers
-        except BaseException:
-            end()
-            raise
-        finally:
-            for pool in pools:
-                pool.shutdown(wait=False, cancel_futures=True)
-            for child in multiprocessing.active_children():
-                child.join(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
-            end()
+        yield from _local(workers)
     elif kind == "dask":
-        yield from _dask(workers, address)
+        distributed = _imported("distributed", "python3-distributed")
+        made: Dict[str, Any] = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
+        with distributed.Client(**made) as client:
+            yield client.get_executor, max(1, sum(client.ncores().values()))
     else:
         yield from _mpi()
 
 
-def _missing(package: str, debian: str, why: ImportError) -> NoReturn:
-    fail("study/no_package", package, f"the package {package} cannot be imported: {why}", f"install it; on Debian, {debian}")
+def _local(workers: int) -> Iterator[Tuple[Callable[[], Any], int]]:
+    pools: List[ProcessPoolExecutor] = []
 
+    def make() -> ProcessPoolExecutor:
+        end()
+        pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
+        return pools[-1]
 
-def _dask(workers: int, address: str) -> Iterator[Tuple[Make, int]]:
+    def end() -> None:
+        for child in multiprocessing.active_children():   # a pool that is broken may wait for them
+            child.kill()
+
     try:
-        distributed: Any = importlib.import_module("distributed")
-    except ImportError as why:
-        _missing("distributed", "python3-distributed", why)
-    made: Dict[str, Any] = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
-    with distributed.Client(**made) as client:
-        yield client.get_executor, max(1, sum(client.ncores().values()))
+        yield make, workers
+        for pool in pools:
+            pool.shutdown(wait=False, cancel_futures=True)
+        for child in multiprocessing.active_children():
+            child.join(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
+    finally:
+        end()
 
 
-def _mpi() -> Iterator[Tuple[Make, int]]:
-    try:
-        MPI: Any = importlib.import_module("mpi4py.MPI")
-        futures: Any = importlib.import_module("mpi4py.futures")
-    except ImportError as why:
-        _missing("mpi4py", "python3-mpi4py", why)
+def _mpi() -> Iterator[Tuple[Optional[Callable[[], Any]], int]]:
+    MPI, futures = (_imported(name, "python3-mpi4py") for name in ("mpi4py.MPI", "mpi4py.futures"))
     size = MPI.COMM_WORLD.Get_size()
     if size == 1:
         yield None, 1
         return
     with futures.MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
-        if executor is None:
-            yield _IDLE, 1
-        else:
-            try:
-                yield lambda: executor, size - 1
-            except BaseException as why:
-                print(f"error: {why}", file=sys.stderr, flush=True)
-                MPI.COMM_WORLD.Abort(1)   # the other processes would wait forever
-                raise
+        try:
+            yield lambda: executor, size - 1 if executor else 0
+        except BaseException as why:
+            print(f"error: {why}", file=sys.stderr, flush=True)
+            MPI.COMM_WORLD.Abort(1)   # the other processes would wait forever
+            raise
 
 
-def _slurm(prepared: Prepared, out: str, given: argparse.Namespace) -> int:
+def _imported(module: str, debian: str) -> Any:
+    try:
+        return importlib.import_module(module)
+    except ImportError as why:
+        fail("study/no_package", module, f"the package {module.partition('.')[0]} cannot be imported: {why}", f"install it; on Debian, {debian}")
+
+
+def _slurm(prepared: Prepared, out: pathlib.Path, given: argparse.Namespace) -> int:
     shards = min(given.workers, prepared.design.count)
-    common = [sys.executable, "-m", "tactus.lab", "study", os.path.abspath(given.file), "--out", os.path.abspath(out)]
-    if given.functions:
-        common += ["--functions", os.path.abspath(given.functions)]
-    if given.mixed:
-        common.append("--mixed")
-    script = slurm_script(common, os.path.abspath(out), shards, prepared.study.name)
+    whole = str(out.resolve())
+    words = [sys.executable, "-m", "tactus.lab", "study", os.path.abspath(given.file), "--out", whole, *(["--mixed"] if given.mixed else []),
+             *(["--functions", os.path.abspath(given.functions)] if given.functions else [])]
+    script = slurm_script(words, whole, prepared.study.name, shards)
     print(script, end="", flush=True)
     if given.dry_run:
         return 0
     folder = Folder(prepared, out, given.mixed, begin=True)
     if len(folder.results().keys) and not given.resume:
-        fail("study/exists", out, "the folder has results", "go on with --resume, or choose another folder with --out")
-    path = folder.path / "slurm.sh"
-    path.write_text(script, encoding="utf-8")
-    job = _sbatch([str(path)])
-    after = folder.path / "slurm_merge.sh"
-    last = script[:script.index("exec ")].replace(f"#SBATCH --array=0-{shards - 1}\n", "").replace("slurm-%A_%a", "slurm-%j")
-    after.write_text(last + script[script.index("exec "):].replace(f'--shard "$SLURM_ARRAY_TASK_ID/{shards}"', "--merge --partial"), encoding="utf-8")
-    merging = _sbatch([f"--dependency=afterany:{job}", str(after)])
+        fail("study/exists", str(out), "the folder has results", "go on with --resume, or choose another folder with --out")
+    job = _sbatch(out / "slurm.sh", script)
+    merging = _sbatch(out / "slurm_merge.sh", slurm_script([*words, "--merge", "--partial"], whole, prepared.study.name), f"--dependency=afterany:{job}")
     print(f"submitted: job {job} with {shards} shards, and job {merging}, which merges their results; progress: --status")
     return 0
 
 
-def _sbatch(words: List[str]) -> str:
+def _sbatch(path: pathlib.Path, script: str, *options: str) -> str:
+    path.write_text(script, encoding="utf-8")
     try:
-        done = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True, check=False)
+        done = subprocess.run(["sbatch", "--parsable", *options, str(path)], capture_output=True, text=True, check=False)
     except OSError as why:
         fail("study/no_slurm", "sbatch", f"the job cannot be submitted: {why.strerror}", "submit it on a computer with Slurm, or print it: --dry-run")
     if done.returncode != 0:
@@ -235,13 +202,13 @@ def _sbatch(words: List[str]) -> str:
 
 # ---------------------------------------------------------------------------- Looking
 
-def _status(prepared: Prepared, out: str, mixed: bool) -> int:
+def _status(prepared: Prepared, out: pathlib.Path, mixed: bool) -> int:
     folder = Folder(prepared, out, mixed, begin=False)
     held = folder.results()
-    keys = np.unique(prepared.keys(range(prepared.design.count)))
-    at = held.find(keys)
-    done, others = int((at >= 0).sum()), len(np.unique(held.keys)) - int((at >= 0).sum())
-    print(f"{out}: {done} of {len(keys)} points, {np.isin(at, list(held.problems)).sum()} with errors" + (f"; {others} results of other points" if others else ""))
+    todo, bad = missing(prepared, held, range(prepared.design.count))
+    done = prepared.design.count - len(todo)
+    others = len(held.keys) - done
+    print(f"{out}: {done} of {prepared.design.count} points, {bad} with errors" + (f"; {others} results of other points" if others > 0 else ""))
     print(f"Tactus {folder.about['tactus']}, computer {folder.about['computer']}")
     return 0
 
@@ -256,7 +223,7 @@ def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
     out.mkdir(parents=True, exist_ok=True)
     table_of(records).write(out / f"point-{number}.csv")
     data = json.loads(graph.text)
-    values = {**prepared.study.set, **values_of([prepared.names[k] for k in worker.fast], tuple(point[k] for k in worker.fast))}
+    values = {**prepared.study.set, **values_of([prepared.names[k] for k in prepared.fast], tuple(point[k] for k in prepared.fast))}
     for name in [name for name in values if name in data.get("controls", {})]:
         data["controls"][name]["value"] = values.pop(name)
     data["rate_hz"] = records.rate_hz

@@ -4,23 +4,20 @@
 from __future__ import annotations
 
 import base64
-import csv
-import os
 import pathlib
 import shlex
-import shutil
 import struct
-import subprocess
-import tempfile
 import zlib
 from html import escape
-from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
 from .._checks import Array
+from .._messages import Error
+from .._reports import limits
 from . import _columns
-from ._parts import Results
+from ._columns import BLOCK, Results
 from ._study import Map, Prepared
 
 MOST_CELLS, BINS, LINES, WORST, PROBLEMS = 400, 24, 300, 10, 20
@@ -37,82 +34,79 @@ def _colour(part: Array) -> Array:
     return np.where(np.isnan(part)[..., None], np.array(GREY, float), mixed).round().astype(np.uint8)
 
 
-def _png(pixels: Array) -> str:
-    """Pixels, shape (rows, columns, 3), as the address of a picture."""
+def _image(x: float, y: float, w: float, h: float, pixels: Array) -> str:
+    """Pixels, shape (rows, columns, 3), as a picture in the page."""
     rows, columns, _ = pixels.shape
-    raw = b"".join(b"\0" + row.tobytes() for row in pixels)
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    made = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(raw, 9))
-            + chunk(b"IEND", b""))
-    return "data:image/png;base64," + base64.b64encode(made).decode()
+    png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0))
+           + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row.tobytes() for row in pixels), 9)) + chunk(b"IEND", b""))
+    return (f'<image x="{x}" y="{y}" width="{w}" height="{h}" preserveAspectRatio="none" style="image-rendering:pixelated" '
+            f'href="data:image/png;base64,{base64.b64encode(png).decode()}"/>')
 
 
 def _short(value: Any) -> str:
-    return f"{value:.4g}" if isinstance(value, (float, np.floating, int)) else str(value)[:40]
+    return f"{value:.4g}" if isinstance(value, (float, np.floating, int)) else str(value)
 
 
-class _Axis(NamedTuple):
-    """The cells along one axis: their middles, their texts, the cell of each point, and the unit."""
+class _Axis:
+    """The cells along one axis: one for each text or number; or, of many numbers, parts of the range."""
 
-    middles: Array
-    texts: List[str]
-    cells: Array
-    title: str
+    def __init__(self, name: str, values: Any, unit: str):
+        self.values, self.title = values, f"{name} ({unit})" if unit else name
+        different: Any = sorted(set(values)) if isinstance(values, list) else np.unique(values)
+        self._edges = np.arange(len(different)) - 0.5 if isinstance(values, list) else different
+        self._known = {text: k for k, text in enumerate(different)} if isinstance(values, list) else {}
+        if not self._known and len(different) > BINS and (len(different) > MOST_CELLS or len(different) ** 1.5 > len(values) + 8):
+            self._edges = np.linspace(different[0], different[-1], BINS + 1)[:-1]
+            different = self._edges + (self._edges[1] - self._edges[0]) / 2
+        self.texts = [_short(each) for each in different]
+        self._middles = np.arange(len(different)) if self._known else different
+
+    def cells(self, some: slice) -> Array:
+        """The cells of some points."""
+        numbers = [self._known[text] for text in self.values[some]] if self._known else self.values[some]
+        return np.asarray(np.searchsorted(self._edges, numbers, "right") - 1)
 
     def at(self, values: Array) -> Array:
         """The places of values, in cells from the low end."""
-        return np.interp(values, self.middles, np.arange(len(self.middles)) + 0.5, left=np.nan, right=np.nan)
+        return np.interp(values, self._middles, np.arange(len(self.texts)) + 0.5, left=np.nan, right=np.nan)
 
 
-def _axis(name: str, values: Any, unit: str) -> _Axis:
-    title = f"{name} ({unit})" if unit else name
-    if isinstance(values, list):
-        known = sorted(set(values))
-        return _Axis(np.arange(len(known), dtype=float), known, np.array([known.index(v) for v in values]), title)
-    different = np.unique(values)
-    if len(different) <= MOST_CELLS and len(different) ** 1.5 <= len(values) + 8 or len(different) <= BINS:
-        return _Axis(different, [_short(float(v)) for v in different], np.searchsorted(different, values), title)
-    edges = np.linspace(different[0], different[-1], BINS + 1)
-    middles = (edges[1:] + edges[:-1]) / 2
-    return _Axis(middles, [_short(float(v)) for v in middles], np.clip(np.searchsorted(edges, values, "right") - 1, 0, BINS - 1), title)
+def _text(x: float, y: float, text: str, anchor: str = "start", more: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(text)}</text>'
 
 
 def _heat_map(each: Map, results: Results, units: Dict[str, str], limits: Sequence[Tuple[str, Array, Array]], note: str) -> str:
-    x, y = (_axis(name, results[name], units.get(name, "")) for name in (each.x, each.y))
-    values = np.asarray(results[each.of], float)
-    shape = (len(y.middles), len(x.middles))
-    cell = y.cells * shape[1] + x.cells
-    good = np.isfinite(values)
-    count = np.bincount(cell[good], minlength=shape[0] * shape[1])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        means = (np.bincount(cell[good], values[good], minlength=shape[0] * shape[1]) / count).reshape(shape)
-    shown = means[np.isfinite(means)]
-    low, high = (float(shown.min()), float(shown.max())) if shown.size else (0.0, 0.0)
-    pixels = _colour((means - low) / (high - low) if high > low else np.where(np.isnan(means), np.nan, 0.5))
+    x, y = (_Axis(name, results[name], units.get(name, "")) for name in (each.x, each.y))
+    values, shape = results[each.of], (len(y.texts), len(x.texts))
+    count, total = np.zeros(shape[0] * shape[1]), np.zeros(shape[0] * shape[1])
+    for some in (slice(first, first + BLOCK) for first in range(0, results.rows, BLOCK)):
+        good = np.isfinite(values[some])
+        cell = (y.cells(some) * shape[1] + x.cells(some))[good]
+        count += np.bincount(cell, minlength=len(count))
+        total += np.bincount(cell, values[some][good], minlength=len(count))
+    means = (total / np.where(count > 0, count, np.nan)).reshape(shape)
+    low, high = (float(np.nanmin(means)), float(np.nanmax(means))) if count.any() else (0.0, 0.0)
+    pixels = _colour((means - low) / (high - low) if high > low else means * 0.0 + 0.5)
     w, h, left, top = 460.0, 340.0, 80.0, 10.0
-    parts = [f'<image x="{left}" y="{top}" width="{w}" height="{h}" preserveAspectRatio="none" style="image-rendering:pixelated" href="{_png(pixels[::-1])}"/>']
+    parts = [_image(left, top, w, h, pixels[::-1]), _image(left + w + 16, top, 14, h, _colour(np.linspace(1.0, 0.0, 64)[:, None])),
+             _text(left + w + 34, top + 12, _short(high)), _text(left + w + 34, top + h, _short(low)), _text(left + w / 2, top + h + 36, x.title, "middle"),
+             _text(0, 0, y.title, "middle", f' transform="translate(14 {top + h / 2}) rotate(-90)"')]
     for k, (name, at_x, at_y) in enumerate(limits):
         px, py = left + x.at(at_x) / shape[1] * w, top + h - y.at(at_y) / shape[0] * h
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(px, py) if np.isfinite(a) and np.isfinite(b))
-        dash = ("", ' stroke-dasharray="6 4"')[k % 2]
-        parts.append(f'<polyline points="{points}" fill="none" stroke="white" stroke-width="4"/><polyline points="{points}" fill="none" stroke="#c00" '
-                     f'stroke-width="2"{dash}/><text x="{left + w + 90}" y="{top + 40 + 18 * k}" fill="#c00">'
-                     f'{"- - " if k % 2 else "—— "}{escape(name)}</text>')
-    for axis, is_x in ((x, True), (y, False)):
-        n = len(axis.texts)
-        for k in sorted({round(i * (n - 1) / 5) for i in range(6)}):
-            place = (k + 0.5) / n
-            parts.append(f'<text x="{left + place * w:.1f}" y="{top + h + 16}" text-anchor="middle">{escape(axis.texts[k])}</text>' if is_x else
-                         f'<text x="{left - 6}" y="{top + h - place * h + 4:.1f}" text-anchor="end">{escape(axis.texts[k])}</text>')
-    parts.append(f'<text x="{left + w / 2}" y="{top + h + 36}" text-anchor="middle">{escape(x.title)}</text>'
-                 f'<text transform="translate(14 {top + h / 2}) rotate(-90)" text-anchor="middle">{escape(y.title)}</text>')
-    bar = _png(_colour(np.linspace(1.0, 0.0, 64)[:, None]))
-    parts.append(f'<image x="{left + w + 16}" y="{top}" width="14" height="{h}" preserveAspectRatio="none" href="{bar}"/>'
-                 f'<text x="{left + w + 34}" y="{top + 12}">{_short(high)}</text><text x="{left + w + 34}" y="{top + h}">{_short(low)}</text>')
-    most = int(count.max()) if count.size else 0
+        line, dash = f'<polyline points="{points}" fill="none"', ("", ' stroke-dasharray="6 4"')[k % 2]
+        parts.append(f'{line} stroke="white" stroke-width="4"/>{line} stroke="#c00" stroke-width="2"{dash}/>'
+                     + _text(left + w + 90, top + 40 + 18 * k, f'{"- - " if k % 2 else "—— "}{name}', more=' fill="#c00"'))
+    for i in range(6):
+        for axis, is_x in ((x, True), (y, False)):
+            k = round(i * (len(axis.texts) - 1) / 5)
+            place = (k + 0.5) / len(axis.texts)
+            parts.append(_text(left + place * w, top + h + 16, axis.texts[k], "middle") if is_x else _text(left - 6, top + h - place * h + 4, axis.texts[k], "end"))
+    most = int(count.max())
     said = f"The mean of up to {most} points in a cell. " if most > 1 else ""
     unit = f" ({escape(units[each.of])})" if units.get(each.of) else ""
     return (f'<h2>{escape(each.of)}{unit}</h2><svg viewBox="0 0 740 {top + h + 44}" width="740" role="img" aria-label="{escape(each.of)} over '
@@ -121,73 +115,61 @@ def _heat_map(each: Map, results: Results, units: Dict[str, str], limits: Sequen
 
 def limits_of(prepared: Prepared, results: Results, each: Map) -> Tuple[List[Tuple[str, Array, Array]], str]:
     """The limits that `tactus limits` computes over two parameters: name, x, y; and a sentence about them."""
-    program = os.environ.get("TACTUS_PROGRAM") or shutil.which("tactus")
-    if not program or not prepared.file:
-        return [], "The limits are not drawn: the program tactus was not found."
     if any(":" in name or "." not in name and name != "rate" for name in (each.x, each.y)):
         return [], "The limits are not drawn: they are known over parameters and the rate only."
-    good = [i for i, error in enumerate(results["error"]) if not error]
-    if any(isinstance(results[name], list) or len(set(results[name][good])) < 2 for name in (each.x, each.y)):
+    good = np.array([not error for error in results["error"]])
+    if any(isinstance(results[name], list) or np.ptp(results[name][good]) == 0.0 for name in (each.x, each.y)):
         return [], "The limits are not drawn: they need two different numbers along each axis."
-    ends = [f"{name}={results[name][good].min():.12g}:{results[name][good].max():.12g}" for name in (each.x, each.y)]
-    with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "limits.csv")
-        sets = [word for name, value in prepared.study.set.items() for word in ("--set", f"{name}={value}")]
-        rate = ["--rate", f"{prepared.study.rate:.12g}"] if prepared.study.rate and "rate" not in (each.x, each.y) else []
-        words = [program, "limits", prepared.file, "--x", ends[0], "--y", ends[1], "--steps", "20", "-o", file, *sets, *rate]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        try:
-            with open(file, encoding="utf-8", newline="") as table:
-                rows = list(csv.DictReader(table))
-        except OSError:
-            return [], f"The limits are not drawn: tactus limits says: {done.stderr.strip() or done.stdout.strip()}"
-    keys = [next(k for k in rows[0] if k == name or k == f"{name} (Hz)") for name in (each.x, each.y)]
+    x, y = (f"{name}={values.min():.12g}:{values.max():.12g}" for name in (each.x, each.y) for values in [results[name][good]])
+    try:
+        rate = prepared.study.rate if prepared.study.rate and "rate" not in (each.x, each.y) else None
+        known = limits(prepared.graph, set=prepared.study.set, rate=rate, x=x, y=y, steps=20)
+    except Error as why:
+        return [], f"The limits are not drawn: tactus limits says: {why.text}"
+    columns = dict(zip(known.columns, np.nan_to_num(known.points).T))
+    at_x, at_y = (next(columns[k] for k in columns if k in (name, f"{name} (Hz)")) for name in (each.x, each.y))
+    order = np.lexsort((at_y, at_x))
+    at_x, at_y = at_x[order], at_y[order]
     found = []
     for verdict in ("passive", "stable"):
-        xs: List[float] = []
-        ys: List[float] = []
-        for x in sorted({float(row[keys[0]]) for row in rows}):
-            column = sorted((float(row[keys[1]]), float(row[verdict]) if row[verdict] else 0.0) for row in rows if float(row[keys[0]]) == x)
-            for (y, holds), (after, next_holds) in zip(column, column[1:]):
-                if holds and not next_holds:
-                    xs.append(x)
-                    ys.append((y + after) / 2)
-                    break
-        if xs:
-            found.append((verdict, np.array(xs), np.array(ys)))
+        holds = columns[verdict][order] > 0.0
+        ends = np.flatnonzero(holds[:-1] & ~holds[1:] & (at_x[:-1] == at_x[1:]))   # for each x, the first that holds before one that does not
+        ends = ends[np.unique(at_x[ends], return_index=True)[1]]
+        if len(ends):
+            found.append((verdict, at_x[ends], (at_y[ends] + at_y[ends + 1]) / 2))
     other = " They are those of the graph's own devices." if prepared.devices else ""
     return found, f"Limits: `tactus limits`, to half a step of 20; passive is sufficient, and stable is the linear loop.{other}"
 
 
-def _parallel(results: Results, column: str, axes: List[str], units: Dict[str, str]) -> str:
+def _parallel(results: Results, column: str, names: List[str], units: Dict[str, str]) -> str:
     """Parallel coordinates of some points, coloured by a column."""
-    values = np.asarray(results[column], float)
-    rows = np.unique(np.linspace(0, len(values) - 1, min(LINES, len(values))).astype(int)) if len(values) else np.zeros(0, int)
-    rows = rows[np.isfinite(values[rows])]
-    if len(rows) < 2 or len(axes) < 2:
+    count = results.rows
+    rows = np.unique(np.linspace(0, count - 1, min(LINES, count)).astype(int))
+    values = results[column][rows]
+    rows, values = rows[np.isfinite(values)], values[np.isfinite(values)]
+    if len(rows) < 2 or len(names) < 2:
         return ""
     w, h, left, top = 900.0, 260.0, 60.0, 24.0
     places, parts = [], []
-    for k, name in enumerate(axes):
-        axis = _axis(name, results[name], units.get(name, ""))
-        numbers = axis.cells.astype(float) if isinstance(results[name], list) else np.asarray(results[name], float)
+    for k, name in enumerate(names):
+        whole = results[name]
+        axis = _Axis(name, [whole[i] for i in rows] if isinstance(whole, list) else np.zeros(1), units.get(name, ""))
+        numbers = axis.cells(slice(None)).astype(float) if isinstance(whole, list) else whole[rows]
         finite = numbers[np.isfinite(numbers)]
         low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-        x = left + k * w / (len(axes) - 1)
+        x = left + k * w / (len(names) - 1)
         places.append((x, np.where(np.isfinite(numbers), top + h - (numbers - low) / (high - low or 1.0) * h, top + h + 14)))
-        ends = (axis.texts[0], axis.texts[-1]) if isinstance(results[name], list) else (_short(low), _short(high))
-        parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top}" y2="{top + h}" stroke="#888"/><text x="{x:.1f}" y="{top - 8}" text-anchor="middle">'
-                     f'{escape(axis.title)}</text><text x="{x + 4:.1f}" y="{top + 10}">{escape(ends[1])}</text>'
-                     f'<text x="{x + 4:.1f}" y="{top + h}">{escape(ends[0])}</text>')
-    span = float(np.ptp(values[rows])) or 1.0
-    colours = _colour((values[rows] - values[rows].min()) / span)
+        ends = (axis.texts[0], axis.texts[-1]) if isinstance(whole, list) else (_short(low), _short(high))
+        parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top}" y2="{top + h}" stroke="#888"/>{_text(x, top - 8, axis.title, "middle")}'
+                     f'{_text(x + 4, top + 10, ends[1])}{_text(x + 4, top + h, ends[0])}')
+    colours = _colour((values - values.min()) / (float(np.ptp(values)) or 1.0))
     lines = []
-    for row, c in zip(rows, colours):
-        path = " ".join(f"{x:.1f},{y[row]:.1f}" for x, y in places)
-        lines.append(f'<polyline fill="none" stroke="rgb({c[0]},{c[1]},{c[2]})" stroke-opacity="0.6" points="{path}"/>')
+    for i, (r, g, b) in enumerate(colours):
+        path = " ".join(f"{x:.1f},{y[i]:.1f}" for x, y in places)
+        lines.append(f'<polyline fill="none" stroke="rgb({r},{g},{b})" stroke-opacity="0.6" points="{path}"/>')
     return (f'<h2>All factors</h2><svg viewBox="0 0 1020 {top + h + 24}" width="1020" role="img" aria-label="Parallel coordinates">'
             f'{"".join(lines)}{"".join(parts)}</svg><p>'
-            f"{len(rows)} of {results.rows} points, coloured by {escape(column)}. A line that leaves an axis below it has no number there.</p>")
+            f"{len(rows)} of {count} points, coloured by {escape(column)}. A line that leaves an axis below it has no number there.</p>")
 
 
 def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
@@ -196,16 +178,13 @@ def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
     units = study.units
     bad = [i for i, error in enumerate(results["error"]) if error]
     maps = study.maps or ([Map(column, names[0], names[1]) for column in study.columns if not column.endswith("_margin")] if len(names) > 1 else [])
-    body = []
-    for each in maps:
-        limits, note = limits_of(prepared, results, each) if each.limits else ([], "")
-        body.append(_heat_map(each, results, units, limits, note))
+    body = [_heat_map(each, results, units, *(limits_of(prepared, results, each) if each.limits else ((), ""))) for each in maps]
     if study.columns:
         column = study.worst or study.columns[-1]
         least, column = column.startswith("-"), column.lstrip("-")
         body.append(_parallel(results, column, [*names, *study.columns][:10], units))
-        values = np.asarray(results[column], float)
-        order = [int(i) for i in np.argsort(values if least else -values, kind="stable") if np.isfinite(values[i])][:WORST]
+        values = np.where(np.isfinite(results[column]), results[column] if least else -results[column], np.inf)
+        order = np.argsort(values, kind="stable")[:min(WORST, np.isfinite(values).sum())].tolist()
         body.append(f"<h2>The points with the {'smallest' if least else 'largest'} {escape(column)}</h2>" + _table(prepared, results, order, words)
                     + "<p>The command writes the records of the point and its graph, and prints how to open that in the window.</p>")
     if bad:
@@ -222,14 +201,13 @@ def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
 
 
 def _table(prepared: Prepared, results: Results, rows: List[int], words: Sequence[str]) -> str:
-    columns = [*prepared.names, *prepared.study.columns, *(["error", "error_place"] if any(results["error"][i] for i in rows) else [])]
-    head = "".join(f"<th>{escape(name)}</th>" for name in ["point", *columns, "render it"])
-    lines = []
-    for i in rows:
-        command = shlex.join([*words, "--point", str(i)])
-        cells = "".join(f"<td>{escape(results[name][i] if isinstance(results[name], list) else _short(float(results[name][i])))}</td>" for name in columns)
-        lines.append(f"<tr><td>{i}</td>{cells}<td><code>{escape(command)}</code></td></tr>")
-    return f"<table><tr>{head}</tr>{''.join(lines)}</table>"
+    errors = results["error"]
+    names = [*prepared.names, *prepared.study.columns, *(["error", "error_place"] if any(errors[i] for i in rows) else [])]
+    columns = [[str(i) for i in rows], *([_short(values[i]) for i in rows] for values in map(results.__getitem__, names))]
+    head = "".join(f"<th>{escape(name)}</th>" for name in ["point", *names, "render it"])
+    lines = ["".join(f"<td>{escape(cell)}</td>" for cell in cells) + f"<td><code>{escape(shlex.join([*words, '--point', cells[0]]))}</code></td>"
+             for cells in zip(*columns)]
+    return f"<table><tr>{head}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
 
 
 def write(prepared: Prepared, results: Results, path: pathlib.Path, words: Sequence[str]) -> None:

@@ -26,12 +26,13 @@ from .._assets import reader
 from .._checks import Array
 from .._graph import Graph, _restored
 from .._messages import Error, fail
-from .._records import Layout, Records
+from .._records import Layout, Records, table_of
 from . import _measures
 from ._design import Point, text_of, values_of
 from ._study import Prepared, bits, digest_of, simulated
 
 Problem = Tuple[int, str, str, str]   # the number of the point in its chunk, id, place, text
+Stamp = Tuple[str, str]   # the version of Tactus, and the mark of the computer
 AT_ONCE = 64   # renders whose records are held at the same time
 NOT_OF_A_POINT = ("api/no_memory",)   # an error that another try may not have
 
@@ -48,7 +49,7 @@ class Chunk:
     warnings: Dict[str, str] = field(default_factory=dict)   # one of each kind and place
     host: str = ""
     process: int = 0
-    stamp: Tuple[str, str] = ("", "")   # the version of Tactus, and the mark of the computer
+    stamp: Stamp = ("", "")
 
 
 class _Group(NamedTuple):
@@ -57,11 +58,12 @@ class _Group(NamedTuple):
     graph: Graph
     devices: Dict[str, str]
     rate: float
-    recording: Optional[Dict[str, Array]]
+    recording: Dict[str, Array]
+    feed: Optional[Tuple[List[str], Array]]
 
 
 @functools.lru_cache(maxsize=None)
-def stamp() -> Tuple[str, str]:
+def stamp() -> Stamp:
     """The version of Tactus, and the mark of this computer."""
     return _tactus.version(), bits()
 
@@ -80,15 +82,10 @@ class Worker:
         self._parts = (text, self.folders["graph"], subgraphs, plugins)
         self.functions = dict(prepared.functions) or self._load()
         self.assets = reader(prepared.assets)
-        names = prepared.names
-        self.fast = [i for i, name in enumerate(names) if ":" not in name and name not in ("rate", "recording", "seed")]
-        self.slow = [i for i, name in enumerate(names) if i not in self.fast and name != "seed"]
-        self.common = {name: text_of(value) for name, value in self.study.set.items() if name not in names}
+        self.common = {name: text_of(value) for name, value in self.study.set.items() if name not in prepared.names}
         measures = self.study.measures
         self.gauges = [m for m in measures if not m.needs_records and m.kind != "stable"]
         self.places = next((m.places for m in measures if m.kind == "stable"), 0)
-        self.records = list(dict.fromkeys([*self.study.keep, *(port for m in measures if m.kind not in ("stable", "function")
-                                                                for port in (m.port, m.position) if port)]))
         self.keeps = bool(self.study.keep) or any(m.needs_records for m in measures)
         self._lock = threading.Lock()
         self._groups: "collections.OrderedDict[Tuple[str, ...], _Group]" = collections.OrderedDict()
@@ -118,11 +115,11 @@ class Worker:
 
     def render(self, points: Sequence[Point]) -> Chunk:
         """The results of some points, in their order."""
-        made = Chunk(np.full((len(points), len(self.study.columns)), np.nan), np.zeros(len(points)), traces=[np.zeros((0, 0))] * len(points),
+        made = Chunk(np.full((len(points), len(self.study.columns)), np.nan), np.zeros(len(points)), traces=[np.zeros((0, 0))] * len(points) if self.study.keep else [],
                      host=socket.gethostname(), process=os.getpid(), stamp=stamp())
         groups: Dict[Tuple[str, ...], List[int]] = {}
         for i, point in enumerate(points):
-            groups.setdefault(tuple(point[k] for k in self.slow), []).append(i)
+            groups.setdefault(tuple(point[k] for k in self.prepared.slow), []).append(i)
         for slow, members in groups.items():
             try:
                 group = self._group(slow)
@@ -132,8 +129,6 @@ class Worker:
             step = AT_ONCE if self.keeps else len(members)
             for at in range(0, len(members), step):
                 self._some(group, points, members[at:at + step], made)
-        if not self.study.keep:
-            made.traces = []
         made.problems.sort()
         return made
 
@@ -152,9 +147,9 @@ class Worker:
             return self._groups[slow]
 
     def _made(self, slow: Tuple[str, ...]) -> _Group:
-        graph, rate, recording = _restored(*self._parts), self.study.rate, None
-        devices = dict(self.prepared.devices)
-        for name, value in ((self.prepared.names[k], json.loads(text)) for k, text in zip(self.slow, slow)):
+        graph, rate, devices = _restored(*self._parts), self.study.rate, dict(self.prepared.devices)
+        recording: Dict[str, Array] = {}
+        for name, value in ((self.prepared.names[k], json.loads(text)) for k, text in zip(self.prepared.slow, slow)):
             kind, _, rest = name.partition(":")
             if kind == "setting":
                 node, _, setting = rest.rpartition(".")
@@ -168,7 +163,10 @@ class Worker:
                 rate = float(value)
             else:
                 recording = self._recording(value)
-        return _Group(graph, {role: json.dumps(d) for role, d in devices.items()}, rate, recording)
+        feed = {"t": recording["t"]} if "t" in recording else {}
+        for port, column in self.study.feed.items() if recording else ():
+            feed[port] = recording[column] if isinstance(column, str) else np.full(len(next(iter(recording.values()))), float(column))
+        return _Group(graph, {role: json.dumps(d) for role, d in devices.items()}, rate, recording, table_of(feed) if feed else None)
 
     def _describe(self, devices: Dict[str, Dict[str, Any]], name: str, value: Any) -> None:
         role, _, key = name.partition("/")
@@ -205,30 +203,24 @@ class Worker:
                 fail("study/recording", name, f"the recording has no column '{column}'", f"its columns: {', '.join(header)}")
         return {column: rows[:, i] for i, column in enumerate(header)}
 
-    def _call(self, group: _Group, points: Sequence[Point], records: List[str], gauges: List[_measures.Measure], keeps: bool, places: int) -> Dict[str, Any]:
-        table: Optional[Tuple[List[str], Array]] = None
-        if group.recording is not None:
-            columns = {**({"t": group.recording["t"]} if "t" in group.recording else {}),
-                       **{port: group.recording[column] if isinstance(column, str) else np.full(len(next(iter(group.recording.values()))), float(column))
-                          for port, column in self.study.feed.items()}}
-            table = list(columns), np.ascontiguousarray(np.stack(list(columns.values()), axis=1))
+    def _call(self, group: _Group, points: Sequence[Point], gauges: List[_measures.Measure], keeps: bool, places: int) -> Dict[str, Any]:
         return _tactus.render_points(
-            group.graph._graph, group.rate, records, self.common, [self.prepared.names[k] for k in self.fast], [[point[k] for k in self.fast] for point in points],
-            group.devices, self.folders["study"], table, self.assets, self.study.duration, [_measures.gauge(m, group.recording) for m in gauges], keeps, places)
+            group.graph._graph, group.rate, self.prepared.records, self.common, [self.prepared.names[k] for k in self.prepared.fast], [[point[k] for k in self.prepared.fast] for point in points],
+            group.devices, self.folders["study"], group.feed, self.assets, self.study.duration,
+            [_measures.gauge(m, group.recording) for m in gauges], keeps, places)
 
     def one(self, point: Point) -> Tuple[Graph, Dict[str, str], Records]:
         """One point to look at: the graph with its settings, the devices as JSON, and the records of its ports and sinks."""
-        group = self._group(tuple(point[k] for k in self.slow))
-        asked = list(self.records)
-        done = self._call(group, [point], asked, [], True, 0)
+        group = self._group(tuple(point[k] for k in self.prepared.slow))
+        done = self._call(group, [point], [], True, 0)
         for _, name, where, text in done["errors"]:
             fail(name, where, text, "this point of the study has an error; correct the study, or leave it as it is")
-        return group.graph, group.devices, Layout(done["columns"], done["units"], asked, done["rate"]).records(done["rows"][0])
+        return group.graph, group.devices, Layout(done["columns"], done["units"], self.prepared.records, done["rate"]).records(done["rows"][0])
 
     def _some(self, group: _Group, points: Sequence[Point], members: List[int], made: Chunk) -> None:
         """Renders points of one group."""
         try:
-            done = self._call(group, [points[i] for i in members], self.records, self.gauges, self.keeps, self.places)
+            done = self._call(group, [points[i] for i in members], self.gauges, self.keeps, self.places)
         except Error as why:
             made.problems += [self._problem(i, why.id, why.where, why.text) for i in members]
             return
@@ -240,46 +232,42 @@ class Worker:
                 raise MemoryError(text)
             failed.add(k)
             made.problems.append(self._problem(members[k], name, where, text))
-        gauge, stable, column = 0, len(self.gauges), 0
+        from_run, column = 0, 0
         for m in self.study.measures:
-            width, source = len(m.columns), stable if m.kind == "stable" else gauge
-            if not m.needs_records:
-                made.numbers[members, column:column + width] = done["numbers"][:, source:source + width] if width > 1 else done["numbers"][:, [source]]
-                gauge += m.kind != "stable"
-            column += width
-        if self.keeps:
-            for k, i in enumerate(members):
-                if k not in failed:
-                    self._afterwards(i, points[i], done["rows"][k], done, made)
+            at = slice(column, column := column + len(m.columns))
+            if m.kind == "stable":
+                made.numbers[members, at] = done["numbers"][:, len(self.gauges):]
+            elif not m.needs_records:
+                made.numbers[members, at.start] = done["numbers"][:, from_run]
+                from_run += 1
+        for k, i in enumerate(members if self.keeps else ()):
+            if k not in failed and (problem := self._afterwards(points[i], done["rows"][k], done, made, i)):
+                made.problems.append(self._problem(i, *problem))
+                made.numbers[i] = np.nan
 
-    def _afterwards(self, i: int, point: Point, rows: Array, done: Dict[str, Any], made: Chunk) -> None:
-        """What is computed from the records of a point."""
-        layout = Layout(done["columns"], done["units"], self.records, done["rate"])
-        column = 0
+    def _afterwards(self, point: Point, rows: Array, done: Dict[str, Any], made: Chunk, i: int) -> Optional[Tuple[str, str, str]]:
+        """Fills in what is computed from the records of a point; or says what is wrong: id, place and text."""
+        records, column = Layout(done["columns"], done["units"], self.prepared.records, done["rate"]).records(rows), 0
         try:
-            records = layout.records(rows)
             for m in self.study.measures:
                 if m.needs_records:
                     values = values_of(self.prepared.names, point)
                     made.numbers[i, column:column + len(m.columns)] = _measures.afterwards(m, records, values, self.functions)
                 column += len(m.columns)
         except Error as why:
-            made.problems.append(self._problem(i, why.id, why.where, why.text))
-            made.numbers[i] = np.nan
-            return
+            return why.id, why.where, why.text
         except (MemoryError, KeyboardInterrupt):
             raise
         except Exception as why:   # of a function of the user
             frame = traceback.extract_tb(why.__traceback__)[-1]
-            made.problems.append(self._problem(i, "study/function", f"{os.path.basename(frame.filename)}:{frame.lineno}", f"{type(why).__name__}: {why}"))
-            made.numbers[i] = np.nan
-            return
+            return "study/function", f"{os.path.basename(frame.filename)}:{frame.lineno}", f"{type(why).__name__}: {why}"
         if self.study.keep:
             width = 0
             for port in self.study.keep:
                 width += 1 if done["columns"][width] == port else 3
             made.kept = done["columns"][:width]
             made.traces[i] = np.ascontiguousarray(rows[:, :width])
+        return None
 
 
 _known: Dict[bytes, Worker] = {}
