@@ -69,7 +69,7 @@ class Slurm:
     """A cluster of one node, in a folder. Jobs need no authentication: nobody else knows its ports for long enough."""
 
     def __init__(self, folder):
-        self.folder, self.processes = folder / "cluster", []
+        self.folder = folder / "cluster"
 
     def __enter__(self):
         os.chmod(self.folder.parent, 0o755)
@@ -104,8 +104,8 @@ NodeName={host} NodeAddr=127.0.0.1 CPUs={os.cpu_count()} State=UNKNOWN
 PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP OverSubscribe=FORCE:4
 """)
         environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
-        for words in (["slurmctld", "-D"], ["slurmd", "-D", "-N", host]):
-            self.processes.append(subprocess.Popen([*words, "-f", environment["SLURM_CONF"]], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment))
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
+        self.processes = [subprocess.Popen(["slurmctld", "-D"], **quiet), subprocess.Popen(["slurmd", "-D", "-N", host], **quiet)]
 
         def said():
             return subprocess.run(["sinfo", "--noheader", "--format=%T"], capture_output=True, text=True, env=environment, check=False).stdout.split()

@@ -110,7 +110,7 @@ def main(build, count=10000, rounds=5):
             for _ in range(rounds):
                 few, many, plain_few, plain_many = (study(points, 25.0, by)[0] for by in (executor, "serial") for points in (1000, 5000))
                 ratios.append((many - few) / (plain_many - plain_few))
-                print(f"{executor}: 4000 more renders take {many - few:.2f} s, in one process {plain_many - plain_few:.2f} s; ratio {ratios[-1]:.3f}", flush=True)
+                print(f"{executor}: 4000 more renders take {many - few:.2f} s, alone {plain_many - plain_few:.2f} s; ratio {ratios[-1]:.3f}", flush=True)
             print(f"{executor}: median ratio {statistics.median(ratios):.3f}")
 
 

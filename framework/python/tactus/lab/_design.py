@@ -117,7 +117,8 @@ def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
     levels = [_levels(factor, f"/factors/{i}", folder) for i, factor in enumerate(factors)]
     numeric = [all(map(_is_number, each)) for each in levels]
     if isinstance(kind, Grid):
-        texts = [[text_of(v) for v in (each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)])] for each, factor in zip(levels, factors)]
+        steps = [each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)] for each, factor in zip(levels, factors)]
+        texts = [[text_of(v) for v in each] for each in steps]
         sizes = [len(each) for each in texts]
         parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(texts)]
         return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), numeric,

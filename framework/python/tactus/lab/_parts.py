@@ -53,9 +53,9 @@ class Part:
     def add(self, keys: bytes, chunk: Chunk) -> None:
         """Adds a chunk; returns once it is on the disk."""
         about = {"problems": chunk.problems, "host": chunk.host, "process": chunk.process, "kept": chunk.kept}
-        data = io.BytesIO()
+        data, traces = io.BytesIO(), [np.zeros((0, len(chunk.kept))), *filter(len, chunk.traces)]
         np.savez(data, about=np.bytes_(json.dumps(about)), keys=np.frombuffer(keys, "S16"), numbers=chunk.numbers, seconds=chunk.seconds,
-                 ticks=np.array([len(trace) for trace in chunk.traces], int), traces=np.concatenate([np.zeros((0, len(chunk.kept))), *filter(len, chunk.traces)]))
+                 ticks=np.array([len(trace) for trace in chunk.traces], int), traces=np.concatenate(traces))
         self._put(b"", data.getvalue())
         self.points += len(chunk.seconds)
 

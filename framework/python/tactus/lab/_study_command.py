@@ -99,6 +99,11 @@ def _shard(text: str) -> Tuple[int, int]:
 
 # ---------------------------------------------------------------------------- Executors
 
+# A local cluster of dask looks at itself less often. With its defaults (each 10 to 500 ms), that is most of what it costs.
+QUIET = {"distributed.worker.profile.enabled": False, "distributed.scheduler.active-memory-manager.start": False, "distributed.admin.tick.interval": "1s",
+         "distributed.admin.system-monitor.interval": "5s", "distributed.worker.memory.monitor-interval": "1s"}
+
+
 def end_with_parent() -> None:
     """A worker ends when the process that started it ends, also if that is killed."""
     def end(sentinel: int) -> None:
@@ -118,9 +123,9 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[
     elif kind == "local":
         yield from _local(workers)
     elif kind == "dask":
-        distributed = _imported("distributed", "python3-distributed")
+        distributed, config = (_imported(name, "python3-distributed") for name in ("distributed", "dask.config"))
         made: Dict[str, Any] = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
-        with distributed.Client(**made) as client:
+        with config.set(QUIET), distributed.Client(**made) as client:
             yield client.get_executor, max(1, sum(client.ncores().values()))
     else:
         yield from _mpi()

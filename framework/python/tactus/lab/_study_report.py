@@ -105,7 +105,8 @@ def _heat_map(each: Map, results: Results, units: Dict[str, str], limits: Sequen
         for axis, is_x in ((x, True), (y, False)):
             k = round(i * (len(axis.texts) - 1) / 5)
             place = (k + 0.5) / len(axis.texts)
-            parts.append(_text(left + place * w, top + h + 16, axis.texts[k], "middle") if is_x else _text(left - 6, top + h - place * h + 4, axis.texts[k], "end"))
+            parts.append(_text(left + place * w, top + h + 16, axis.texts[k], "middle") if is_x else
+                         _text(left - 6, top + h - place * h + 4, axis.texts[k], "end"))
     most = int(count.max())
     said = f"The mean of up to {most} points in a cell. " if most > 1 else ""
     unit = f" ({escape(units[each.of])})" if units.get(each.of) else ""

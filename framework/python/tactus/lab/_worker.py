@@ -115,7 +115,8 @@ class Worker:
 
     def render(self, points: Sequence[Point]) -> Chunk:
         """The results of some points, in their order."""
-        made = Chunk(np.full((len(points), len(self.study.columns)), np.nan), np.zeros(len(points)), traces=[np.zeros((0, 0))] * len(points) if self.study.keep else [],
+        n = len(points)
+        made = Chunk(np.full((n, len(self.study.columns)), np.nan), np.zeros(n), traces=[np.zeros((0, 0))] * n if self.study.keep else [],
                      host=socket.gethostname(), process=os.getpid(), stamp=stamp())
         groups: Dict[Tuple[str, ...], List[int]] = {}
         for i, point in enumerate(points):
@@ -205,8 +206,8 @@ class Worker:
 
     def _call(self, group: _Group, points: Sequence[Point], gauges: List[_measures.Measure], keeps: bool, places: int) -> Dict[str, Any]:
         return _tactus.render_points(
-            group.graph._graph, group.rate, self.prepared.records, self.common, [self.prepared.names[k] for k in self.prepared.fast], [[point[k] for k in self.prepared.fast] for point in points],
-            group.devices, self.folders["study"], group.feed, self.assets, self.study.duration,
+            group.graph._graph, group.rate, self.prepared.records, self.common, [self.prepared.names[k] for k in self.prepared.fast],
+            [[point[k] for k in self.prepared.fast] for point in points], group.devices, self.folders["study"], group.feed, self.assets, self.study.duration,
             [_measures.gauge(m, group.recording) for m in gauges], keeps, places)
 
     def one(self, point: Point) -> Tuple[Graph, Dict[str, str], Records]:
