@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +17,17 @@ namespace
 {
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
+double larger (double a, double b) { return std::isnan (b) || b > a ? b : a; }
+double smaller (double a, double b) { return std::isnan (b) || b < a ? b : a; }
+double sum (double a, double b) { return a + b; }
+double first (double a, double b) { return std::isnan (a) ? b : a; }
+double last (double, double b) { return b; }
+
+double itself (double value, double) { return value; }
+double root (double value, double) { return std::sqrt (value); }
+double mean (double value, double ticks) { return value / ticks; }
+double rootOfMean (double value, double ticks) { return std::sqrt (value / ticks); }
+
 /// The columns of a port: itself, or its three components.
 std::vector<std::size_t> columnsOf (const std::string& port, std::span<const std::string> names)
 {
@@ -24,106 +37,99 @@ std::vector<std::size_t> columnsOf (const std::string& port, std::span<const std
     if (found.empty()) throw std::invalid_argument ("no column of the run belongs to '" + port + "'");
     return found;
 }
-
-bool isOfScalar (Gauge::Kind kind) { return kind != Gauge::Kind::peak && kind != Gauge::Kind::rms && kind != Gauge::Kind::work && kind != Gauge::Kind::given; }
-bool isWork (Gauge::Kind kind) { return kind == Gauge::Kind::work || kind == Gauge::Kind::given; }
 }   // namespace
 
-Gauge::Gauge (Options o, std::span<const std::string> names)
-    : options (std::move (o)), columns (columnsOf (options.port, names)), value (isWork (options.kind) ? 0.0 : never)
+struct Gauge::Kind
 {
-    if (isOfScalar (options.kind) && columns.size() != 1)
+    enum Of
+    {
+        square,   // of the magnitude of the port
+        scalar,
+        square_of_misfit,   // of a scalar from a column of a recording
+        work,               // so far, of a force on a position; a force is held until the next tick
+        time                // since when a scalar has passed the level for long enough; not a number if it has not
+    } of;
+
+    double (*joined) (double, double);         // with the ticks before
+    double (*result) (double, double ticks);   // of the run
+};
+
+namespace
+{
+const std::map<std::string, Gauge::Kind> kinds {
+    { "peak", { Gauge::Kind::square, larger, root } },
+    { "rms", { Gauge::Kind::square, sum, rootOfMean } },
+    { "max", { Gauge::Kind::scalar, larger, itself } },
+    { "min", { Gauge::Kind::scalar, smaller, itself } },
+    { "mean", { Gauge::Kind::scalar, sum, mean } },
+    { "last", { Gauge::Kind::scalar, last, itself } },
+    { "work", { Gauge::Kind::work, last, itself } },
+    { "given", { Gauge::Kind::work, larger, itself } },
+    { "misfit", { Gauge::Kind::square_of_misfit, sum, rootOfMean } },
+    { "reach", { Gauge::Kind::time, first, itself } },
+};
+}   // namespace
+
+Gauge::Gauge (Options o, std::span<const std::string> names) : options (std::move (o)), kind (&kinds.at (options.kind)), columns (columnsOf (options.port, names))
+{
+    if (kind->of == Kind::work)
+        places = columnsOf (options.position, names);
+    else if (kind->of != Kind::square && columns.size() != 1)
         throw std::invalid_argument ("'" + options.port + "' is a vector; name a component, such as " + options.port + ".z");
-    if (! isWork (options.kind)) return;
-    places = columnsOf (options.position, names);
-    if (places.size() != columns.size()) throw std::invalid_argument ("'" + options.port + "' and '" + options.position + "' have different shapes");
-    force_before.resize (columns.size());
-    position_before.resize (columns.size());
+    if (kind->of == Kind::work && places.size() != columns.size())
+        throw std::invalid_argument ("'" + options.port + "' and '" + options.position + "' have different shapes");
+    force_before.resize (places.size());
+    position_before.resize (places.size());
 }
 
-double Gauge::magnitude (std::span<const Tap> taps) const noexcept
+double Gauge::work (std::span<const Tap> taps) noexcept
 {
-    double sum = 0.0;
-    for (const auto c : columns)
-        sum += *taps[c].value * *taps[c].value;
-    return std::sqrt (sum);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+        const double place = *taps[places[i]].value;
+        if (ticks > 0) work_so_far += force_before[i] * (place - position_before[i]);
+        force_before[i] = *taps[columns[i]].value;
+        position_before[i] = place;
+    }
+    return work_so_far;
+}
+
+double Gauge::reached (double now, double dt_s) noexcept
+{
+    const double t = static_cast<double> (ticks) * dt_s;
+    if (! (options.is_above ? now >= options.level : now <= options.level))
+        since_s = -1.0;
+    else if (since_s < 0.0)
+        since_s = t;
+    return since_s >= 0.0 && t - since_s >= options.hold_s - 1e-9 ? since_s : never;
 }
 
 void Gauge::add (std::span<const Tap> taps, double dt_s) noexcept
 {
-    const double now = *taps[columns.front()].value;
-    const bool is_first = ticks++ == 0;
-    switch (options.kind)
+    double now = *taps[columns.front()].value;
+    switch (kind->of)
     {
-    case Kind::peak:
-        value = is_first ? magnitude (taps) : std::max (value, magnitude (taps));
+    case Kind::square:
+        now = 0.0;
+        for (const auto c : columns)
+            now += *taps[c].value * *taps[c].value;
         break;
-    case Kind::largest:
-        value = is_first ? now : std::max (value, now);
+    case Kind::square_of_misfit:
+        now -= ticks < options.reference.size() ? options.reference[ticks] : never;
+        now *= now;
         break;
-    case Kind::least:
-        value = is_first ? now : std::min (value, now);
-        break;
-    case Kind::last:
-        value = now;
-        break;
-    case Kind::mean:
-        value = is_first ? now : value + now;
-        break;
-    case Kind::rms:
-    {
-        const double m = magnitude (taps);
-        value = is_first ? m * m : value + m * m;
-        break;
-    }
-    case Kind::misfit:
-    {
-        const double off = ticks <= options.reference.size() ? now - options.reference[ticks - 1] : never;
-        value = is_first ? off * off : value + off * off;
-        break;
-    }
     case Kind::work:
-    case Kind::given:
-        for (std::size_t i = 0; i < columns.size(); ++i)
-        {
-            const double place = *taps[places[i]].value;
-            if (! is_first) value += force_before[i] * (place - position_before[i]);
-            force_before[i] = *taps[columns[i]].value;
-            position_before[i] = place;
-        }
-        most = std::max (most, value);
+        now = work (taps);
         break;
-    case Kind::reach:
-    {
-        if (! std::isnan (value)) break;
-        const double t = static_cast<double> (ticks - 1) * dt_s;
-        const bool is_past = options.is_above ? now >= options.level : now <= options.level;
-        if (! is_past)
-            since_s = -1.0;
-        else if (since_s < 0.0)
-            since_s = t;
-        if (is_past && t - since_s >= options.hold_s - 1e-9) value = since_s;
+    case Kind::time:
+        now = reached (now, dt_s);
+        break;
+    case Kind::scalar:
         break;
     }
-    }
+    value = ticks++ == 0 ? now : kind->joined (value, now);
 }
 
-double Gauge::result() const noexcept
-{
-    const auto n = static_cast<double> (ticks);
-    if (ticks == 0) return never;
-    switch (options.kind)
-    {
-    case Kind::mean:
-        return value / n;
-    case Kind::rms:
-    case Kind::misfit:
-        return std::sqrt (value / n);
-    case Kind::given:
-        return std::isnan (value) ? never : most;
-    default:
-        return value;
-    }
-}
+double Gauge::result() const noexcept { return ticks == 0 ? never : kind->result (value, static_cast<double> (ticks)); }
 
 }   // namespace tactus::python

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,24 +18,11 @@ namespace tactus::python
 class Gauge
 {
 public:
-    enum class Kind
-    {
-        peak,      ///< largest magnitude of the port
-        largest,   ///< largest value of a scalar
-        least,     ///< smallest value of a scalar
-        mean,      ///< of a scalar over time
-        rms,       ///< of the magnitude, over time
-        last,      ///< a scalar in the last tick
-        work,      ///< work of a force on a position, in J; a force is held until the next tick
-        given,     ///< the most that this work has been above 0 at any time, in J
-        reach,     ///< when a scalar has passed a level for a while, in s since the start; not a number if it never has
-        misfit     ///< rms of the difference of a scalar from a column of a recording
-    };
+    struct Kind;   ///< what is taken of each tick, and what becomes of it
 
     struct Options
     {
-        Kind kind = Kind::peak;
-        std::string port {}, position {};
+        std::string kind {}, port {}, position {};   ///< kind: as in tactus.lab.Measure
         double level = 0.0, hold_s = 0.0;
         bool is_above = true;
         std::vector<double> reference {};   ///< one value for each tick
@@ -49,13 +35,15 @@ public:
     double result() const noexcept;
 
 private:
-    double magnitude (std::span<const Tap> taps) const noexcept;
+    double work (std::span<const Tap> taps) noexcept;
+    double reached (double now, double dt_s) noexcept;
 
     Options options;
-    std::vector<std::size_t> columns, places;   // of the port, and of the position
-    std::vector<double> force_before, position_before;
+    const Kind* kind;
+    std::vector<std::size_t> columns, places;               // of the port, and of the position
+    std::vector<double> force_before, position_before {};   // empty before the first tick
     std::size_t ticks = 0;
-    double value, most = 0.0, since_s = -1.0;
+    double value = 0.0, work_so_far = 0.0, since_s = -1.0;
 };
 
 }   // namespace tactus::python

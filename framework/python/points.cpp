@@ -108,33 +108,17 @@ Outcome renderOne (const Job& job, PointRun& run, const std::vector<Json>& value
 
 std::vector<Gauge::Options> gaugesOf (const py::list& described)
 {
-    static const std::map<std::string, Gauge::Kind> kinds {
-        { "peak", Gauge::Kind::peak },
-        { "max", Gauge::Kind::largest },
-        { "min", Gauge::Kind::least },
-        { "mean", Gauge::Kind::mean },
-        { "rms", Gauge::Kind::rms },
-        { "last", Gauge::Kind::last },
-        { "work", Gauge::Kind::work },
-        { "given", Gauge::Kind::given },
-        { "reach", Gauge::Kind::reach },
-        { "misfit", Gauge::Kind::misfit },
-    };
     std::vector<Gauge::Options> all;
     for (const auto& each : described)
     {
-        const auto from = each.cast<py::dict>();
-        Gauge::Options options { .kind = kinds.at (from["kind"].cast<std::string>()), .port = from["port"].cast<std::string>() };
-        if (from.contains ("position")) options.position = from["position"].cast<std::string>();
-        if (from.contains ("level")) options.level = from["level"].cast<double>();
-        if (from.contains ("hold")) options.hold_s = from["hold"].cast<double>();
-        if (from.contains ("above")) options.is_above = from["above"].cast<bool>();
-        if (from.contains ("reference"))
-        {
-            const auto values = from["reference"].cast<Rows>();
-            options.reference.assign (values.data(), values.data() + values.size());
-        }
-        all.push_back (std::move (options));
+        all.push_back ({ .kind = each["kind"].cast<std::string>(),
+                         .port = each["port"].cast<std::string>(),
+                         .position = each["position"].cast<std::string>(),
+                         .level = each["level"].cast<double>(),
+                         .hold_s = each["hold"].cast<double>(),
+                         .is_above = each["above"].cast<bool>() });
+        const auto reference = each["reference"].cast<Rows>();
+        all.back().reference.assign (reference.data(), reference.data() + reference.size());
     }
     return all;
 }

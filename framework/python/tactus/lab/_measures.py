@@ -74,14 +74,11 @@ def checked(measures: List[Measure]) -> None:
 
 def gauge(measure: Measure, recording: Dict[str, Array]) -> Dict[str, Any]:
     """A measure as the C++ side computes it."""
-    found: Dict[str, Any] = {"kind": measure.kind, "port": measure.port, "position": measure.position, "level": measure.level, "hold": measure.hold,
-                             "above": measure.above}
-    if measure.kind == "misfit":
-        if measure.column not in recording:
-            fail("study/no_column", f"/measures/{measure.name}", f"the recording has no column '{measure.column}'" if recording else "there is no recording",
-                 f"its columns: {', '.join(recording)}" if recording else "add the factor `recording`")
-        found["reference"] = recording[measure.column]
-    return found
+    if measure.kind == "misfit" and measure.column not in recording:
+        fail("study/no_column", f"/measures/{measure.name}", f"the recording has no column '{measure.column}'" if recording else "there is no recording",
+             f"its columns: {', '.join(recording)}" if recording else "add the factor `recording`")
+    return {**{name: getattr(measure, name) for name in ("kind", "port", "position", "level", "hold", "above")},
+            "reference": recording[measure.column] if measure.kind == "misfit" else np.zeros(0)}
 
 
 def band(values: Array, rate: float, low: float, high: float) -> float:
