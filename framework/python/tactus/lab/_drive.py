@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import array
 import concurrent.futures
 import datetime
 import os
@@ -110,17 +111,18 @@ def missing(prepared: "Prepared", held: Held, wanted: range) -> Tuple[Sequence[i
     design = prepared.design
     if not len(held.keys) and not design.repeats:
         return wanted, 0   # no point needs memory
-    todo, bad, seen = [], 0, np.zeros(0, "S16")
+    todo, bad, seen = array.array("q"), 0, set()
     for first in range(0, len(wanted), BLOCK):
-        numbers = np.array(wanted[first:first + BLOCK])
-        keys = prepared.keys([design.at(i) for i in numbers.tolist()])
+        numbers = wanted[first:first + BLOCK]
+        keys = prepared.keys([design.at(i) for i in numbers])
         at = held.find(keys)
         bad += int(np.isin(at, held.bad).sum())
-        keys, row = np.unique(keys, return_index=True)
-        new = row[(at[row] < 0) & ~np.isin(keys, seen)]
-        todo.append(numbers[np.sort(new)])
-        seen = np.union1d(seen, keys) if design.repeats else seen
-    return np.concatenate(todo), bad
+        for number, key in ((numbers[k], keys[k]) for k in np.flatnonzero(at < 0)):
+            if key not in seen:
+                todo.append(number)
+            if design.repeats:
+                seen.add(key)
+    return todo, bad
 
 
 def _lock(folder: Folder, is_shared: bool) -> int:
@@ -173,7 +175,7 @@ class _Driver:
             return self.again.pop()
         size = self.sizes.next() if self.at < len(self.todo) else 0
         self.at += size
-        return [self.prepared.design.at(int(i)) for i in self.todo[self.at - size:self.at]]
+        return [self.prepared.design.at(i) for i in self.todo[self.at - size:self.at]]
 
     def _with(self, executor: Any) -> None:
         """Works on an executor until nothing is left, or until it breaks."""
@@ -237,6 +239,3 @@ def slurm_script(words: List[str], out: str, name: str, shards: int = 0) -> str:
     array, log, more = (f"#SBATCH --array=0-{shards - 1}\n", "%A_%a", f' --shard "$SLURM_ARRAY_TASK_ID/{shards}"') if shards else ("", "%j", "")
     return (f"#!/bin/sh\n#SBATCH --job-name=tactus-{name}\n{array}#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n"
             f"#SBATCH --output={shlex.quote(out)}/slurm-{log}.log\n#SBATCH --open-mode=append\n#SBATCH --requeue\n{path}exec {shlex.join(words)}{more}\n")
-
-
-__all__ = ["Progress", "drive", "missing", "slurm_script"]

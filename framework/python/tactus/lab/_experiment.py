@@ -102,7 +102,8 @@ class Experiment:
         if not past:
             return
         if past[0]["protocol"] != self.protocol.hash():
-            fail("lab/protocol", str(self.folder), "the session began with another protocol", f"give the file with which it began, or {self.stem}_protocol.json in this folder")
+            fail("lab/protocol", str(self.folder), "the session began with another protocol",
+                 f"give the file with which it began, or {self.stem}_protocol.json in this folder")
         for event in past:
             if event.get("event") == "end":
                 fail("lab/exists", str(self.folder), "the session is complete", "choose another session")

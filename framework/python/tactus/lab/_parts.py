@@ -289,6 +289,3 @@ def _rows(prepared: "Prepared", held: Held, at: Any, known: List[List[Any]]) -> 
     return {**{name: numbers[:, i] for i, name in enumerate(prepared.study.columns)}, "error": [f"{p[1]}: {p[3]}" if p else "" for p in problems],
             "error_place": [p[2] if p else "" for p in problems], "origin": origin,
             **{f"trace:{name}": [trace[:, c] for trace in traces] for c, name in enumerate(kept)}, "seconds": seconds, "part": part, "worker": worker}
-
-
-__all__ = ["DiskError", "Folder", "Part", "Results", "load", "merge"]

@@ -269,6 +269,3 @@ def simulated(role: str, given: Any, where: str) -> Dict[str, Any]:
         fail("study/device", where, f"'{given if not isinstance(given, dict) else given.get('driver')}' is not a simulated device for the role '{role}'",
              "give gesture:NAME, trace:FILE.csv, or a description such as {\"driver\": \"sim\", \"mass\": \"50 g\"}")
     return dict(given)
-
-
-__all__ = ["Factor", "FromTable", "Grid", "Latin", "Map", "Measure", "Prepared", "Sobol", "Study", "bits", "schema"]

@@ -198,7 +198,8 @@ def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
             f'body{{font:15px sans-serif;margin:2em auto;max-width:1060px;color:#222}}'
             f'svg text{{font:12px sans-serif}}table{{border-collapse:collapse}}td,th{{padding:2px 8px;border-bottom:1px solid #ddd;text-align:left}}'
             f'code{{font-size:12px}}</style></head><body><h1>{escape(study.name)}</h1><p>{escape(study.about)}</p>'
-            f'<p>{results.rows} points, {len(bad)} with errors. {escape(marks)}. Study {escape(results.about["study"])}.</p>{mixed}{"".join(body)}</body></html>\n')
+            f'<p>{results.rows} points, {len(bad)} with errors. {escape(marks)}. Study {escape(results.about["study"])}.</p>{mixed}{"".join(body)}'
+            '</body></html>\n')
 
 
 def _table(prepared: Prepared, results: Results, rows: List[int], words: Sequence[str]) -> str:
