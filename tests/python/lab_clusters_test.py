@@ -7,7 +7,6 @@ import pathlib
 import shutil
 import socket
 import subprocess
-import sys
 import unittest
 
 from lab_study_test import Killed, descendants
@@ -15,7 +14,8 @@ import waiting
 
 DASK = unittest.skipUnless(importlib.util.find_spec("distributed"), "python3-distributed is not installed")
 MPI = unittest.skipUnless(importlib.util.find_spec("mpi4py") and shutil.which("mpirun"), "mpi4py or mpirun is not installed")
-SLURM = unittest.skipUnless(os.getuid() == 0 and all(map(shutil.which, ("slurmctld", "slurmd", "sbatch"))), "slurm-wlm is not installed, or this is not root")
+SLURM = unittest.skipUnless(os.getuid() == 0 and all(map(shutil.which, ("slurmctld", "slurmd", "sbatch", "munged"))),
+                            "slurm-wlm is not installed, or this is not root")
 
 
 class Clusters(Killed):
@@ -66,7 +66,7 @@ class Clusters(Killed):
 
 
 class Slurm:
-    """A cluster of one node, in a folder. Jobs need no authentication: nobody else knows its ports for long enough."""
+    """A cluster of one node, in a folder, with a key of its own: it runs as root, so nobody else may submit jobs."""
 
     def __init__(self, folder):
         self.folder = folder / "cluster"
@@ -75,6 +75,11 @@ class Slurm:
         os.chmod(self.folder.parent, 0o755)
         for name in ("state", "spool"):
             (self.folder / name).mkdir(parents=True)
+        os.chmod(self.folder, 0o755)
+        (self.folder / "key").write_bytes(os.urandom(1024))
+        os.chmod(self.folder / "key", 0o600)
+        munge = ["munged", "--foreground", "--force", "--num-threads=2", f"--socket={self.folder}/munge.socket", f"--key-file={self.folder}/key",
+                 *(f"--{name}-file={self.folder}/munge.{name}" for name in ("log", "pid", "seed"))]
         host = socket.gethostname().split(".")[0]
         with socket.socket() as one, socket.socket() as two:
             for free in (one, two):
@@ -85,8 +90,9 @@ SlurmctldHost={host}(127.0.0.1)
 SlurmctldPort={ports[0]}
 SlurmdPort={ports[1]}
 SlurmUser=root
-AuthType=auth/none
-CredType=cred/none
+AuthType=auth/munge
+AuthInfo=socket={self.folder}/munge.socket
+CryptoType=crypto/munge
 StateSaveLocation={self.folder}/state
 SlurmdSpoolDir={self.folder}/spool
 SlurmctldPidFile={self.folder}/slurmctld.pid
@@ -105,16 +111,16 @@ PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP OverSubscri
 """)
         environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
-        self.processes = [subprocess.Popen(["slurmctld", "-D"], **quiet), subprocess.Popen(["slurmd", "-D", "-N", host], **quiet)]
+        self.processes = [subprocess.Popen(words, **quiet) for words in (munge, ["slurmctld", "-D"], ["slurmd", "-D", "-N", host])]
 
         def said():
             return subprocess.run(["sinfo", "--noheader", "--format=%T"], capture_output=True, text=True, env=environment, check=False).stdout.split()
 
         waiting.eventually(lambda: said() in (["idle"], ["mixed"]) or any(process.poll() is not None for process in self.processes), 0.2)
         if said() not in (["idle"], ["mixed"]):
-            logs = [f"{path.name}: {path.read_text()[-600:]}" for path in self.folder.glob("*.log")]
+            logs = [f"{path.name}: {path.read_text()[-600:]}" for path in self.folder.glob("*log")]
             self.__exit__()
-            raise unittest.SkipTest(f"slurmctld or slurmd cannot start here: {logs}")
+            raise unittest.SkipTest(f"slurmctld, slurmd or munged cannot start here: {logs}")
         return environment
 
     def __exit__(self, *_):
