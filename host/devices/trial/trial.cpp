@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "trial.hpp"
+#include "free_motion.hpp"
 
 #include <host/devices/device_plugins/plugin_device.hpp>
 #include <tactus/check/factors.hpp>
@@ -26,6 +27,7 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr double push_s = 1.0, still_s = 1.0, frozen_s = 0.3, wall_below = 5e-3;   // m below the tool
+constexpr double free_push_s = 1.5, pushed_travel = 1e-2;                          // m
 constexpr double least_move = 5e-3, clear_of_others = 2.0;                         // m, and how much larger than along the other axes
 constexpr int most_tries = 3;                                                      // at homing
 
@@ -81,14 +83,15 @@ public:
             tryButtons();
             for (const auto& direction : directions)
                 tryPush (direction);
-            tryWalls();
+            tryWalls (findDamping());
             tryStops();
+            tryCable();
         }
         catch (const Ended&)
         {
             add ("end", "not tried", "the trial ended here; no later step was tried");
         }
-        add ("kill -9, a frozen computer, a pulled cable", "not tried", "a trial cannot watch its own end; docs/hazards.md says what should happen");
+        add ("kill -9, a frozen computer", "not tried", "a trial cannot watch its own end; docs/hazards.md says what should happen");
         Json all { { "format", "tactus-trial" }, { "version", 1 }, { "tried", setting.tried } };
         all["steps"] = steps;
         all["numbers"] = numbers;
@@ -308,11 +311,49 @@ private:
                  + " N through");
     }
 
-    void tryWalls()
+    /// The smallest damping, in N s/m, that the device may have: as it tells, or measured; 0 if nothing tells it, and then no wall is passive.
+    double findDamping()
     {
-        const double damping = device.layout().mechanics.damping;
-        if (damping <= 0.0)
-            return add ("walls", "not tried", "the damping of this device is not known, so nothing says which wall is passive on it");
+        if (const double told = device.layout().mechanics.damping; told > 0.0)
+        {
+            add ("damping", "not tried", numberText (told) + " N s/m, as the device is described");
+            return told;
+        }
+        const auto unknown = [this] (const std::string& why) {
+            add ("damping", "not tried", "it is not known: " + why);
+            return 0.0;
+        };
+        if (! saysYes ("Nothing tells the damping of this device, so it is measured. Can you let go of the tool, so that it stays where it is, with 6 cm of "
+                       "free space to its right and to its left?"))
+            return unknown ("a tool in a hand moves with the damping of the hand");
+        ask ("Put it into the middle of its space, let go of it, and press Enter: it is pushed four times, to the right and to the left, with "
+             + numberText (trial_push) + " N for 1 cm. Enter stops it.");
+        std::vector<FreePush> pushes;
+        for (int i = 0; i < free_pushes; ++i)
+        {
+            pushes.push_back ({ .direction = i % 2 == 0 ? Vec3 (Vec3::UnitX()) : Vec3 (-Vec3::UnitX()), .rows = {} });
+            auto o = options (trial_push, free_push_s);
+            o.most_travel = pushed_travel;
+            TrialRun run (device, limits, { .push = trial_push * pushes.back().direction }, o);
+            if (! play (run)) return unknown ("the person stopped a push");
+            pushes.back().rows = run.rows();
+        }
+        std::string why;
+        const auto found = mechanicsOf (pushes, std::max (delay_s, 1.0 / setting.run.rate_hz), why);
+        if (! found) return unknown (why);
+        const auto range = [] (const Between& b) { return rounded (b.least) + " to " + rounded (b.most); };
+        add ("damping", "measured",
+             range (found->damping) + " N s/m, with a mass of " + range (found->mass) + " kg and a friction of " + range (found->friction)
+                 + " N, by four pushes of the free tool. The smallest damping counts.");
+        numbers["mass"] = 0.5 * (found->mass.least + found->mass.most);
+        numbers["damping"] = std::max (0.0, found->damping.least);
+        numbers["coulomb"] = std::max (0.0, found->friction.least);
+        return found->damping.least;
+    }
+
+    void tryWalls (double damping)
+    {
+        if (damping <= 0.0) return add ("walls", "not tried", "the device may have no damping, as far as is known, and then no wall is passive on it");
         const double delay_ticks = delay_s * setting.run.rate_hz;
         const double stiffest = check::stiffestWall (damping, 1.0 / setting.run.rate_hz, delay_ticks);
         for (const double part : { 0.25, 0.5, 1.0 })
@@ -352,6 +393,21 @@ private:
             run.stop();
         });
         tryFreeze();
+    }
+
+    /// The last step, because the device is away afterwards.
+    void tryCable()
+    {
+        if (! saysYes ("Last, the cable: the tool is pushed up, and you pull the cable of the device out of the computer. Will you do that?"))
+            return add ("a pulled cable", "not tried", "the person did not want to");
+        TrialRun run (device, limits, up(), options (trial_push));
+        const bool goes_on = person.ask ("It pushes up now. Pull the cable, then press Enter.").has_value();
+        waitFor (run, push_s);
+        run.end();
+        if (! goes_on) throw Ended {};
+        const bool felt_end = saysYes ("Has the push ended?");
+        add ("a pulled cable", run.hasLost() && felt_end ? "as expected" : "differs",
+             std::string (run.hasLost() ? "the readings ended" : "the readings went on") + "; the person felt the push " + (felt_end ? "end" : "go on"));
     }
 
     void waitFor (const TrialRun& run, double s) const
@@ -457,7 +513,9 @@ Result<DeviceNumbers> trialNumbers (const Json& report, double rate_hz)
             to = DeviceNumber { .value = value.get<double>(), .source = "measured by tactus devices --try" };
         return value.is_null() || to.has_value();
     };
-    if (! take ("quantum", 1.0, numbers.quantum) || ! take ("delay_s", 1.0, numbers.delay)) return noReport ("/numbers", "a number is out of its range");
+    const bool is_fine = take ("quantum", 1.0, numbers.quantum) && take ("delay_s", 1.0, numbers.delay) && take ("mass", 100.0, numbers.mass)
+                         && take ("damping", 1000.0, numbers.damping) && take ("coulomb", 100.0, numbers.coulomb);
+    if (! is_fine || (numbers.mass && numbers.mass->value <= 0.0)) return noReport ("/numbers", "a number is out of its range");
     if (numbers.delay) numbers.delay->value = std::ceil (numbers.delay->value * rate_hz);
     return numbers;
 }

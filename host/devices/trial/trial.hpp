@@ -50,15 +50,17 @@ struct TrialSetting
 inline constexpr double trial_push = 0.3;   ///< the largest force of a trial, but for its walls, in N
 inline constexpr double trial_wall = 1.0;   ///< the largest force of a wall, in N
 
-/// Leads a person through a trial of a device: homing, noise, rate and age of the readings, directions by hand, buttons, pushes, walls up to the stiffest
-/// that is passive if the damping of the device is known, and each way to stop. Returns the report:
+/// Leads a person through a trial of a device: homing, noise, rate and age of the readings, directions by hand, buttons, pushes, the damping of the free
+/// tool if nothing tells it, walls up to the stiffest that is passive with the smallest damping that this leaves, each way to stop, and the cable. Returns
+/// the report:
 ///
 ///     {"format": "tactus-trial", "version": 1, "tried": {…},
 ///      "steps": [{"step": "direction right", "verdict": "as expected", "text": "…"}],
-///      "numbers": {"quantum": 1e-5, "delay_s": 0.0007},
+///      "numbers": {"quantum": 1e-5, "delay_s": 0.0007, "mass": 0.2, "damping": 1.9, "coulomb": 0.05},
 ///      "capture": [{"name": "push right", "graph": {…}, "rows": [[x, y, z, valid, fx, fy, fz], …]}]}
 ///
 /// `delay_s` is the time from a place to the force that answers it, as far as it is known: that which the driver measures, or else the age of the readings.
+/// `damping` and `coulomb` are the smallest values that the measurement leaves.
 /// A verdict is "as expected", "differs", "measured" (nothing is known to compare it with) or "not tried". Rows have the readings, in m, and the force that
 /// the graph asked for, in N, of each tick. The device must have been opened, and nothing else may use it. [main thread]
 Json tryDevice (Device&, const GuardLimits&, const TrialSetting&, TrialPerson&);

@@ -63,16 +63,20 @@ void TrialRun::end()
 void TrialRun::before (std::uint64_t tick) noexcept
 {
     if (options.frozen_after > 0 && tick == options.frozen_after) std::this_thread::sleep_for (std::chrono::duration<double> (options.frozen_s));
+    tick_s = clock->now();
 }
 
 void TrialRun::after (std::uint64_t tick, bool halts) noexcept
 {
     const auto& plan = engine.plan();
     const auto& reading = plan.roles()[0].state->reading;
-    TrialRow row { reading.position, Vec3::Zero(), engine.role (0).applied.force, reading.age, reading.buttons, reading.fault, reading.valid, halts };
+    TrialRow row { reading.position, Vec3::Zero(), engine.role (0).applied.force, reading.age, tick_s, reading.buttons, reading.fault, reading.valid, halts };
     for (std::size_t i = 0; i < 3 && i < plan.taps().size(); ++i)   // the inputs of the motor
         row.asked[static_cast<Eigen::Index> (i)] = *plan.taps()[i].value;
     if (kept.size() < kept.capacity()) kept.push_back (row);
+    has_lost = has_lost || (! halts && ! row.is_valid && latest.is_valid);
+    if (row.is_valid && ! latest.is_valid) origin = row.position;
+    if (options.most_travel > 0.0 && row.is_valid && (row.position - origin).norm() > options.most_travel) engine.emergencyStop();
     if (! halts && (row.is_valid || ! latest.is_valid)) latest = row;
     if (row.is_valid) seen_buttons |= row.buttons;
     done = tick + 1;

@@ -20,12 +20,31 @@ struct TrialHand final : host::TrialPerson
     std::function<void (const Vec3&)> move;      // the hand, in m; returns when the arm is there
     std::function<Vec3()> force;                 // on the tool now
     std::function<void (unsigned)> press = {};   // these buttons; returns when they have been read
+    std::function<void (bool)> release = {};     // lets go of the tool, or takes it again
+    std::function<void()> lean = {};             // on a wall 5 mm below the middle
+    std::function<void()> unplug = {};
 
     void tell (const std::string&) override {}
 
     std::optional<std::string> ask (const std::string& question) override
     {
         const auto says = [&] (const char* part) { return question.find (part) != std::string::npos; };
+        if (says ("Can you let go")) return release ? "yes" : "no";
+        if (says ("Has the push ended") && has_unplugged) return "yes";   // nothing tells what the motors of an arm do that is away
+        if (says ("let go of it") || has_released)
+        {
+            has_released = ! has_released;
+            release (has_released);
+        }
+        if (says ("the cable: the tool")) return unplug ? "yes" : "no";
+        if (says ("Pull the cable"))
+        {
+            eventually ([&] { return force().norm() > 0.1; });
+            unplug();
+            has_unplugged = true;
+        }
+        is_at_wall = says ("there is a wall");
+        if (says ("buzz")) return "no";
         if (says ("near the middle") || says ("middle of its space, and")) move (Vec3::Zero());
         if (says ("5 cm to the right")) move ({ 0.05, 0.0, 0.0 });
         if (says ("5 cm away")) move ({ 0.0, 0.05, 0.0 });
@@ -44,13 +63,16 @@ struct TrialHand final : host::TrialPerson
     bool wantsStop() override   // asked all the time while something pushes
     {
         const Vec3 now = force();
+        if (is_at_wall && lean) lean();
         if (now.norm() > felt.norm()) felt = now;
-        largest = std::max (largest, now.norm());
-        return false;
+        auto& most = is_at_wall ? largest_at_wall : largest;
+        most = std::max (most, now.norm());
+        return is_at_wall && now.norm() > 0.3;   // it has felt the wall
     }
 
     Vec3 felt = Vec3::Zero();
-    double largest = 0.0;
+    bool is_at_wall = false, has_released = false, has_unplugged = false;
+    double largest = 0.0, largest_at_wall = 0.0;
 };
 
 inline std::string verdictOf (const Json& report, const std::string& step)

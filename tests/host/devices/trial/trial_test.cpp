@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A trial of simulated devices, in virtual time, with a person who follows a script.
+#include <host/devices/trial/free_motion.hpp>
 #include <host/devices/trial/trial.hpp>
 
 #include "support/waiting.hpp"
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <string>
 #include <thread>
 
@@ -17,15 +19,44 @@ using tactus::test::eventually;
 
 namespace
 {
-/// A clock whose ticks have no deadlines, and that leaves the processor to the person.
+/// A clock whose ticks are 1 ms apart and have no deadlines, and that leaves the processor to the person.
 struct FreeClock final : TickClock
 {
     void drive (Ticked& ticked) noexcept override
     {
         while (ticked.tick (0.0))
+        {
+            ++ticks;
             std::this_thread::yield();
+        }
     }
     bool isRealTime() const noexcept override { return false; }
+    double now() const noexcept override { return 1e-3 * ticks; }
+
+    int ticks = 0;
+};
+
+/// A tool that nothing but itself holds: mass, damping, Coulomb friction, and perhaps a spring to where it was let go, in small steps of time.
+struct FreeTool
+{
+    double mass = 0.2, damping = 2.0, friction = 0.05, spring = 0.0, quantum = 1e-5;
+    double place = 0.0, speed = 0.0;
+
+    /// Its place after 1 ms with this force.
+    double after (double force)
+    {
+        constexpr double step_s = 1e-5;
+        for (int i = 0; i < 100; ++i)
+        {
+            const double pull = force - damping * speed - spring * place;
+            if (speed == 0.0 && std::abs (pull) <= friction) continue;
+            const double way = speed != 0.0 ? speed : pull;
+            const double faster = speed + step_s * (pull - std::copysign (friction, way)) / mass;
+            speed = faster * way < 0.0 ? 0.0 : faster;
+            place += step_s * speed;
+        }
+        return quantum * std::round (place / quantum);
+    }
 };
 
 /// A tool on the spring of a hand.
@@ -40,9 +71,10 @@ struct SpringDevice final : Device
         Vec3 place;
         for (int i = 0; i < 3; ++i)
             place[i] = target[static_cast<std::size_t> (i)] + force[i] / 500.0;
+        if (is_free) place = { tool.after (force.x()), 0.0, 0.0 };
         reading.position = is_swapped ? Vec3 (place.y(), place.x(), place.z()) : place;
         reading.buttons = buttons;
-        reading.valid = is_homed;
+        reading.valid = is_homed && ! is_away;
         reading.fault = is_homed ? ReadingFault::none : ReadingFault::not_homed;
         return reading;
     }
@@ -63,6 +95,8 @@ struct SpringDevice final : Device
 
     std::array<std::atomic<double>, 3> target {};
     std::atomic<std::uint32_t> buttons = 0;
+    FreeTool tool;   // while nothing holds it   [tick thread]
+    std::atomic<bool> is_free = false, is_away = false;
     std::atomic<bool> is_homed = true, is_pushing = false, holds = false;
     std::atomic<std::uint64_t> reads = 0, pushed_at = 0;
     std::atomic<int> felt = -1;   // 0: right, 1: left, 2: away, …
@@ -101,10 +135,14 @@ struct Script : TrialPerson
             move (Vec3::Zero());
             presses = true;
         }
+        if (contains (question, "Can you let go")) return lets_go ? "yes" : "no";
+        device.is_free = contains (question, "let go of it") && ! is_sticky;
+        if (contains (question, "the cable: the tool")) return pulls ? "yes" : "no";
         if (contains (question, "buzz")) return "no";
         const std::array words { "right", "left", "away", "towards", "up", "down", "none" };
         if (contains (question, "Which way")) return words[device.felt < 0 ? 6u : static_cast<std::size_t> (device.felt)];
         if (contains (question, "It pushes up now") && ! is_powerless) REQUIRE (eventually ([&] { return device.is_pushing.load(); }));
+        if (contains (question, "Pull the cable")) device.is_away = true;
         if (contains (question, "Has the push ended")) return device.is_pushing ? "no" : "yes";
         if (contains (question, "before it came back")) return "yes";
         return "";
@@ -134,7 +172,7 @@ struct Script : TrialPerson
 
     SpringDevice& device;
     int questions = 0, ends_at = 0;
-    bool stops_pushes = false, is_powerless = false;
+    bool stops_pushes = false, is_powerless = false, lets_go = false, is_sticky = false, pulls = false;
     std::atomic<bool> presses = false, homes = true;
 };
 
@@ -176,7 +214,9 @@ TEST_CASE ("a trial of an honest device finds everything as expected, and its ca
     CHECK (was_signalled);
     CHECK (contains (trialText (report), "pressed: front; not seen: back"));
     CHECK (verdict (report, "stop by silence") == "not tried");   // this device has no driver that would tell
-    CHECK (verdict (report, "kill -9, a frozen computer, a pulled cable") == "not tried");
+    CHECK (verdict (report, "kill -9, a frozen computer") == "not tried");
+    CHECK (verdict (report, "a pulled cable") == "not tried");
+    CHECK (verdict (report, "damping") == "not tried");
     if (device.damping == 0.0)
     {
         CHECK (verdict (report, "walls") == "not tried");
@@ -195,6 +235,138 @@ TEST_CASE ("a trial of an honest device finds everything as expected, and its ca
     const auto replayed = replayTrial (*Json::tryParse (report.dump()));
     REQUIRE (replayed);
     CHECK (*replayed == 0.0);
+}
+
+namespace
+{
+/// Four pushes of a tool by 0.3 N, as a trial does them, without a run: the force rises in 0.2 s, and is gone 1 cm later.
+std::vector<FreePush> pushesOf (FreeTool tool, int late_ticks = 0)
+{
+    std::vector<FreePush> all;
+    for (int i = 0; i < free_pushes; ++i)
+    {
+        FreePush push;
+        push.direction = Vec3 (i % 2 == 0 ? 1.0 : -1.0, 0.0, 0.0);
+        std::vector<double> forces (static_cast<std::size_t> (late_ticks), 0.0);
+        double first = 0.0;
+        bool has_ended = false;
+        for (int k = 0; k < 1500; ++k)
+        {
+            TrialRow row;
+            row.position = { tool.after (k == 0 ? 0.0 : forces[static_cast<std::size_t> (k - 1)]), 0.0, 0.0 };
+            row.tick_s = 5.0 + 1e-3 * k;
+            row.is_valid = true;
+            if (k == 0) first = row.position.x();
+            has_ended = has_ended || std::abs (row.position.x() - first) > 0.01;
+            const double force = has_ended ? 0.0 : push.direction.x() * trial_push * std::min (1.0, k / 200.0);
+            row.acting = { force, 0.0, 0.0 };
+            forces.push_back (force);
+            push.rows.push_back (row);
+        }
+        all.push_back (push);
+    }
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("the mechanics of a tool that is pushed are within their intervals, which are narrow", "[trial]")
+{
+    const auto tool = GENERATE (FreeTool { 0.2, 2.0, 0.05 }, FreeTool { 0.1, 0.5, 0.0 }, FreeTool { 0.4, 1.0, 0.1 }, FreeTool { 0.05, 3.0, 0.02 },
+                                FreeTool { 1.0, 0.3, 0.02 }, FreeTool { 0.2, 0.0, 0.04 });
+    auto rounded = tool;
+    rounded.quantum = GENERATE (1e-6, 1e-5, 4e-5);
+    const int late = GENERATE (0, 1, 3);
+    std::string why;
+    const auto found = mechanicsOf (pushesOf (rounded, late), 1e-3 * std::max (1, late), why);
+    CAPTURE (tool.mass, tool.damping, tool.friction, rounded.quantum, late, why);
+    if (! found && rounded.quantum > 2e-5)   // steps of 40 um may look like a spring to a tool that is light: then it says nothing
+    {
+        CHECK (why == "something like a spring pulls it");
+        return;
+    }
+    REQUIRE (found);
+    CAPTURE (found->mass.least, found->mass.most, found->damping.least, found->damping.most, found->friction.least, found->friction.most);
+    const auto holds = [] (const Between& range, double truth) { return range.least <= truth && truth <= range.most; };
+    CHECK (holds (found->damping, tool.damping));
+    CHECK (holds (found->mass, tool.mass));
+    CHECK (holds (found->friction, tool.friction));
+    CHECK (found->damping.most - found->damping.least < (0.2 + 0.1 * tool.damping) * std::max (1, late));   // what a late force leaves open
+}
+
+TEST_CASE ("the mechanics of a tool are not told if something else moves it, or nothing does", "[trial]")
+{
+    std::string why;
+    FreeTool tool;
+    SECTION ("a spring pulls it back")
+    {
+        tool.spring = GENERATE (4.0, 15.0);
+        CHECK_FALSE (mechanicsOf (pushesOf (tool), 1e-3, why));
+        CHECK (why == "something like a spring pulls it");
+    }
+    SECTION ("its friction is too large")
+    {
+        tool.friction = 0.35;
+        CHECK_FALSE (mechanicsOf (pushesOf (tool), 1e-3, why));
+        CHECK (why == "it moved by less than 5 mm");
+    }
+    SECTION ("a reading is missing")
+    {
+        auto pushes = pushesOf (tool);
+        pushes[2].rows[300].is_valid = false;
+        CHECK_FALSE (mechanicsOf (pushes, 1e-3, why));
+        CHECK (why == "a reading could not be used");
+    }
+    SECTION ("it meets a stop")
+    {
+        auto pushes = pushesOf (tool);
+        for (auto& row : pushes[0].rows)
+            row.position.x() = std::min (row.position.x(), 0.012);
+        pushes[0].rows.resize (900);
+        for (std::size_t i = 400; i < 900; ++i)   // and slides along it
+            pushes[0].rows[i].position.x() += 1e-5 * static_cast<double> (i - 400);
+        CHECK_FALSE (mechanicsOf (pushes, 1e-3, why));
+    }
+    SECTION ("a push is missing")
+    {
+        auto pushes = pushesOf (tool);
+        pushes.pop_back();
+        CHECK_FALSE (mechanicsOf (pushes, 1e-3, why));
+    }
+}
+
+TEST_CASE ("a trial measures the damping of a tool that is let go, tries walls with the smallest one, and ends with the cable", "[trial]")
+{
+    SpringDevice device;
+    Script person (device);
+    person.lets_go = person.pulls = true;
+    SECTION ("it is free")
+    {
+        const auto report = tryDevice (device, {}, setting(), person);
+        INFO (trialText (report));
+        REQUIRE (verdict (report, "damping") == "measured");
+        const auto numbers = trialNumbers (report, 1000.0);
+        REQUIRE (numbers);
+        CHECK (numbers->damping->value <= device.tool.damping);
+        CHECK (numbers->damping->value > 0.8 * device.tool.damping);
+        // By hand: 2 B / T, without a delay.
+        const auto& capture = report.at ("capture");
+        REQUIRE (capture.size() == 9);
+        CHECK (capture[8].at ("graph").at ("nodes").at ("wall").at ("params").at ("stiffness").get<double>() == Approx (2.0 * numbers->damping->value / 1e-3));
+        CHECK (contains (trialText (report), "no buzz, at 100 % of the stiffest passive wall"));
+        CHECK (verdict (report, "a pulled cable") == "as expected");
+        CHECK (*replayTrial (report) == 0.0);
+    }
+    SECTION ("a hand still holds it")
+    {
+        person.is_sticky = true;
+        const auto report = tryDevice (device, {}, setting(), person);
+        INFO (trialText (report));
+        CHECK (verdict (report, "damping") == "not tried");
+        CHECK (contains (trialText (report), "it moved by less than 5 mm"));
+        CHECK (verdict (report, "walls") == "not tried");
+        CHECK_FALSE (report.at ("numbers").contains ("damping"));
+        CHECK (device.largest <= trial_push);
+    }
 }
 
 TEST_CASE ("a trial names what differs: swapped axes, a push that is not felt, a force that the guard withholds", "[trial]")
@@ -272,10 +444,11 @@ TEST_CASE ("check gets the quantum and the delay that a trial has measured, roun
     CHECK (both->quantum->value == 1e-5);
     CHECK (both->delay->value == 1.0);
     CHECK_FALSE (both->quantum->guess);
+    CHECK (numbers (R"({"mass": 0.2, "damping": 1.9, "coulomb": 0.05})", 1000.0)->damping->value == 1.9);
     CHECK_FALSE (both->damping);
     CHECK (numbers (R"({"delay_s": 0.0007})", 4000.0)->delay->value == 3.0);
     CHECK_FALSE (numbers (R"({"delay_s": 0.0007})", 4000.0)->quantum);
-    for (const auto* wrong : { R"({"delay_s": -1})", R"({"delay_s": 2})", R"({"quantum": "1 um"})", "[]" })
+    for (const auto* wrong : { R"({"delay_s": -1})", R"({"delay_s": 2})", R"({"quantum": "1 um"})", R"({"mass": 0})", R"({"damping": -1})", "[]" })
         CHECK (numbers (wrong, 1000.0).error().id == "trial/format");
     CHECK (trialNumbers (Json(), 1000.0).error().id == "trial/format");
 }
