@@ -3,18 +3,13 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#if defined(TACTUS_FAKE_FALCON)
-#include "fake_library.hpp"
-#include <host/drivers/falcon/fake_falcon.hpp>
-#endif
-#if defined(TACTUS_SERVICES)
-#include <host/drivers/bhaptics/fake_player.hpp>
-#include <host/drivers/haply/fake_inverse3.hpp>
-#endif
+#include <host/base/platform/preset_folder.hpp>
+#include <host/base/platform/private_folder.hpp>
 #include <host/base/platform/signals.hpp>
 #include <host/devices/hid/hex.hpp>
 #include <host/devices/hid_link/fake_device.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
+#include <host/drivers/offered_fake.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/tick_clock.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -28,6 +23,7 @@
 #include <iostream>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 namespace tactus::host
@@ -37,9 +33,6 @@ namespace
 {
 using namespace hid;
 using Clock = std::chrono::steady_clock;
-
-[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3", vest = "bhaptics_vest", falcon = "falcon";
-[[maybe_unused]] constexpr std::string_view forcedimension = "forcedimension", openhaptics = "openhaptics";
 
 struct FakeOptions
 {
@@ -115,215 +108,64 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     }
 }
 
-#if defined(TACTUS_SERVICES) || defined(TACTUS_FAKE_FALCON)
-[[noreturn]] void cannot (const std::string& fault, const char* what)
+/// The words of a list with ", " between them, without what follows each in brackets.
+bool isAmong (std::string_view list, std::string_view word)
 {
-    fail (Message::error ("fake/fault", fault, "this device or service does not have this fault", std::string ("choose ") + what));
-}
-
-#endif
-
-#if defined(TACTUS_FAKE_FALCON)
-FakeFalcon::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeFalcon&)
-{
-    switch (kind)
+    for (std::size_t at = 0; at < list.size();)
     {
-    case DeviceFault::Kind::stall:
-        return FakeFalcon::Fault::silent;
-    case DeviceFault::Kind::garbage:
-        return FakeFalcon::Fault::noisy;
-    case DeviceFault::Kind::half:
-        return FakeFalcon::Fault::shorter;
-    case DeviceFault::Kind::lost_byte:
-        return FakeFalcon::Fault::shifted;
-    case DeviceFault::Kind::lie:
-        return FakeFalcon::Fault::changed;
-    case DeviceFault::Kind::late:
-        return FakeFalcon::Fault::late;
-    case DeviceFault::Kind::reset:
-        return FakeFalcon::Fault::forgetful;
-    default:
-        cannot (text, "stall, garbage, half, lost_byte, late, lie or reset");
+        const auto end = std::min (list.find (", ", at), list.size());
+        if (const auto each = list.substr (at, end - at); each.substr (0, each.find (' ')) == word) return true;
+        at = end + 2;
     }
+    return false;
 }
 
-template <typename Kind>
-typename FakeLibrary<Kind>::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeLibrary<Kind>&)
+/// Plays a fake without a profile, until it is stopped.
+void playOffered (const OfferedFakeKind& kind, const FakeOptions& o)
 {
-    using Fault = typename FakeLibrary<Kind>::Fault;
-    switch (kind)
-    {
-    case DeviceFault::Kind::stall:
-        return Fault::silent;
-    case DeviceFault::Kind::away:
-        return Fault::away;
-    case DeviceFault::Kind::reset:
-        return Fault::forgetful;
-    case DeviceFault::Kind::lie:
-        return Fault::off;
-    default:
-        cannot (text, "stall (a call does not return), away, reset (the arm does not know its position) or lie (its forces go off, or its motors are warm)");
-    }
-}
-
-#endif
-
-#if defined(TACTUS_SERVICES)
-FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeInverse3&)
-{
-    switch (kind)
-    {
-    case DeviceFault::Kind::stall:
-        return FakeInverse3::Fault::silent;
-    case DeviceFault::Kind::garbage:
-        return FakeInverse3::Fault::garbage;
-    case DeviceFault::Kind::away:
-        return FakeInverse3::Fault::restart;
-    case DeviceFault::Kind::push:
-        return FakeInverse3::Fault::push;
-    case DeviceFault::Kind::rename:
-        return FakeInverse3::Fault::rename;
-    default:
-        cannot (text, "stall, garbage, away, push or rename");
-    }
-}
-
-FakePlayer::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakePlayer&)
-{
-    switch (kind)
-    {
-    case DeviceFault::Kind::stall:
-        return FakePlayer::Fault::silent;
-    case DeviceFault::Kind::garbage:
-        return FakePlayer::Fault::garbage;
-    case DeviceFault::Kind::away:
-        return FakePlayer::Fault::restart;
-    case DeviceFault::Kind::rename:
-        return FakePlayer::Fault::unworn;
-    default:
-        cannot (text, "stall, garbage, away or rename");
-    }
-}
-
-#endif
-
-#if defined(TACTUS_SERVICES) || defined(TACTUS_FAKE_FALCON)
-/// Plays a device or a service without a profile, until it is stopped.
-template <typename Service>
-void playService (Service& service, const FakeOptions& o)
-{
-    using Fault = typename Service::Fault;
-    std::vector<std::pair<DeviceFault, Fault>> faults;
+    if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty())
+        throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
+    std::vector<std::pair<DeviceFault, std::string>> faults;
     for (const auto& text : o.faults)
     {
-        const auto fault = orFail (readFault (text));
-        faults.emplace_back (fault, faultOfService (fault.kind, text, service));
+        faults.emplace_back (orFail (readFault (text)), text.substr (0, text.find ('@')));
+        std::string choice = kind.faults;
+        choice.replace (choice.rfind (", "), 2, " or ");
+        if (! isAmong (kind.faults, faults.back().second))
+            fail (Message::error ("fake/fault", text, "this device or service does not have this fault", "choose " + choice));
     }
-    const auto begin = Clock::now();
-    auto fault = Fault::none;
-    for (;;)
+    const auto folder = privateFolder ("tactus-fake");
     {
-        const double now = std::chrono::duration<double> (Clock::now() - begin).count();
-        if (stopRequested() || (o.duration_s > 0.0 && now >= o.duration_s)) break;
-        auto due = Fault::none;
-        for (const auto& [when, what] : faults)
-            if (now >= when.from && now < when.to) due = what;
-        if (due != fault) service.fail (due);
-        fault = due;
-        std::this_thread::sleep_for (std::chrono::milliseconds (1));
-    }
-}
-
-#endif
-
-#if defined(TACTUS_FAKE_FALCON)
-void runFalcon (const FakeOptions& o)
-{
-    constexpr auto tick = std::chrono::milliseconds (1), longest = std::chrono::milliseconds (100);
-    constexpr double middle = 0.150;   // in front of the base, in m
-    const auto hand = handOf (o.hand);
-    hand->prepare (1e-3);
-    auto moved_to = Clock::now();
-    FakeFalcon device ([&] (const FakeFalcon::Place& grip, const FakeFalcon::Place& force) {
-        auto place = grip;
-        const auto now = Clock::now();
-        for (moved_to = std::max (moved_to, now - longest); moved_to + tick <= now; moved_to += tick)
+        const auto fake = orFail (kind.make ({ .hand = kind.needs_hand ? handOf (o.hand) : nullptr,
+                                               .port = o.port,
+                                               .libraries = shipped ({ "lib/tactus/fakes", "../lib/tactus/fakes" }),
+                                               .private_folder = folder }));
+        std::cout << fake->where() << "\n"
+                  << std::flush;
+        const auto begin = Clock::now();
+        std::string fault;
+        for (;;)
         {
-            const auto at = hand->read().position;
-            place = { at.x(), at.z(), middle - at.y() };   // its own axes: x right, y up, z towards the person
-            Effort effort;
-            effort.force = { force[0], -force[2], force[1] };
-            hand->write (effort);
+            const double now = std::chrono::duration<double> (Clock::now() - begin).count();
+            if (stopRequested() || (o.duration_s > 0.0 && now >= o.duration_s)) break;
+            std::string due;
+            for (const auto& [when, what] : faults)
+                if (now >= when.from && now < when.to) due = what;
+            if (due != fault) fake->fail (due);
+            fault = due;
+            std::this_thread::sleep_for (std::chrono::milliseconds (1));
         }
-        return place;
-    });
-    std::cout << "a fake Falcon is at " << device.port() << "; play on it: --device ROLE=falcon:" << device.port() << "\n"
-              << std::flush;
-    playService (device, o);
-    std::cout << device.packets << " packets heard, " << device.pushes << " with a force of at most " << numberText (device.largest_force) << " N, "
-              << device.malformed << " bytes outside packets\n";
+        std::cout << fake->heard() << "\n";
+    }
+    std::error_code failed;
+    if (! folder.empty()) std::filesystem::remove_all (folder, failed);
 }
-#endif
-
-#if defined(TACTUS_FAKE_FALCON)
-template <typename Kind>
-void runLibrary (const FakeOptions& o, const char* what)
-{
-    FakeLibrary<Kind> library (handOf (o.hand));
-    if (! library.isThere())
-        fail (Message::error ("fake/library", o.profile, "the fake of the maker's library is not there, or has no memory",
-                              "install the whole of Tactus, or build its target fake_libraries"));
-    std::cout << "a fake " << what << " is there, behind a fake of its maker's library; play on it:\n"
-              << library.environment() << " tactus play GRAPH --device ROLE=" << o.profile << "\n"
-              << std::flush;
-    playService (library, o);
-    std::cout << library.pushes() << " forces heard, of at most " << numberText (library.largest_force) << " N\n";
-}
-#endif
-
-#if defined(TACTUS_SERVICES)
-void sayWhere (const char* what, const char* driver, int port)
-{
-    std::cout << "a fake " << what << " is at localhost:" << port << "; play on it: --device ROLE=" << driver << ":localhost:" << port << "\n"
-              << std::flush;
-}
-
-void runInverse3 (const FakeOptions& o)
-{
-    const auto service = orFail (FakeInverse3::make (o.port, handOf (o.hand)));
-    sayWhere ("Inverse3", "haply", service->port());
-    playService (*service, o);
-    const auto n = service->counts();
-    std::cout << n.clients << " clients; " << n.heard << " messages heard, " << n.forces << " with a force of at most " << numberText (n.largest) << " N, "
-              << n.answered << " answered, " << n.together << " sent before the answer, " << n.refused << " refused\n";
-}
-
-void runVest (const FakeOptions& o)
-{
-    const auto player = orFail (FakePlayer::make (o.port));
-    sayWhere ("vest", "bhaptics", player->port());
-    playService (*player, o);
-    const auto n = player->counts();
-    std::cout << n.clients << " clients; " << n.heard << " messages heard, " << n.frames << " frames with intensities of at most " << n.largest << ", "
-              << n.turned_off << " times turned off, " << n.refused << " refused\n";
-}
-#endif
 
 void run (const FakeOptions& o)
 {
     watchForStop();
-    const auto names = { inverse3, vest, falcon, forcedimension, openhaptics };
-    if (std::ranges::find (names, std::string_view (o.profile)) != names.end() && (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()))
-        throw UsageError ("--link, --log, --wire", "only a fake device that is made from a profile has these options");
-#if defined(TACTUS_FAKE_FALCON)
-    if (o.profile == falcon) return runFalcon (o);
-    if (o.profile == forcedimension) return runLibrary<FakeForceDimension> (o, "omega.3");
-    if (o.profile == openhaptics) return runLibrary<FakeOpenHaptics> (o, "Touch");
-#endif
-#if defined(TACTUS_SERVICES)
-    if (o.profile == inverse3) return runInverse3 (o);
-    if (o.profile == vest) return runVest (o);
-#endif
+    for (const auto* kind : offeredFakes())
+        if (o.profile == kind->name) return playOffered (*kind, o);
     const auto profile = profileOf (o.profile);
     FakeDevice::Options options { .wire = wireOf (o, *profile), .link = o.link, .port = o.port, .faults = {} };
     if (options.wire != Wire::serial && ! o.link.empty()) throw UsageError ("--link", "only a serial line has a name to link to");
@@ -364,11 +206,13 @@ void run (const FakeOptions& o)
 void addFakeDevice (const Command& app)
 {
     const auto options = std::make_shared<FakeOptions>();
+    std::string others;
+    for (const auto* kind : offeredFakes())
+        others += std::string ("; or ") + kind->name + ", " + kind->what;
     const auto command = app.add ("fake-device", "Simulate a device, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
-                    "The id of a profile, such as tactus_board; or falcon; or forcedimension or openhaptics, arms behind the library of their maker; or "
-                    "haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
+                    "The id of a profile, such as tactus_board" + others)
         .required();
     command
         .addOption ("--wire", options->wire,
