@@ -3,6 +3,7 @@
 """Steps longer than a tick: which readings the ticks get, which effort a step has, and what stiffness a simulated mass can hold with each rule, compared
 with the eigenvalues of the loop and with the verdict of `tactus check`."""
 
+import itertools
 import json
 import math
 import subprocess
@@ -11,7 +12,7 @@ import unittest
 
 import numpy as np
 import tactus
-from support import PROGRAM, TestCase, quiet
+from support import PROGRAM, ROOT, TestCase, quiet
 
 RATE = 4000
 RULES = [("hold", "last"), ("hold", "mean"), ("linear", "last"), ("linear", "mean"), ("by_velocity", "last"), ("by_velocity", "mean")]
@@ -173,6 +174,104 @@ class MassOnASpring:
                 break
         half = len(size) // 2
         return max(size[half:]) > max(size[:half])
+
+
+PAGE_RULES = {"hold or linear, last": [("hold", "last"), ("linear", "last")], "hold, mean": [("hold", "mean")], "linear, mean": [("linear", "mean")],
+              "by velocity, mean": [("by_velocity", "mean")], "by velocity, last": [("by_velocity", "last")]}
+
+
+class Integrated:
+    """A mass without damping on a spring, in a simulator with steps of n ticks that moves it by one of the methods of the page. The unit of time is a tick."""
+
+    def __init__(self, n, method, rule, stiffness):
+        between, effort = rule
+        ticks = np.arange(1, n + 1) if effort == "mean" else np.array([n])
+        new = (ticks / n).mean() if between == "linear" else 1.0
+        lead = (ticks - 1).mean() if between == "by_velocity" else 0.0
+        pull = -stiffness * np.array([new, lead, 1 - new])   # from x, v, and x of the step before
+        speed = np.array([0.0, 1.0, 0.0]) + n * pull
+        place = {"exact": np.array([1.0, n, 0.0]) + n * n / 2 * pull, "semi-implicit": np.array([1.0, 0.0, 0.0]) + n * speed,
+                 "explicit": np.array([1.0, n, 0.0])}[method]
+        self.n, self.stiffness, self.loop = n, stiffness, np.array([place, speed, [1.0, 0.0, 0.0]])
+
+    def delay(self):
+        """In ticks. A spring that is late by D makes a swing grow by exp(K D t/2)."""
+        swing = max(np.linalg.eigvals(self.loop), key=lambda z: z.imag)
+        return 2 * math.log(abs(swing)) / self.n / self.stiffness
+
+
+def page_table(after):
+    """The rows of the first table after a text in docs/steps.md: the rule, and the cells by method."""
+    lines = (ROOT / "docs/steps.md").read_text(encoding="utf-8").split(after)[1].split("\n")
+    first = next(k for k, line in enumerate(lines) if line.startswith("|"))
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in itertools.takewhile(lambda line: line.startswith("|"), lines[first:])]
+    assert rows[0] == ["between, effort", "exact", "semi-implicit", "explicit"], rows[0]
+    return {row[0]: dict(zip(rows[0][1:], row[1:])) for row in rows[2:]}
+
+
+class Methods(TestCase):
+    def test_the_delays_of_the_page_are_those_of_the_eigenvalues(self):
+        table = page_table("The delay in ticks, for steps of")
+        self.assertEqual(set(table), set(PAGE_RULES))
+        for name, methods in table.items():
+            for method, cell in methods.items():
+                for rule, n in itertools.product(PAGE_RULES[name], (4, 8, 20, 80)):
+                    stated = eval(cell.replace("*n*", "n").replace("3 n", "3*n"), {"n": n})
+                    with self.subTest(rule=rule, method=method, ticks=n):
+                        self.assertAlmostEqual(Integrated(n, method, rule, 1e-6 / n**2).delay(), stated, delta=1e-3 * n)
+
+    def test_the_rates_of_the_page_are_those_of_the_delays(self):
+        for name, methods in page_table("this is:\n").items():
+            for method, cell in methods.items():
+                delay = Integrated(8, method, PAGE_RULES[name][0], 1e-8).delay()
+                with self.subTest(rule=name, method=method):
+                    if cell == "no delay":
+                        self.assertAlmostEqual(delay, 0.0, delta=1e-3)
+                    else:
+                        self.assertEqual(cell, f"{RATE / (2 * delay):.0f} Hz")
+
+    def test_the_library_makes_these_loops(self):
+        n, mass, dt = 20, 0.5, 20 / RATE
+        for method, rule in itertools.product(("exact", "semi-implicit", "explicit"), RULES):
+            stiffness = 0.04 / n**2   # 1/tick²; a swing lasts 31 steps
+            expected = Integrated(n, method, rule, stiffness)
+            run = engine(spring(stiffness * mass * RATE**2), *rule)
+            state = np.array([1e-3, 0.0, 1e-3])   # m, m per tick
+            x, v = 1e-3, 0.0
+            run.push("tool", (x, 0, 0))
+            run.step(dt)
+            with self.subTest(method=method, rule=rule):
+                for _ in range(100):
+                    run.push("tool", (x, 0, 0), velocity=(v, 0, 0))
+                    run.step(dt)
+                    a = run.take("tool").force[0] / mass
+                    if method == "exact":
+                        x, v = x + dt * v + dt * dt / 2 * a, v + dt * a
+                    elif method == "explicit":
+                        x, v = x + dt * v, v + dt * a
+                    else:
+                        v += dt * a
+                        x += dt * v
+                    state = expected.loop @ state
+                    self.assertAlmostEqual(x, state[0], delta=1e-9)
+                    self.assertAlmostEqual(v / RATE, state[1], delta=1e-9)
+
+    def test_the_stiffness_that_semi_implicit_steps_without_delay_allow(self):
+        mass, damping, dt = 0.5, 10.0, 0.005   # as in docs/examples/steps/main.cpp
+        most = (4 * mass - 2 * damping * dt) / dt**2
+        self.assertIn(f"that is {most / 1000:.0f} kN/m", (ROOT / "docs/steps.md").read_text(encoding="utf-8"))
+        for rule in RULES[0:3]:
+            for part in (0.98, 1.02):
+                run = engine(spring(part * most), *rule)
+                x, v, size = 1e-3, 0.0, []
+                for _ in range(400):
+                    run.push("tool", (x, 0, 0))
+                    run.step(dt)
+                    v += dt / mass * (run.take("tool").force[0] - damping * v)
+                    x += dt * v
+                    size.append(abs(x))
+                with self.subTest(rule=rule, part=part):
+                    self.assertEqual(max(size[200:]) > max(size[:200]), part > 1)
 
 
 class Stiffness(TestCase):

@@ -68,7 +68,7 @@ int main (int argc, char** argv)
     const tactus_run_options options = TACTUS_RUN_OPTIONS;
     tactus_run* run = tactus_run_create (graph, &options, messages);
     tactus_device_options tool = TACTUS_DEVICE_OPTIONS;
-    tool.between = TACTUS_LINEAR;   // the delay is half a step: docs/steps.md
+    tool.between = TACTUS_LINEAR;   // no delay with this integrator: docs/steps.md
     tool.step_effort = TACTUS_LAST_TICK;
     tool.simulated = 1;
     const char* role = tactus_run_role (run, 0);
