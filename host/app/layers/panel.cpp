@@ -2,7 +2,6 @@
 // The layers in the window.
 #include "layers_panel.hpp"
 
-#include <host/app/adding/add_graph.hpp>
 #include <host/app/desk/panel.hpp>
 #include <host/app/inspector/settings/setting_editor.hpp>
 
@@ -21,7 +20,9 @@ Panel layersPanel (Desk& desk)
         desk.canvas.show (patch, node);
         desk.canvas.endEdit();   // undoing the edit brings back the view from before
     };
-    layers->onPresetDropped = [&desk] (const std::filesystem::path& file) { addGraph (desk, file); };
+    layers->onPresetDropped = [&desk] (const std::filesystem::path& file) {
+        desk.canvas.onGraphDropped (file, desk.canvas.commands().pointerOrCentre());
+    };
     desk.addClip = [&desk, layers] (const std::filesystem::path& file, std::optional<double> gain) {
         desk.toFront (*layers);
         layers->addClip (file, gain);
