@@ -43,7 +43,7 @@ std::string withoutPort (std::span<const SerialPort> ports, const fs::path& usb)
         const auto id = std::string (device.vid) + " " + device.pid;
         if (left > 0)
             all += "USB device " + id + "   " + device.what + "\n    the kernel does not know it as a serial port: sudo sh -c 'modprobe ftdi_sio && echo " + id
-                   + " > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'\n";
+                   + " > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'\n    or, with libftdi: --device ROLE=" + device.driver + ":usb\n";
     }
     return all;
 }

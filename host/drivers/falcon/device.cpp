@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A device driver for the Novint Falcon on a serial port, without any software of its maker. Written from a public description of the protocol; no Falcon
-// has been tried. See docs/known_devices.md.
+// A device driver for the Novint Falcon on a serial port or by libftdi, without any software of its maker. Written from a public description of the
+// protocol; no Falcon has been tried. See docs/known_devices.md.
 #include "device.hpp"
 #include "kinematics.hpp"
 #include "serial_port.hpp"
@@ -11,6 +11,7 @@
 #include <host/drivers/read_keys.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -31,9 +32,8 @@ constexpr auto until_late = 20ms;   // without an answer: a packet was lost
 constexpr auto longest_patience = 160ms, prompt = 5ms;
 constexpr double motor_per_torque = -10'000.0, most_motor = 4096.0;
 constexpr double middle = 0.150;   // in front of the base, in m
-constexpr Packet at_rest = packetOf ({}, homing);
 
-/// A Falcon at a serial port. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it
+/// A Falcon. It answers each packet with a packet, and sends none by itself. At most one packet is on its way, besides those that bring it
 /// to rest.
 /// `times`: the factor of all times until a Falcon that does not answer counts as gone, for tests on busy computers.
 template <int times>
@@ -48,26 +48,32 @@ public:
     struct Wanted
     {
         std::string port, firmware;
+        std::optional<unsigned> usb {};   // the number of a Falcon without a serial port
     };
 
     static std::string parse (const tactus_device_description& given, Wanted& wanted)
     {
         if (auto wrong = readKeys (given, wanted.port, [&] (ObjectReader& in) { wanted.firmware = in.text ("firmware"); }); ! wrong.empty()) return wrong;
-        return wanted.port.starts_with ('/') ? std::string() : "name the port: falcon:/dev/ttyUSB0";
+        unsigned number = 0;
+        const auto* end = wanted.port.data() + wanted.port.size();
+        const bool has_number = wanted.port.starts_with ("usb:") && wanted.port.size() > 4 && std::from_chars (wanted.port.data() + 4, end, number).ptr == end;
+        if (has_number || wanted.port == "usb") wanted.usb = number;
+        if (wanted.usb || wanted.port.empty() || wanted.port.starts_with ('/')) return {};
+        return "name the port: falcon:/dev/ttyUSB0, or falcon:usb or falcon:usb:1 for one without a serial port";
     }
 
     static std::unique_ptr<Falcon> open (const Wanted& wanted, tactus_device_about& about, std::string& said)
     {
-        auto device = std::make_unique<Falcon> (wanted.port);
-        said = device->line.open (wanted.port);
+        auto device = std::make_unique<Falcon>();
+        const auto port = wanted.port.empty() ? SerialPort::ofFalcon() : wanted.port;
+        const bool is_usb = wanted.usb || port.empty();
+        said = is_usb ? device->line.openUsb (wanted.usb.value_or (0)) : device->line.open (port);
         if (said.empty()) said = device->start (wanted.firmware);
         if (! said.empty()) return nullptr;
-        if (auto slow = hid::slowAdapter (wanted.port); ! slow.empty()) said = "forces are slow, and stiff walls buzz: " + slow;
+        if (auto slow = is_usb ? std::string() : hid::slowAdapter (port); ! slow.empty()) said = "forces are slow, and stiff walls buzz: " + slow;
         device->describe (about);
         return device;
     }
-
-    explicit Falcon (std::string p) : port (std::move (p)) {}
 
     std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
     {
@@ -176,7 +182,7 @@ private:
         about.button_count = std::size (buttons);
         static const auto limits = guessedLimits (8.0, 40.0).dump();   // 8 N is what CHAI3D allows
         about.guard = limits.c_str();
-        about.rest_file = port.c_str();
+        about.rest_file = line.path().c_str();
         static const tactus_device_bytes last { sizeof last, at_rest.data(), at_rest.size() };
         static const tactus_device_bytes* const lasts[] { &last, &last };   // the first one may meet half a packet
         about.rest_reports = lasts;
@@ -246,7 +252,6 @@ private:
         return {};
     }
 
-    const std::string port;
     SerialPort line;
 
     // [reading thread]
@@ -270,7 +275,7 @@ private:
 constexpr const char* keys[] { "port", "firmware" };
 
 template <int times>
-constexpr auto table = driverTable<Falcon<times>> ("falcon", "The Novint Falcon on a serial port.", keys);
+constexpr auto table = driverTable<Falcon<times>> ("falcon", "The Novint Falcon on a serial port, or by libftdi.", keys);
 }   // namespace
 
 const tactus_device_driver driver = table<1>, patient_driver = table<300>;

@@ -33,6 +33,11 @@ constexpr Packet packetOf (const std::array<int, 3>& motors, unsigned bits)
     return p;
 }
 
+constexpr Packet at_rest = packetOf ({}, homing);
+
+// Of the line: for packets, for the first words to a Falcon without firmware, and for loading that.
+constexpr unsigned normal_baud = 1'500'000, hello_baud = 9600, loading_baud = 142'857;
+
 /// The contents of a packet from the Falcon.
 struct Report
 {

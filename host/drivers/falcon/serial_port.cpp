@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "serial_port.hpp"
 
+#include <host/drivers/helper_program.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <asm/termbits.h>
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <poll.h>
+#include <stdlib.h>   // NOLINT: posix_openpt
 #include <sys/ioctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
+#include <fstream>
 #include <system_error>
+#include <thread>
+
+extern char** environ;
 
 namespace tactus::host::falcon
 {
@@ -21,7 +29,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-constexpr unsigned normal_baud = 1'500'000, hello_baud = 9600, loading_baud = 142'857;
 constexpr std::uint8_t hello[] { 0x0a, 0x43, 0x0d }, hello_answer[] { 0x0a, 0x44, 0x2c, 0x0d }, ready[] { 0x41 };
 constexpr std::size_t block_size = 62, most_firmware = 65'536;
 
@@ -31,10 +38,61 @@ std::string textOf (int error) { return std::generic_category().message (error);
 SerialPort::~SerialPort()
 {
     if (file >= 0) ::close (file);
+    if (bridge <= 0) return;
+    ::kill (bridge, SIGTERM);   // it takes the force off, and ends
+    bool has_ended = false;
+    for (const auto end = Clock::now() + 1s; ! has_ended && Clock::now() < end; std::this_thread::sleep_for (1ms))
+        has_ended = ::waitpid (bridge, nullptr, WNOHANG) != 0;
+    if (has_ended) return;
+    ::kill (bridge, SIGKILL);
+    ::waitpid (bridge, nullptr, 0);
+}
+
+std::string SerialPort::ofFalcon (const std::filesystem::path& adapters)
+{
+    const auto word = [] (const std::filesystem::path& in) {
+        std::string text;
+        std::ifstream (in) >> text;
+        return text;
+    };
+    std::error_code failed;
+    for (std::filesystem::directory_iterator at (adapters, failed), end; ! failed && at != end; at.increment (failed))
+        if (const auto usb = at->path() / "../.."; word (usb / "idVendor") == "0403" && word (usb / "idProduct") == "cb48")
+            return "/dev/" + at->path().filename().string();
+    return {};
+}
+
+std::string SerialPort::openUsb (unsigned number)
+{
+    const int other_end = ::posix_openpt (O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    char path[64] {};
+    std::array<int, 2> told { -1, -1 };
+    std::string why;
+    if (::grantpt (other_end) != 0 || ::unlockpt (other_end) != 0 || ::ptsname_r (other_end, path, sizeof path) != 0 || ::pipe2 (told.data(), O_CLOEXEC) != 0)
+        why = textOf (errno);
+    else
+        why = open (path);
+    if (why.empty())
+    {
+        goNormal();
+        const auto program = findHelper (hello, "falcon-bridge", why);
+        if (! program.empty()) why = startHelper (program, { std::to_string (number) }, { other_end, told[1] }, environ, bridge);
+    }
+    ::close (other_end);
+    ::close (told[1]);
+    std::string said;
+    for (char byte = 0; why.empty() && byte != '\n';)
+        if (::read (told[0], &byte, 1) != 1)
+            why = "the program between the driver and libftdi has died";
+        else if (byte != '\n')
+            said += byte;
+    ::close (told[0]);
+    return why.empty() ? said : why;
 }
 
 std::string SerialPort::open (const std::string& path)
 {
+    name = path;
     file = ::open (path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return textOf (errno) + (errno == EACCES ? ": join the group of " + path + " (on Debian: sudo adduser $USER dialout)" : std::string());
     termios2 how {};

@@ -5,11 +5,14 @@
 
 #include <tactus/file/file_lock.hpp>
 
+#include <sys/types.h>
+
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,13 +20,22 @@
 namespace tactus::host::falcon
 {
 
-/// The FTDI adapter between the computer and a Falcon, as a serial port. Each function that can fail returns the reason if it fails; empty if it succeeds.
+/// The FTDI adapter between the computer and a Falcon, as a serial port, or by libftdi. Each function that can fail returns the reason if it fails; empty if
+/// it succeeds.
 class SerialPort
 {
 public:
     ~SerialPort();
 
     std::string open (const std::string& path);
+
+    /// Opens the Falcon with this number, counted from 0, by libftdi in a process of its own, which a pseudo-terminal connects with this one.
+    std::string openUsb (unsigned number);
+
+    /// The serial port of a Falcon that the kernel knows; empty: there is none.
+    static std::string ofFalcon (const std::filesystem::path& adapters = "/sys/bus/usb-serial/devices");
+
+    const std::string& path() const noexcept { return name; }
     void goNormal();   ///< sets the speed and the latency for the running firmware
 
     /// Loads firmware from a file. May take some seconds.
@@ -45,7 +57,9 @@ private:
     bool put (std::span<const std::uint8_t>);
     bool expects (std::span<const std::uint8_t>, std::chrono::milliseconds);
 
+    std::string name;
     int file = -1;
+    pid_t bridge = -1;
     std::optional<FileLock> lock;
     std::atomic<bool> is_gone = false;
     PacketFinder finder;

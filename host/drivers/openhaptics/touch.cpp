@@ -6,15 +6,13 @@
 
 #include <host/drivers/driver_table.hpp>
 #include <host/drivers/guessed_limits.hpp>
+#include <host/drivers/helper_program.hpp>
 #include <host/drivers/read_keys.hpp>
 #include <host/drivers/rotation_of.hpp>
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,26 +48,6 @@ constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium
 constexpr const char* program = "openhaptics-helper";
 constexpr const char* may_push = ". The arm may still push: switch it off";
 
-/// The helper, which is next to this driver, or where its programs keep their plugins. Empty, with the reason, if it cannot be used.
-fs::path findHelper (std::string& why)
-{
-    Dl_info self {};
-    if (::dladdr (static_cast<const void*> (&driver), &self) == 0 || self.dli_fname == nullptr) return {};
-    std::error_code failed;
-    const auto folder = fs::weakly_canonical (self.dli_fname, failed).parent_path();
-    why = std::string ("the program ") + program + " is not in " + folder.string() + ", next to the driver";
-    for (const auto& file : { folder / program, folder / "../lib/tactus/plugins" / program })
-    {
-        struct stat is
-        {
-        };
-        if (::stat (file.c_str(), &is) != 0) continue;
-        if ((is.st_uid == 0 || is.st_uid == ::geteuid()) && (is.st_mode & (S_IWGRP | S_IWOTH)) == 0) return file;
-        why = file.string() + " belongs to another user, or other users may write to it";
-    }
-    return {};
-}
-
 /// The environment of this program, with numbers as in C: with another locale, the maker's setup reads wrong numbers.
 std::vector<char*> plainEnvironment()
 {
@@ -103,7 +81,7 @@ public:
     {
         static std::weak_ptr<HelperProcess> running;
         if (auto helper = running.lock(); helper != nullptr && ! helper->hasEnded (0) && helper->shared->is_ending == 0) return helper;
-        const auto file = findHelper (why);
+        const auto file = findHelper (&driver, program, why);
         if (file.empty()) return nullptr;
         auto helper = std::make_shared<HelperProcess>();
         why = helper->launch (file);
@@ -176,38 +154,12 @@ private:
         void* at = why.empty() ? ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0) : MAP_FAILED;
         if (why.empty() && at == MAP_FAILED) why = reason ("no memory for the helper");
         if (at != MAP_FAILED) shared = static_cast<SharedArms*> (at);
-        if (why.empty()) why = spawn (file, memory, towards[0], from[1]);
+        if (why.empty()) why = startHelper (file, {}, { memory, towards[0], from[1] }, plainEnvironment().data(), process);   // from[1] closes with it
         to_helper = towards[1];
         life = from[0];
         for (const int each : { memory, towards[0], from[1] })
             if (each >= 0) ::close (each);
         return why;
-    }
-
-    /// In a session of its own, so that no key of the terminal reaches it.
-    std::string spawn (const fs::path& file, int memory, int pipe, int alive)
-    {
-        const int least = std::max ({ memory, pipe, alive }) + 1;   // above all files that are copied
-        std::array<std::string, 3> texts { program, std::to_string (least), std::to_string (least + 1) };
-        std::array<char*, 4> arguments { texts[0].data(), texts[1].data(), texts[2].data(), nullptr };
-        posix_spawn_file_actions_t files;
-        posix_spawnattr_t how;
-        sigset_t none;
-        ::sigemptyset (&none);
-        ::posix_spawn_file_actions_init (&files);
-        ::posix_spawnattr_init (&how);
-        ::posix_spawn_file_actions_adddup2 (&files, memory, least);
-        ::posix_spawn_file_actions_adddup2 (&files, pipe, least + 1);
-        ::posix_spawn_file_actions_adddup2 (&files, alive, least + 2);   // closes with the helper
-        ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
-        ::posix_spawnattr_setsigmask (&how, &none);
-        auto environment = plainEnvironment();
-        const int error = ::posix_spawn (&process, file.c_str(), &files, &how, arguments.data(), environment.data());
-        ::posix_spawnattr_destroy (&how);
-        ::posix_spawn_file_actions_destroy (&files);
-        if (error == 0) return {};
-        process = -1;
-        return file.string() + " cannot be started: " + std::generic_category().message (error);
     }
 
     SharedArms* shared = nullptr;
@@ -256,7 +208,7 @@ public:
     static std::string find (const Found& found)
     {
         std::string why;
-        if (findHelper (why).empty()) return why;
+        if (findHelper (&driver, program, why).empty()) return why;
         for (const auto& name : storedNames())
             found (name, "An arm of 3D Systems", TACTUS_DEVICE_UNSEEN);
         return {};

@@ -97,5 +97,6 @@ TEST_CASE ("the port of a Falcon names its driver, and what makes it slow or hid
     folder.write ("usb/1-2/idVendor", "0403\n");
     folder.write ("usb/1-2/idProduct", "cb48\n");
     CHECK (withoutPort ({}, usb).find ("echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id") != std::string::npos);
+    CHECK (withoutPort ({}, usb).find ("or, with libftdi: --device ROLE=falcon:usb") != std::string::npos);
     CHECK (withoutPort (std::vector { falcon }, usb).empty());
 }

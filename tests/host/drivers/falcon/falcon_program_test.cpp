@@ -13,6 +13,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -29,6 +30,24 @@ constexpr auto wall = R"({ "format": "tactus-graph", "version": 2, "name": "wall
                    "wall": { "type": "deform.plane", "params": { "stiffness": 500 } },
                    "motor": { "type": "device.force", "role": "stylus" } },
         "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
+
+/// A computer with libftdi, which finds this Falcon.
+struct Ftdi
+{
+    explicit Ftdi (const FakeFalcon& falcon)
+    {
+        ::setenv ("LD_LIBRARY_PATH", (std::string (TACTUS_FAKE_LIBRARIES) + "/ftdi").c_str(), 1);
+        ::setenv ("TACTUS_FAKE_FTDI", falcon.port().c_str(), 1);
+    }
+    ~Ftdi()
+    {
+        ::unsetenv ("LD_LIBRARY_PATH");
+        ::unsetenv ("TACTUS_FAKE_FTDI");
+        ::unsetenv ("TACTUS_FAKE_FTDI_PROCESS");
+    }
+    Ftdi (const Ftdi&) = delete;
+    Ftdi& operator= (const Ftdi&) = delete;
+};
 }   // namespace
 
 TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a force", "[falcon][safety]")
@@ -36,10 +55,13 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
     const TemporaryFolder folder;
     folder.write ("wall.json", wall);
     FakeFalcon falcon;
+    const Ftdi ftdi (falcon);
+    const bool is_usb = GENERATE (false, true);
+    const auto address = is_usb ? std::string ("usb") : falcon.port();
     falcon.target[1] = -0.006;
     falcon.tremor = 2e-4;   // a position that stays the same would count as frozen
     const int end = GENERATE (SIGKILL, SIGSTOP, SIGINT);
-    Running program ({ "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + falcon.port() });
+    Running program ({ "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + address });
     const bool pushes = test::soon ([&] { return falcon.pushes > 100 && ! falcon.isAtRest(); });
     INFO (program.err());
     REQUIRE (pushes);
@@ -60,6 +82,27 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
     CHECK (falcon.without_homing == 0);
 }
 
+TEST_CASE ("if the process between a Falcon and its program is killed, the program notices it, starts another one, and takes the force off", "[falcon][safety]")
+{
+    const TemporaryFolder folder;
+    folder.write ("wall.json", wall);
+    FakeFalcon falcon;
+    const Ftdi ftdi (falcon);
+    ::setenv ("TACTUS_FAKE_FTDI_PROCESS", (folder / "process").c_str(), 1);
+    falcon.target[1] = -0.006;
+    falcon.tremor = 2e-4;
+    Running program ({ "play", (folder / "wall.json").string(), "--device", "stylus=falcon:usb" });
+    const bool pushes = test::soon ([&] { return falcon.pushes > 100 && ! falcon.isAtRest(); });
+    INFO (program.err());
+    REQUIRE (pushes);
+    const auto first = folder.textOf ("process");
+    REQUIRE (::kill (static_cast<pid_t> (std::stol (first)), SIGKILL) == 0);
+    CHECK (test::soon ([&] { return falcon.isAtRest(); }));
+    CHECK (test::soon ([&] { return folder.textOf ("process") != first; }));
+    static_cast<void> (program.stop());
+    CHECK (falcon.isAtRest());
+}
+
 TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][falcon][promise]")
 {
     const TemporaryFolder folder;
@@ -67,14 +110,14 @@ TEST_CASE ("how long a force on a Falcon outlives its program, measured at the f
     FakeFalcon falcon;
     falcon.target[1] = -0.006;
     falcon.tremor = 2e-4;
-    const auto after = [&] (int signal) {
-        return test::outlived (
-            { "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + falcon.port() }, signal,
-            [&] { return falcon.pushes > 100 && ! falcon.isAtRest(); }, [&] (std::int64_t) { return falcon.isAtRest() ? falcon.zero_at.load() : 0; });
-    };
-    CHECK (after (SIGKILL) <= 10.0);
-    CHECK (after (SIGSTOP) <= 120.0);
-    CHECK (after (SIGUSR1) <= 12.0);   // the emergency stop
+    const Ftdi ftdi (falcon);
+    const bool is_usb = GENERATE (false, true);
+    const auto address = is_usb ? std::string ("usb") : falcon.port();
+    for (const auto& end : { test::End { "kill -9", 100.0, SIGKILL }, test::End { "frozen", 120.0, SIGSTOP },
+                             test::End { "emergency stop", 12.0, SIGUSR1 } })
+        CHECK (test::keepsPromise (
+            { "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + address }, end,
+            [&] { return falcon.pushes > 100 && ! falcon.isAtRest(); }, [&] (std::int64_t) { return falcon.isAtRest() ? falcon.zero_at.load() : 0; }));
 }
 
 TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")

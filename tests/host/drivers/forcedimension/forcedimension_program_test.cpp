@@ -106,18 +106,21 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
 TEST_CASE ("how long a force on an arm of Force Dimension outlives its program, measured at the fake", "[.][forcedimension][promise]")
 {
     Played played;
-    const auto& arm = played.lab.arm();
-    const auto after = [&] (int signal) {
-        return test::outlived (
-            played.play, signal, [&] { return played.lab.acting() > 0.5; },
+    auto& arm = played.lab.arm();
+    for (const auto& end : { test::End { "kill -9", 33.0, SIGKILL }, test::End { "frozen", 33.0, SIGSTOP }, test::End { "emergency stop", 10.0, SIGUSR1 },
+                             test::End { "unplugged", 33.0, 0, [&] { arm.is_unplugged = 1; } } })
+    {
+        CHECK (test::keepsPromise (
+            played.play, end,
+            [&] {
+                arm.is_unplugged = 0;
+                return played.lab.acting() > 0.5;
+            },
             [&] (std::int64_t) {
-                const std::int64_t by_watchdog = signal == SIGUSR1 ? 0 : arm.commanded_at + 31'875'000;
+                const std::int64_t by_watchdog = end.signal == SIGUSR1 ? 0 : arm.commanded_at + 31'875'000;
                 return played.lab.acting() > 0.0 ? 0 : std::max (arm.zero_at.load(), by_watchdog);
-            });
-    };
-    CHECK (after (SIGKILL) <= 33.0);
-    CHECK (after (SIGSTOP) <= 33.0);
-    CHECK (after (SIGUSR1) <= 10.0);   // the emergency stop
+            }));
+    }
 }
 
 TEST_CASE ("tactus devices lists what a driver finds when it is named, and only names the others", "[forcedimension]")

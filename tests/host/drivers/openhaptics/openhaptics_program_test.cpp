@@ -90,14 +90,10 @@ TEST_CASE ("how long a force on a Touch outlives its program, measured at the fa
     auto& arm = lab.arm();
     arm.target[1] = -6.0;
     lab.folder.write ("wall.json", wall);
-    const auto after = [&] (int signal) {
-        return test::outlived (
-            { "play", (lab.folder / "wall.json").string(), "--device", "stylus=openhaptics" }, signal, [&] { return arm.force[1] > 0.5; },
-            [&] (std::int64_t) { return arm.zero_at.load(); });
-    };
-    CHECK (after (SIGKILL) <= 5.0);
-    CHECK (after (SIGSTOP) <= 22.0);
-    CHECK (after (SIGUSR1) <= 10.0);   // the emergency stop
+    for (const auto& end : { test::End { "kill -9", 5.0, SIGKILL }, test::End { "frozen", 22.0, SIGSTOP }, test::End { "emergency stop", 10.0, SIGUSR1 } })
+        CHECK (test::keepsPromise (
+            { "play", (lab.folder / "wall.json").string(), "--device", "stylus=openhaptics" }, end, [&] { return arm.force[1] > 0.5; },
+            [&] (std::int64_t) { return arm.zero_at.load(); }));
 }
 
 TEST_CASE ("check-plugin finds no fault in the driver of 3D Systems' arms", "[openhaptics]")

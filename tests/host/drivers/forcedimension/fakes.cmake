@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+set (fake_drd ${PROJECT_SOURCE_DIR}/host/drivers/forcedimension/fake_drd.cpp)
+tactus_fake_library (fake_drd ${fake_drd})
+tactus_fake_library (fake_old_dhd ${fake_drd})
+target_compile_definitions (fake_old_dhd PRIVATE FAKE_OLD)
+tactus_fake_library (fake_ancient_dhd ${fake_drd})
+target_compile_definitions (fake_ancient_dhd PRIVATE FAKE_ANCIENT)
+tactus_fake_library (fake_needy_drd ${fake_drd})
+target_link_libraries (fake_needy_drd PRIVATE needed_by_fake)
+target_link_options (fake_needy_drd PRIVATE LINKER:--no-as-needed)
