@@ -133,30 +133,30 @@ void Canvas::followStep (const Scene& before)
     collectChanges (before, *shown, changed);
     const auto canvas = getLocalBounds().toFloat();
     const auto isSeen = [&] (const juce::Rectangle<float>& r) { return canvas.contains (window.toPixels (r.getCentre())); };
-    /// If the step that was undone or redone last has changed other patches than the one that is shown, goes to one of them, and selects what has changed.
-    void Canvas::revealStep()
-    {
-        const auto to = document.history().position();
-        const auto changed = partsOf (document.history(), to < *document.steppedFrom() ? to : to - 1);
-        if (changed.empty() || changed.contains (patch())) return;
-        for (const auto& [name, parts] : changed)
-        {
-            show (name, 0);
-            if (patch() != name) continue;   // no way leads there
-            Selection all;
-            for (const auto& n : shown->nodes())
-                if (parts.nodes.contains (n.name)) all.insert (n.id);
-            for (const auto& w : shown->wires())
-                if (parts.wires.contains (w.id)) all.insert (w.id);
-            if (all.empty()) return;
-            show (name, *all.begin());
-            return select (std::move (all));
-        }
-    }
-
     if (changed.empty() || canvas.isEmpty() || std::ranges::any_of (changed, isSeen)) return;
     window.centreOn (changed.front().getCentre(), canvas);
     repaint();
+}
+
+/// If the step that was undone or redone last has changed other patches than the one that is shown, goes to one of them, and selects what has changed.
+void Canvas::revealStep()
+{
+    const auto to = document.history().position();
+    const auto changed = partsOf (document.history(), to < *document.steppedFrom() ? to : to - 1);
+    if (changed.empty() || changed.contains (patch())) return;
+    for (const auto& [name, parts] : changed)
+    {
+        show (name, 0);
+        if (patch() != name) continue;   // no way leads there
+        Selection all;
+        for (const auto& n : shown->nodes())
+            if (parts.nodes.contains (n.name)) all.insert (n.id);
+        for (const auto& w : shown->wires())
+            if (parts.wires.contains (w.id)) all.insert (w.id);
+        if (all.empty()) return;
+        show (name, *all.begin());
+        return select (std::move (all));
+    }
 }
 
 }   // namespace tactus::host
