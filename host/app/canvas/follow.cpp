@@ -144,6 +144,11 @@ void Canvas::revealStep()
     const auto to = document.history().position();
     const auto changed = partsOf (document.history(), to < *document.steppedFrom() ? to : to - 1);
     if (changed.empty() || changed.contains (patch())) return;
+    const auto isName = [&] (const StepParts& p) {   // of a node that was entered, old and new: the breadcrumbs show it
+        const auto isIn = [&] (const auto& entry) { return p.nodes.contains (entry.first); };
+        return p.nodes.size() == 2 && std::ranges::any_of (breadcrumbs(), isIn);
+    };
+    if (changed.size() == 1 && isName (changed.begin()->second)) return;
     for (const auto& [name, parts] : changed)
     {
         show (name, 0);
