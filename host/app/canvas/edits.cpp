@@ -297,8 +297,13 @@ void CanvasCommands::expandSelection()
         batch.commands.push_back (moved (then, canvas.patch(), movedParts (then, canvas.patch(), *scene, made), by));
         all += by;
     }
+    Selection before, added;
+    for (const auto& n : canvas.scene().nodes())
+        before.insert (n.id);
     if (! perform (std::move (batch))) return;
-    canvas.select (made);
+    for (const auto& n : canvas.scene().nodes())   // those of a subgraph that others use are copies, which have ids of their own
+        if (! before.contains (n.id)) added.insert (n.id);
+    canvas.select (added);
     canvas.bringIntoView (all);
 }
 
