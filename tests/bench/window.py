@@ -3,7 +3,7 @@
 """Measures what the window costs: processor time of its process, user and system. Needs Xvfb and xdotool. The table is in docs/bench.md.
 
 window.py HOST [SECONDS [ROW...]]   HOST is build/release/bin/tactus-host; each row at rest or in motion takes SECONDS, 10 if not given. ROW is start,
-                                    rest, answers, run, large, inputs or huge: all but the last, if none is given"""
+                                    rest, answers, run, drag, large, inputs or huge: all but the last, if none is given"""
 
 import atexit
 import json
@@ -256,6 +256,30 @@ def run(host, lasts_s):
     w.end()
 
 
+def drag(host, lasts_s):
+    """A node of a graph whose wires are routed around nodes is dragged to and fro, 60 moves a second."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "medium.json"
+        file.write_text(json.dumps(large(149)))
+        place = place_of(host, file, "plane")
+        for what, arguments in (("300 nodes: a node is dragged without a pause", ("--safe", file)), ("the same running", (file,))):
+            w = Window(host, *arguments)
+            w.settle()
+            w.press(place)
+            begin, used, message, moves = time.monotonic(), w.seconds(), w.message_seconds(), 0
+            with subprocess.Popen(["xdotool", "-"], env=w.environment, stdin=subprocess.PIPE, text=True) as tool:
+                while time.monotonic() - begin < lasts_s:
+                    moves += 1
+                    tool.stdin.write(f"mousemove {place[0] + 4 * abs(moves % 100 - 50)} {place[1] + 2 * abs(moves % 60 - 30)}\n")
+                    tool.stdin.flush()
+                    time.sleep(max(0.0, begin + moves / 60.0 - time.monotonic()))
+            lasted = time.monotonic() - begin
+            row(f"{what}, {moves / lasted:.0f} moves a second", f"{(w.seconds() - used) / lasted:.1%} of a core")
+            row("of it, the message thread", f"{(w.message_seconds() - message) / lasted:.1%} of a core")
+            w.release()
+            w.end()
+
+
 def large_graph(host, lasts_s):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "large.json"
@@ -361,9 +385,9 @@ def stop_during_edits(w, what, port):
 
 def main():
     host, lasts_s = pathlib.Path(sys.argv[1]).resolve(), float(sys.argv[2]) if len(sys.argv) > 2 else 10.0
-    chosen = sys.argv[3:] or ["start", "rest", "answers", "run", "large", "inputs"]
+    chosen = sys.argv[3:] or ["start", "rest", "answers", "run", "drag", "large", "inputs"]
     print("| what | processor time |\n|---|---:|")
-    rows = {"start": start, "rest": rest, "answers": answers, "run": run, "large": large_graph,
+    rows = {"start": start, "rest": rest, "answers": answers, "run": run, "drag": drag, "large": large_graph,
             "inputs": lambda *_: inputs(host, 1000, 1000, 20), "huge": lambda *_: inputs(host, 5000, 5000, 5)}
     for name in chosen:
         rows[name](host, lasts_s)

@@ -73,7 +73,7 @@ void Canvas::rebuild()
 {
     ++scenes_made;
     const bool is_only_moved = shown != nullptr && shown_of == std::pair (document.version(), seen());
-    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), kept_places, textWidth()) : sceneOf (document.graph());
+    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), kept_places, textWidth(), drag != nullptr) : sceneOf (document.graph());
     shown_of = { document.version(), seen() };
 }
 

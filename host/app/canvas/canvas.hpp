@@ -170,7 +170,6 @@ private:
     TextWidth textWidth() const;
     void repaintEdit (const Scene& before);   ///< what differs from the scene before an edit
     void repaintAround (juce::Rectangle<float> area);
-    void repaintAlong (const juce::Path&);
     void frameAround (juce::Rectangle<float> focus);
     void breadcrumbsChanged();
     /// The object under the pointer: its id, a description, and the cursor to show.

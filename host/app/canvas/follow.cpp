@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The parts of the canvas that are painted again after an edit, and the view after undo and redo.
 #include "canvas.hpp"
-#include "paint/cut_line.hpp"
 #include "paint/paint_nodes.hpp"
+#include "paint/squares.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,10 +51,7 @@ void collectChanges (const Scene& scene, const Scene& other, std::vector<juce::R
         if (! has || other.notes()[i].area != note.area || other.notes()[i].text != note.text) changed.push_back (note.area);
     }
 }
-}   // namespace
 
-namespace
-{
 bool looksSame (const SceneNode& a, const SceneNode& b)
 {
     const auto sameSocket = [&] (const Socket& x, const Socket& y) {
@@ -101,20 +98,18 @@ void Canvas::repaintEdit (const Scene& before)
         || ! std::ranges::equal (shown->exposed(), before.exposed(), same))
         return repaint();
     bool are_moved = false;
+    Squares along_wires (getWidth(), getHeight());
+    const float around = 2.0f + 16.0f * window.zoom;   // what is painted on a wire
     const auto repaintWhatIsNew = [&] (const Scene& scene, const Scene& other) {
         are_moved |= repaintDifferent (scene.nodes(), other.nodes(), [this] (const SceneNode& n) { repaintAround (boundsOf (n, window.zoom)); });
-        repaintDifferent (scene.wires(), other.wires(), [this] (const SceneWire& w) { repaintAlong (w.path()); });
+        repaintDifferent (scene.wires(), other.wires(), [&] (const SceneWire& w) { along_wires.markAlong ({ w.path(), window.transform() }, around); });
     };
     repaintWhatIsNew (*shown, before);
     repaintWhatIsNew (before, *shown);
+    for (const auto& area : along_wires.marked())
+        repaint (area);
     for (const auto* scene : { &before, shown.get() })
         if (are_moved) repaint (Minimap (*scene, window, getLocalBounds()).bounds().getSmallestIntegerContainer());
-}
-
-void Canvas::repaintAlong (const juce::Path& path)
-{
-    const float around = 2.0f + 16.0f * window.zoom;   // what is painted on a wire
-    cellsAlong ({ path, window.transform() }, getLocalBounds().toFloat(), around, [this] (juce::Rectangle<int> cell) { repaint (cell); });
 }
 
 /// If an edit moved the view and the user has not moved it since, undoing the edit moves it back. Otherwise, the view stays where something that has

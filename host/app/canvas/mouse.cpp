@@ -113,6 +113,11 @@ void Canvas::mouseDrag (const juce::MouseEvent& e)
 void Canvas::mouseUp (const juce::MouseEvent& e)
 {
     if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
+    if (const auto during = shown; ! during->isRouted())
+    {
+        rebuild();
+        repaintEdit (*during);
+    }
     const bool is_click = ! e.source.hasMovedSignificantlySincePressed() && document.history().position() == drag_begins_at;
     if (is_click && e.mods.isLeftButtonDown() && ! e.mods.isAnyModifierKeyDown() && highlights.selected.size() > 1)
     {

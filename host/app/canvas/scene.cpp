@@ -20,6 +20,7 @@ namespace tactus::host
 namespace
 {
 constexpr std::size_t most_routed = 300;   // nodes; routing a larger patch would slow down every edit
+constexpr std::size_t most_moving = 60;    // nodes of a patch in which all wires may be routed at each step of a drag
 
 /// The place where something connects to a node that does not show its port, such as one deeper inside a subgraph; relative to the node.
 juce::Point<float> besideHeader (const SceneNode& n, bool is_output) { return { is_output ? n.box.width : 0.0f, Box::header_height / 2 }; }
@@ -49,17 +50,18 @@ Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue&
     layOut (graph, seen, *patch, kept, widthOf);
 }
 
-Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, KeptPlaces& kept, const TextWidth& widthOf)
+Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, KeptPlaces& kept, const TextWidth& widthOf,
+              bool wires_may_stay)
     : all_nodes (before.all_nodes), all_wires (before.all_wires), indices (before.indices)
 {
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
-    for (auto& w : all_wires)
-        if (! w.has_bends) w.waypoints.clear();
-    layOut (graph, seen, *patch, kept, widthOf);
+    is_routed = ! wires_may_stay || all_nodes.size() <= most_moving || all_nodes.size() > most_routed;
+    layOut (graph, seen, *patch, kept, widthOf, &before);
 }
 
-void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, KeptPlaces& kept, const TextWidth& widthOf)
+void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, KeptPlaces& kept, const TextWidth& widthOf,
+                    const Scene* before)
 {
     all_notes = notesOf (graph, seen.name);
     place (patch, kept);
@@ -69,7 +71,7 @@ void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const grap
         w.from = a.at + leaveOf (w);
         w.to = b.at + entryOf (w);
     }
-    routeWires();
+    routeWires (before);
     addExposed (patch, widthOf);
 }
 
@@ -296,9 +298,14 @@ void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
     add (patch.expose.outputs, Role::output);
 }
 
-void Scene::routeWires()
+/// Wires that stay as they were before are routed first, so that the others run beside them.
+void Scene::routeWires (const Scene* before)
 {
     if (all_nodes.size() > most_routed) return;
+    const auto stays = [&] (const SceneWire& w) {
+        const auto isThere = [&] (int node) { return before->all_nodes[at (node)].at == all_nodes[at (node)].at; };
+        return ! is_routed && isThere (w.start) && isThere (w.end);
+    };
     // Wires are not routed around an unconnected node: the user may be about to insert it into one of them.
     std::vector<bool> joined (all_nodes.size());
     for (const auto& w : all_wires)
@@ -316,9 +323,13 @@ void Scene::routeWires()
             if (const auto at = taken.find (level); at != taken.end() && std::ranges::any_of (at->second, overlaps)) return true;
         return false;
     };
+    for (const auto& w : all_wires)
+        if (! w.has_bends && stays (w))
+            for (std::size_t i = 0; i + 1 < w.waypoints.size(); i += 2)
+                taken[levelOf (w.waypoints[i])].emplace_back (w.waypoints[i], w.waypoints[i + 1]);
     for (auto& w : all_wires)
     {
-        if (w.has_bends) continue;
+        if (w.has_bends || stays (w)) continue;
         std::vector<juce::Rectangle<float>> others;
         for (std::size_t i = 0; i < all_nodes.size(); ++i)
             if (joined[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());

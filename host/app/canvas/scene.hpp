@@ -112,8 +112,10 @@ public:
     /// Nodes without a stored position are arranged automatically. They keep their places while nodes and wires stay the same.
     Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, KeptPlaces&, const TextWidth&);
 
-    /// As above, if nothing but places has changed since another scene was made.
-    Scene (const Scene& before, const graph::Graph&, const SeenPatch&, KeptPlaces&, const TextWidth&);
+    /// As above, if nothing but places has changed since another scene was made. In a large patch, wires whose ends are where they were may stay as they were,
+    /// though other nodes have come into their way or left it; isRouted() is false then.
+    Scene (const Scene& before, const graph::Graph&, const SeenPatch&, KeptPlaces&, const TextWidth&, bool wires_may_stay);
+    bool isRouted() const noexcept { return is_routed; }
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
@@ -150,7 +152,7 @@ public:
 
 private:
     void addNodes (const graph::Graph&, const SeenPatch&, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
-    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, KeptPlaces&, const TextWidth&);
+    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, KeptPlaces&, const TextWidth&, const Scene* before = nullptr);
     std::string shapeFor (const std::vector<bool>& placed) const;
     void place (const graph::Patch&, KeptPlaces&);
     void placeAll();
@@ -159,7 +161,7 @@ private:
     void addWires (const graph::Patch&);
     juce::Point<float> leaveOf (const SceneWire&) const;
     juce::Point<float> entryOf (const SceneWire&) const;
-    void routeWires();
+    void routeWires (const Scene* before);
     void addExposed (const graph::Patch&, const TextWidth&);
     int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node
 
@@ -168,6 +170,7 @@ private:
     std::vector<Note> all_notes;
     std::vector<ExposedPort> all_exposed;
     std::map<std::string, int, std::less<>> indices;   // of the nodes, by name
+    bool is_routed = true;
 };
 
 }   // namespace tactus::host

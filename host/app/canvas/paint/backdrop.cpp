@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "backdrop.hpp"
-#include "cut_line.hpp"
 #include "paint_wires.hpp"
 
 #include <algorithm>
@@ -48,8 +47,8 @@ bool Backdrop::paint (juce::Graphics& g, juce::Rectangle<int> area, const Scene&
         drawn.clear();
         if (picture.getWidth() != ground.width || picture.getHeight() != ground.height)
             picture = juce::Image (juce::Image::RGB, ground.width, ground.height, false, juce::SoftwareImageType());
-        const auto along = [] (int pixels) { return static_cast<std::size_t> ((pixels + grid - 1) / grid); };
-        is_old.assign (along (ground.width) * along (ground.height), true);
+        old = Squares (ground.width, ground.height);
+        old.markAll (true);
     }
     noteWires (scene, highlights);
     paintOld (scene, look, highlights);
@@ -82,46 +81,23 @@ void Backdrop::noteWires (const Scene& scene, const Highlights& highlights)
         return true;
     });
     constexpr std::size_t most = 200;   // more of them meet nearly all squares, such as when a run begins
-    if (changed.size() > most) return is_old.assign (is_old.size(), true);
-    for (const auto& path : changed)
-        makeOld (path);
-}
-
-void Backdrop::makeOld (const juce::Path& path)
-{
-    const int columns = (ground.width + grid - 1) / grid, rows = (ground.height + grid - 1) / grid;
+    if (changed.size() > most) return old.markAll (true);
     const float around = (2.0f + 16.0f * ground.view.zoom) * ground.scale;   // the glow of a wire, and more
-    const juce::Rectangle<float> all (static_cast<float> (ground.width), static_cast<float> (ground.height));
-    cellsAlong ({ path, ground.view.transform().scaled (ground.scale) }, all, around, [&] (juce::Rectangle<int> cells) {
-        for (int y = std::max (0, cells.getY() / grid); y < std::min (rows, cells.getBottom() / grid); ++y)
-            for (int x = std::max (0, cells.getX() / grid); x < std::min (columns, cells.getRight() / grid); ++x)
-                is_old[static_cast<std::size_t> (y * columns + x)] = true;
-    });
+    for (const auto& path : changed)
+        old.markAlong ({ path, ground.view.transform().scaled (ground.scale) }, around);
 }
 
 void Backdrop::paintOld (const Scene& scene, const Look& look, const Highlights& highlights)
 {
-    const int columns = (ground.width + grid - 1) / grid;
-    const auto count = static_cast<std::size_t> (std::ranges::count (is_old, true));
+    const auto count = old.count();
     if (count == 0) return;
-    juce::RectangleList<int> old;
-    if (2 * count > is_old.size())
-        old.add (picture.getBounds());
-    else
-        for (int i = 0; i < static_cast<int> (is_old.size()); ++i)
-        {
-            const int first = i;
-            while (i < static_cast<int> (is_old.size()) && is_old[static_cast<std::size_t> (i)] && i / columns == first / columns)
-                ++i;
-            if (i > first) old.addWithoutMerging ({ grid * (first % columns), grid * (first / columns), grid * (i - first), grid });
-            if (i > first && i / columns != first / columns) --i;   // the next row may begin with one
-        }
-    old.clipTo (picture.getBounds());
-    painted += 2 * count > is_old.size() ? is_old.size() : count;
-    is_old.assign (is_old.size(), false);
+    if (2 * count > old.size()) old.markAll (true);
+    painted += old.count();
+    const auto area = old.marked();
+    old.markAll (false);
 
     juce::Graphics g (picture);
-    g.reduceClipRegion (old);
+    g.reduceClipRegion (area);
     g.addTransform (juce::AffineTransform::scale (ground.scale));
     paintGrid (g, ground.view, g.getClipBounds(), look.theme());
     paintBelow (g, scene, ground.view, look, highlights);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "paint_scene.hpp"
+#include "squares.hpp"
 
 #include <optional>
 #include <unordered_map>
@@ -22,11 +23,9 @@ public:
 
     /// The number of squares of the picture that have been painted so far, and the number that it has. For tests.
     std::size_t squaresPainted() const noexcept { return painted; }
-    std::size_t squares() const noexcept { return is_old.size(); }
+    std::size_t squares() const noexcept { return old.size(); }
 
 private:
-    static constexpr int grid = 32;   // pixels
-
     /// The values that the whole picture depends on. If one changes, the picture is old.
     struct Ground
     {
@@ -55,13 +54,12 @@ private:
 
     static std::optional<Ground> groundOf (const juce::Graphics&, juce::Rectangle<int> area, const Scene&, const View&, const Look&, const Highlights&);
     void noteWires (const Scene&, const Highlights&);
-    void makeOld (const juce::Path&);
     void paintOld (const Scene&, const Look&, const Highlights&);
 
     juce::Image picture;
     Ground ground;
     std::unordered_map<graph::Id, Drawn> drawn;
-    std::vector<bool> is_old;   // by square, row after row
+    Squares old;
     std::uint64_t pass = 0;
     std::size_t painted = 0;
 };

@@ -35,22 +35,4 @@ void cutLines (juce::PathFlatteningIterator&& line, juce::Rectangle<float> area,
     }
 }
 
-/// Calls f with rectangles that contain what is painted on a path and up to `around` beside it, as far as it is in an area: much less than the
-/// bounds of a wire, which most other wires of a large patch cross. In steps of a grid, because a region of many small rectangles takes long to
-/// paint.
-template <typename F>
-void cellsAlong (juce::PathFlatteningIterator&& line, juce::Rectangle<float> area, float around, F&& f)
-{
-    constexpr int grid = 32;
-    const auto snapped = [] (float x, bool up) { return grid * static_cast<int> (up ? std::ceil (x / grid) : std::floor (x / grid)); };
-    cutLines (std::move (line), area.expanded (around), grid, [&] (const CutLine& cut) {
-        for (int i = 0; i < cut.parts; ++i)
-        {
-            const auto piece = juce::Rectangle<float> (cut.at (i), cut.at (i + 1)).expanded (around);
-            f (juce::Rectangle<int>::leftTopRightBottom (snapped (piece.getX(), false), snapped (piece.getY(), false), snapped (piece.getRight(), true),
-                                                         snapped (piece.getBottom(), true)));
-        }
-    });
-}
-
 }   // namespace tactus::host

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <map>
 #include <string>
 
 using namespace tactus::host;
@@ -239,4 +240,42 @@ TEST_CASE ("routing four times as many wires takes about four times as long", "[
     }
     std::printf ("a change with 60 wires: %.1f ms; with 240: %.1f ms\n", 1e3 * least_few, 1e3 * least_many);
     CHECK (least_many < 12.0 * least_few);
+}
+
+TEST_CASE ("while a node of a large patch is dragged, only its own wires are routed, and all of them once it is dropped", "[app][route]")
+{
+    const auto [layers, is_large] = GENERATE (std::pair (40, true), std::pair (6, false));
+    CanvasRig rig { manyLayers (layers) };
+    const auto routes = [&] {
+        std::map<std::string, std::vector<Point<float>>> all;
+        for (const auto& w : rig.canvas->scene().wires())
+            all[w.text] = w.waypoints;
+        return all;
+    };
+    const auto isAsMadeAnew = [&] {
+        const auto anew = rig.canvas->sceneOf (rig.graph());
+        return std::ranges::equal (rig.canvas->scene().wires(), anew->wires(), {}, &SceneWire::waypoints, &SceneWire::waypoints);
+    };
+    const auto from = rig.title ("s3"), to = rig.title ("g4");   // onto the wire of another layer
+    const auto before = routes();
+    auto hand = rig.hand();
+    hand.press (from);
+    bool is_ever_late = false;
+    for (const float part : { 0.3f, 0.6f, 1.0f })
+    {
+        hand.dragTo (from + (to - from) * part);
+        is_ever_late = is_ever_late || ! isAsMadeAnew();
+        for (const auto& [wire, route] : routes())
+            if (is_large && wire.find ("s3.") == std::string::npos) CHECK (route == before.at (wire));
+    }
+    CHECK (is_ever_late == is_large);
+    hand.release (to);
+    CHECK (rig.node ("s3").at.getDistanceFrom (rig.node ("g4").at) < 20.0f);
+    CHECK (isAsMadeAnew());
+    CHECK (routes() != before);
+
+    hand.press (to);
+    hand.dragTo (from);
+    CHECK (rig.canvas->cancelDrag());
+    CHECK (isAsMadeAnew());
 }
