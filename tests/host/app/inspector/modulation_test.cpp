@@ -255,7 +255,8 @@ TEST_CASE ("a depth can be typed on its dial, in the unit that it shows", "[app]
     const auto all = modulationsAt (w.graph(), "drag.mu", catalogue());
     PortSheet newtons;
     newtons.unit = UnitRule { UnitRule::Kind::fixed, unit::newton };
-    const auto small = Modulation { .depth = 0.008, .unit = "N" };
+    Modulation small;
+    small.depth = 0.008;
     CHECK (*readDepth ("30", small, newtons) == Approx (0.03));   // it shows mN
     CHECK (*readDepth ("30 N", small, newtons) == Approx (30.0));
     CHECK (*readDepth ("-5", small, newtons) == Approx (-0.005));
