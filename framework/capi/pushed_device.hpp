@@ -71,7 +71,7 @@ public:
         copy (from.axes, from.axis_count, r.axes);
         copy (from.signals, from.signal_count, r.signals);
         using Velocity = StepMotion::Velocity;
-        return motion.move (r, is_new, now.has_velocity != 0 ? std::optional (Velocity { Vec3 { now.linear }, Vec3 { now.angular } }) : std::nullopt);
+        return motion.moveAged (r, is_new, now.has_velocity != 0 ? std::optional (Velocity { Vec3 { now.linear }, Vec3 { now.angular } }) : std::nullopt);
     }
 
     void write (const Effort& of_tick) noexcept override

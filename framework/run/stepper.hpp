@@ -20,6 +20,9 @@ namespace tactus
 ///         steps.step (dt);          // the ticks of this step
 ///         … = tool.motion.effort(); // on the tool during the next step
 ///     }
+///
+/// A guard that has stopped a role gives no force. `run.engine().guardOf ("stylus")` says so: stop() is the cause, isLatched() that it lasts until
+/// Engine::rearm(), isClipping() that the limits shorten the force, and describe (guard.latest()) gives the reason with its numbers.
 class Stepper
 {
 public:
@@ -31,7 +34,8 @@ public:
     void add (StepMotion& motion) { motions.push_back (&motion); }
 
     /// Runs the ticks that are due `dt_s` after the last step, and returns how many. What remains of a period is kept for the next step, so that steps of
-    /// 1/60 s at 4 kHz have 66, 67 and 67 ticks. Runs none if dt_s is not positive, or longer than longest_s. [tick thread]
+    /// 1/60 s at 4 kHz have 66, 67 and 67 ticks. Runs none, and returns 0, if dt_s is not positive or longer than longest_s. A step that is shorter than
+    /// a period may return 0, too. [tick thread]
     std::size_t step (double dt_s) noexcept
     {
         if (! (dt_s > 0.0 && dt_s <= longest_s)) return 0;

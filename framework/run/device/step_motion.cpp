@@ -47,6 +47,14 @@ void StepMotion::begin (std::size_t ticks_, double period_s) noexcept
 
 Reading StepMotion::move (const Reading& latest, bool is_new, const std::optional<Velocity>& given) noexcept
 {
+    silent = is_new ? 0.0 : silent + period;
+    Reading aged = latest;
+    aged.age += silent;
+    return moveAged (aged, is_new, given);
+}
+
+Reading StepMotion::moveAged (const Reading& latest, bool is_new, const std::optional<Velocity>& given) noexcept
+{
     const bool is_first = at == 0, knows_way = has_before && before.valid && latest.valid;
     if (is_first)
     {

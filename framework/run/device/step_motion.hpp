@@ -22,7 +22,9 @@ namespace tactus
 ///     mean          the mean over its ticks, of force, torque, axes and brake; signals are those of the last tick
 ///
 /// Buttons, pressure, signals and everything else of a reading are those of the new one. A reading that is not valid, and one that was
-/// not renewed, is held. What was rendered before a stop of the guard does not count in a mean, so the stop is not late.
+/// not renewed, is held. One that was not renewed gets older with each tick, so a watchdog in the limits of the device (Run::RoleDevice), which has none
+/// of its own accord, ends the effort of a program that no longer moves the tool. What was rendered before a stop of the guard does not count in a mean,
+/// so the stop is not late.
 class StepMotion
 {
 public:
@@ -55,6 +57,9 @@ public:
     /// Call it once per tick, from Device::read. [tick thread]
     Reading move (const Reading& latest, bool is_new, const std::optional<Velocity>& = std::nullopt) noexcept;
 
+    /// The same for a device that counts the age of its readings itself. [tick thread]
+    Reading moveAged (const Reading& latest, bool is_new, const std::optional<Velocity>& = std::nullopt) noexcept;
+
     /// Takes the effort of the tick. Call it once per tick, from Device::write. [tick thread]
     void take (const Effort&) noexcept;
 
@@ -67,7 +72,7 @@ public:
     /// The effort of the step so far. [tick thread]
     Effort effort() const noexcept;
 
-    void serialize (auto& archive) { archive (ticks, at, period, before, has_before, age, moves, velocity, taken, last, sum); }
+    void serialize (auto& archive) { archive (ticks, at, period, before, has_before, age, moves, velocity, silent, taken, last, sum); }
 
 private:
     void blend (Reading&) const noexcept;
@@ -82,6 +87,7 @@ private:
     double age = 0.0;       // of the reading of this step, when it came, in s
     bool moves = false;     // the reading of this step is new
     Velocity velocity {};   // of this step
+    double silent = 0.0;    // time since the reading was renewed, in s
     std::size_t taken = 0;
     Effort last {}, sum {};
 };
