@@ -18,6 +18,9 @@ set (TACTUS_RELEASE_DATE ${CMAKE_MATCH_2})
 set (packaging ${PROJECT_SOURCE_DIR}/host/base/packaging)
 set (made ${PROJECT_BINARY_DIR}/packaging)
 file (GLOB profiles CONFIGURE_DEPENDS host/devices/profiles/*.json)
+file (GLOB pages CONFIGURE_DEPENDS docs/*.md docs/decisions/*.md docs/tutorials/*.md)
+file (RELATIVE_PATH data_from_pages /${CMAKE_INSTALL_DATADIR}/doc/tactus /${CMAKE_INSTALL_DATADIR})
+file (RELATIVE_PATH headers_from_pages /${CMAKE_INSTALL_DATADIR}/doc/tactus /${CMAKE_INSTALL_INCLUDEDIR})
 set (TACTUS_MAINTAINER "The Tactus developers <tactus@example.org>" CACHE STRING "Who to ask about packages, as NAME <ADDRESS>")
 set (python ${Python3_EXECUTABLE} -B)
 
@@ -36,8 +39,9 @@ add_custom_command (OUTPUT ${made}/written
     COMMAND ${CMAKE_COMMAND} -E env --unset=TACTUS_PLUGINS HOME=${made}/nobody XDG_CONFIG_HOME=${made}/nobody $<TARGET_FILE:tactus> schema -o ${made}/graph.schema.json
     COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/devices/profiles ${made}/70-tactus.rules
     COMMAND ${python} ${packaging}/changelogs.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${TACTUS_MAINTAINER} ${made}
+    COMMAND ${python} ${packaging}/installed_pages.py ${PROJECT_SOURCE_DIR} ${made}/pages ${data_from_pages} ${headers_from_pages}
     COMMAND ${CMAKE_COMMAND} -E touch ${made}/written
-    DEPENDS tactus tactus-host ${check_plugin} ${profiles} CHANGELOG.md
+    DEPENDS tactus tactus-host ${check_plugin} ${profiles} ${pages} CHANGELOG.md ${packaging}/installed_pages.py
         ${packaging}/program_help.py ${packaging}/man_pages.py ${packaging}/completions.py ${packaging}/udev_rules.py ${packaging}/changelogs.py
     COMMENT "Writing man pages, completions, the schema of graphs and udev rules" VERBATIM)
 add_custom_target (installed_texts ALL DEPENDS ${made}/written)
@@ -69,8 +73,7 @@ install (DIRECTORY ${made}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONE
 install (DIRECTORY ${made}/completions/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install (DIRECTORY ${made}/completions/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install (DIRECTORY ${made}/completions/fish/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
-install (DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tactus COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN examples EXCLUDE
-    PATTERN figures EXCLUDE PATTERN host EXCLUDE)
+install (DIRECTORY ${made}/pages/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tactus COMPONENT program)
 install (DIRECTORY docs/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtactus-dev COMPONENT development)
 
 install (TARGETS tactus-host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)

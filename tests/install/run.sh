@@ -20,6 +20,10 @@ if grep -rlE '#include <(nlohmann|juce|hidapi|framework|host)' "$work/prefix/inc
 fi
 tests/install/headers.sh "$work/prefix/include"
 
+# Links of the installed pages.
+cmake --install "$build" --component program --prefix "$work/prefix" >/dev/null
+tests/install/pages.py "$work/prefix" "$source"
+
 # Programs that were built against an older version rely on these names.
 nm -D --defined-only "$libs/libtactus.so" | awk '$3 ~ /^tactus_/ { sub (/@.*/, "", $3); print $3 }' | sort -u >"$work/symbols"
 diff tests/install/c_symbols.txt "$work/symbols"
