@@ -191,6 +191,7 @@ class Graphs(TestCase):
 
     def test_errors_in_a_file_say_where(self):
         self.fails("file/unreadable", tactus.Graph, "there/is/no/such.json")
+        self.assertIn("tactus.Graph('dry_wood')", self.fails("file/unreadable", tactus.Graph, "no/graphs/dry_wood.json").remedy)
         why = self.fails("file/wrong_kind", tactus.Graph.parse, '{"format": "tactus-graph", "version": 2,\n "nodes": 3}')
         self.assertEqual((why.messages[0].line, why.where), (2, "/nodes"))
         self.fails("api/rate", tactus.Graph, rate=0)

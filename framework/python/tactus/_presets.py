@@ -32,9 +32,12 @@ def presets() -> List[str]:
 def graph_file(given: Path) -> str:
     """The file of a graph: the path itself or, for a bare name that is not a file, that of the preset."""
     name = path("path", given, "give the path of a graph file, or the name of a preset such as 'dry_wood'")
+    known = presets()
+    base = os.path.splitext(os.path.basename(name))[0]
+    if base != name and base in known and not os.path.exists(name):
+        fail("file/unreadable", name, "there is no such file", f"there is a preset of this name: tactus.Graph({base!r})")
     if not name or os.path.dirname(name) or os.path.splitext(name)[1] or os.path.exists(name):
         return name
-    known = presets()
     if name in known:
         return os.path.join(_folder(), name + ".json")
     near: Tuple[str, ...] = tuple(difflib.get_close_matches(name, known, 1))
