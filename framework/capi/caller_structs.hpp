@@ -47,6 +47,8 @@ inline constexpr Form form_of<tactus_start_options> { offsetof (tactus_start_opt
 template <>
 inline constexpr Form form_of<tactus_status> { offsetof (tactus_status, is_emergency) + sizeof (std::int32_t), "tactus_status", "TACTUS_STATUS" };
 template <>
+inline constexpr Form form_of<tactus_guard> { offsetof (tactus_guard, stops) + sizeof (std::uint64_t), "tactus_guard", "TACTUS_GUARD" };
+template <>
 inline constexpr Form form_of<tactus_control> { offsetof (tactus_control, value) + sizeof (double), "tactus_control", "TACTUS_CONTROL" };
 
 /// Returns TACTUS_MISUSE, and keeps the reason for tactus_last_misuse. Allocates nothing.

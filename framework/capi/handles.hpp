@@ -5,6 +5,7 @@
 
 #include "caller_assets.hpp"
 #include "caller_structs.hpp"
+#include "guard_watch.hpp"
 #include "probe_queue.hpp"
 #include "pushed_device.hpp"
 #include "tactus.h"
@@ -48,7 +49,7 @@ class tactus_recorder final : public tactus::RunListener
 public:
     void after (const tactus::Plan& plan, std::uint64_t, bool) noexcept override
     {
-        if (! ring) return;
+        if (! ring || is_paused) return;
         const auto& taps = plan.taps();
         if (const auto row = ring->claim(); ! row.empty())
             for (std::size_t i = 0; i < row.size() && i < taps.size(); ++i)
@@ -76,6 +77,7 @@ public:
     std::uint64_t lost() const noexcept { return ring ? ring->lost() : 0; }
 
     std::unique_ptr<tactus::SpscRing<double>> ring;
+    bool is_paused = false;   // [tick thread]
 };
 
 struct tactus_run
@@ -95,6 +97,7 @@ struct tactus_run
     std::vector<std::string> sets;                       // as the caller wrote them, for the log
     std::optional<tactus::Message> log_trouble;          // not told yet
     tactus_recorder recorder;
+    tactus::capi::GuardWatch guards;
     tactus::capi::ProbeQueue probes;
     std::optional<tactus::AbsoluteTimer> clock;   // must outlive the run
     std::unique_ptr<tactus::Run> run;

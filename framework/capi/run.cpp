@@ -114,6 +114,7 @@ tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, Asset
     };
     made->run = std::make_unique<Run> (types, std::move (options), opener, Run::Queries::within_tick);
     made->run->add (made->recorder);
+    made->run->add (made->guards);
     made->run->add (made->probes.listener());
     auto loaded = made->run->load (made->graph);
     const bool is_broken = tactus::hasErrors (loaded);
@@ -223,6 +224,11 @@ tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
         const bool is_broken = tactus::hasErrors (found);
         add (messages, std::move (found));
         r->is_open = ! is_broken;
+        if (r->is_open)
+        {
+            r->guards.watch (r->run->engine());
+            r->guards.look();
+        }
         const auto isGone = [&] (const auto& p) { return std::ranges::count (r->run->devices(), p.first, [] (const auto& d) { return d.first; }) == 0; };
         std::erase_if (r->pushed, isGone);   // a device that was refused is freed
         r->stepper.emplace (*r->run);

@@ -48,6 +48,8 @@ tactus_result tactus_run_restore (tactus_run* r, const void* bytes, size_t size,
     if (bytes == nullptr) return misuse ("a pointer is NULL");
     if (! isTickedByCaller (r)) return notTickedByCaller();
     return guarded (messages, TACTUS_FAILED, [&] {
-        return asResult (messages, r->run->restore ({ static_cast<const std::byte*> (bytes), size }, r->graph, moreOf (*r)));
+        auto restored = r->run->restore ({ static_cast<const std::byte*> (bytes), size }, r->graph, moreOf (*r));
+        r->guards.look();
+        return asResult (messages, std::move (restored));
     });
 }

@@ -464,7 +464,7 @@ TACTUS_API tactus_result tactus_run_stop (tactus_run*);
 
 typedef enum tactus_phase
 {
-    TACTUS_IDLE = 0, /**< not started, or ticked by you: then only `is_emergency` of tactus_status is used */
+    TACTUS_IDLE = 0, /**< not started, or ticked by you: then only `is_emergency` of tactus_status is used; see tactus_run_guard */
     TACTUS_RUNNING = 1,
     TACTUS_HALTING = 2, /**< the forces are falling to zero */
     TACTUS_OVER = 3
@@ -485,6 +485,50 @@ typedef struct tactus_status
     }
 
 TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*); /**< [any thread] */
+
+/** Why a guard withholds the effort of a role; docs/safety.md explains each. The last four are latched: they end with tactus_run_rearm, or when a state
+ *  from before the stop is restored. */
+typedef enum tactus_stop
+{
+    TACTUS_STOP_NONE = 0,
+    TACTUS_STOP_NOT_FINITE = 1, /**< the graph asked for a value that is not a number */
+    TACTUS_STOP_STALE = 2,      /**< no reading, or one that is old, frozen or not a number */
+    TACTUS_STOP_STARVED = 3,    /**< more time was lost than ticked */
+    TACTUS_STOP_RELEASED = 4,   /**< the dead-man's switch is not held */
+    TACTUS_STOP_HALTED = 5,     /**< at the end of a run */
+    TACTUS_STOP_SPEED = 6,
+    TACTUS_STOP_IMPULSE = 7,
+    TACTUS_STOP_ENERGY = 8,
+    TACTUS_STOP_EMERGENCY = 9
+} tactus_stop;
+
+/** The guard of a role after the latest tick. */
+typedef struct tactus_guard
+{
+    uint32_t size;
+    tactus_stop stop;    /**< why it withholds the effort now */
+    int32_t is_latched;  /**< 1: only tactus_run_rearm ends a stop, even if `stop` reports another cause */
+    int32_t is_clipping; /**< 1: most ticks of the last second asked for more than the limits let through, so the force is not that of the graph */
+    tactus_stop latest;  /**< the cause of the latest stop, also if it has ended */
+    double value, limit; /**< of the latest stop: what was measured, and the most that is allowed, SI; 0 if the cause has none */
+    double window;       /**< of that limit, in s; 0: none, or the whole run */
+    uint64_t stops;      /**< how many there have been */
+} tactus_guard;
+
+#define TACTUS_GUARD                                                                      \
+    {                                                                                     \
+        sizeof (tactus_guard), TACTUS_STOP_NONE, 0, 0, TACTUS_STOP_NONE, 0.0, 0.0, 0.0, 0 \
+    }
+
+/** Says why there is no force, in your own loop and in a run that was started. After tactus_run_open. Waits for nothing. [any thread] */
+TACTUS_API tactus_result tactus_run_guard (const tactus_run*, const char* role, tactus_guard*);
+
+/** The latest stop of a role in words, such as "the impulse of the force is 30.01 N*s; the limit is 30 N*s in 10 s"; NULL for an unknown role. Free it
+ *  with tactus_text_free. [any thread] */
+TACTUS_API char* tactus_run_guard_text (const tactus_run*, const char* role);
+
+/** The name of a stop, such as "impulse"; "" for TACTUS_STOP_NONE, NULL for a number that is no stop. [any thread] */
+TACTUS_API const char* tactus_stop_name (tactus_stop);
 
 /* ---------------------------------------------------------------------------- While it plays */
 

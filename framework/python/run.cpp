@@ -17,6 +17,8 @@ namespace
 /// Every so many ticks, a run checks whether the user has pressed Ctrl-C.
 constexpr std::size_t ticks_at_a_time = 256;
 
+constexpr double recorded_s = 10.0;   // how much stepFor() keeps for collect(), as much as Engine.start does by itself
+
 Result<Feed> feedOf (const std::pair<std::vector<std::string>, PythonRun::Rows>& from, double rate_hz, double graph_rate_hz)
 {
     Table table;
@@ -216,6 +218,9 @@ py::dict PythonRun::take (const std::string& role) const
     all["axes"] = array (effort.axes, effort.axis_count);
     all["signals"] = array (effort.signals, effort.signal_count);
     all["brake"] = effort.brake;
+    tactus_guard guard = TACTUS_GUARD;
+    tactus_run_guard (run.get(), role.c_str(), &guard);
+    all["stop"] = tactus_stop_name (guard.stop);
     return all;
 }
 
@@ -250,11 +255,31 @@ std::pair<std::uint64_t, PythonRun::Rows> PythonRun::steps (std::size_t count, c
     call ("step", [&] (auto*) {
         if (! run->is_open || run->run->isLive()) return TACTUS_MISUSE;
         first = done;
+        run->recorder.is_paused = true;   // these rows are returned
         if (given == 1 && feed_count > 0) tactus_run_set_feeds (run.get(), from);
         stepAll (count, given > 1 ? from : nullptr, to);
         return TACTUS_OK;
     });
+    tellStops();
     return { first, rows };
+}
+
+/// A warning for each pushed device whose guard has stopped it until rearm(). A loop that does not look at Effort.stop would see a surface vanish.
+void PythonRun::tellStops()
+{
+    Messages found;
+    for (std::size_t i = 0; i < run->guards.size(); ++i)
+    {
+        const auto role = run->guards.at (i);
+        const bool is_mine = run->pushed.contains (role.name);   // not a device that the graph simulates, whose effort nobody takes
+        if (! is_mine || role.is_latched == 0 || role.latest.why == Guard::Stop::emergency || told.contains (role.name)) continue;
+        told.emplace (role.name);
+        found.push_back (Message::warning ("guard/stopped", "/devices/" + std::string (role.name),
+                                           "the guard of '" + std::string (role.name) + "' has stopped its effort, which stays 0 until rearm(): "
+                                               + describe (role.latest),
+                                           "look at Effort.stop in your loop; if no person holds the device, open the guard as the page on steps says"));
+    }
+    if (! found.empty()) report (found);
 }
 
 py::bytes PythonRun::save()
@@ -280,10 +305,15 @@ std::size_t PythonRun::stepFor (double dt_s)
     std::size_t ticks = 0;
     call ("step", [&] (auto*) {
         if (! run->is_open || run->run->isLive()) return TACTUS_MISUSE;
+        auto& recorder = run->recorder;
+        if (! run->options.records.empty() && ! recorder.ring)
+            recorder.ring = std::make_unique<SpscRing<double>> (static_cast<std::size_t> (recorded_s * run->run->rate()), run->names.size());
+        recorder.is_paused = false;
         ticks = run->stepper->step (dt_s);
         done += ticks;
         return TACTUS_OK;
     });
+    tellStops();
     return ticks;
 }
 
@@ -297,7 +327,12 @@ void PythonRun::start (std::uint64_t length, int core, std::size_t buffer)
     options.core = core;
     options.length = length;
     options.buffer = buffer;
-    call ("start", [&] (auto* m) { return tactus_run_start (run.get(), &options, m); });
+    call ("start", [&] (auto* m) {
+        if (run->run->isLive()) return TACTUS_MISUSE;
+        run->recorder.ring.reset();
+        run->recorder.is_paused = false;
+        return tactus_run_start (run.get(), &options, m);
+    });
 }
 
 void PythonRun::stop()

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -88,6 +89,7 @@ private:
     template <typename F>
     void call (const char* what, F&& f);
     void stepAll (std::size_t count, const double* feeds, double* rows);
+    void tellStops();
 
     std::optional<Feed> feed;
     OwnNodes own;
@@ -96,7 +98,8 @@ private:
     std::mutex turns;
     std::atomic<std::thread::id> owner {};
     std::atomic<std::uint64_t> done = 0;
-    std::size_t state_size = 4096;   // of the last state, in bytes
+    std::size_t state_size = 4096;             // of the last state, in bytes
+    std::set<std::string, std::less<>> told;   // roles whose stop was told   [with the GIL]
 };
 
 void bindRun (py::module_&);

@@ -9,6 +9,7 @@ import math
 import subprocess
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 import tactus
@@ -118,6 +119,91 @@ class Steps(TestCase):
             stale.step(0.02)
         self.assertEqual(stale.take("tool").force[0], 0.0)
 
+    def test_the_guard_of_a_preset_stops_a_simulated_tool_too_unless_the_graph_has_none(self):
+        """A mass of 500 g that rests on dry wood: 30 N s in 10 s are over after 6 s."""
+        mass, gravity, damping, dt = 0.5, 9.81, 10.0, 0.004
+        for is_open in (False, True):
+            graph = tactus.Graph("dry_wood")
+            if is_open:
+                graph.set_device("stylus", None)
+            run = quiet(tactus.Engine, graph, devices={"stylus": tactus.PushedDevice(between="linear", simulated=True)})
+            z, v, t, stop = 0.0, 0.0, 0.0, ""
+            while t < 12.0 and z > -0.05:
+                run.push("stylus", (0, 0, z))
+                quiet(run.step, dt)
+                effort = run.take("stylus")
+                stop = stop or effort.stop and f"{effort.stop} after {t:.0f} s"
+                v += dt * (effort.force[2] / mass - gravity - damping / mass * v)
+                z += dt * v
+                t += dt
+            with self.subTest(is_open=is_open):
+                if is_open:
+                    self.assertEqual(stop, "")
+                    self.assertAlmostEqual(effort.force[2], mass * gravity, delta=0.05)
+                else:
+                    self.assertEqual(stop, "impulse after 6 s")
+                    self.assertLess(z, -0.05)   # it has fallen through
+
+    def test_a_latched_stop_is_seen(self):
+        """A loop that the guard has stopped learns it from the effort, and once from a warning."""
+        run = engine(spring(), guard={"max_impulse": "0.1 N*s", "impulse_window": "10 s"}, simulated=True)
+        self.assertEqual(step(run, 8, (1e-2, 0, 0)).stop, "")
+        before, impulse = run.save(), 8 / RATE   # N s of 1 N
+        with self.assertWarns(tactus.TactusWarning) as caught:
+            while step(run, 8, (1e-2, 0, 0)).stop == "":
+                impulse += 8 / RATE
+                self.assertLess(impulse, 0.2)
+        self.assertAlmostEqual(impulse, 0.1, delta=8 / RATE)
+        self.assertEqual(run.take("tool").stop, "impulse")
+        message = caught.warning.message
+        self.assertEqual((message.id, message.where), ("guard/stopped", "/devices/tool"))
+        self.assertIn("the limit is 0.1 N*s in 10 s", message.text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for _ in range(5):
+                effort = step(run, 8, (1e-2, 0, 0))
+            self.assertEqual((effort.stop, effort.force[0]), ("impulse", 0.0))
+            run.restore(before)
+            self.assertEqual((run.take("tool").stop, step(run, 8, (1e-2, 0, 0)).stop), ("", ""))
+            run.emergency_stop()   # which the program asked for
+            self.assertEqual(step(run, 8, (1e-2, 0, 0)).stop, "emergency")
+            run.rearm()
+            self.assertEqual([step(run, 8, (1e-2, 0, 0)).stop for _ in range(3)][-1], "")
+
+    def test_what_step_records_can_be_collected(self):
+        run, other = engine(spring(), "linear"), engine(spring(), "linear")
+        path = np.random.default_rng(2).normal(0, 1e-3, (30, 3))
+        places = [np.zeros(3)]
+        for k, at in enumerate(path):
+            step(run, 8 + k % 3, at)
+            places += [places[-1] + (i + 1) / (8 + k % 3) * (at - places[-1]) for i in range(8 + k % 3)] if k else [at] * 8
+            places = places[1:] if k == 0 else places
+        rows = run.collect()
+        self.assertEqual(rows["hand.position"].shape, (270, 3))
+        self.assertLess(np.max(abs(rows["hand.position"] - np.array(places))), 1e-15)
+        self.assertAlmostEqual(rows["t"][-1], 269 / RATE)
+        self.assertEqual((run.lost, len(run.collect()["t"])), (0, 0))
+        quiet(run.step, n=5)   # returns its rows, and keeps none
+        step(run, 8)
+        self.assertEqual(len(run.collect()["t"]), 8)
+        for _ in range(11):
+            other.step(1.0)
+        self.assertEqual((len(other.collect()["t"]), other.lost), (10 * RATE, RATE))
+
+    def test_a_loop_that_does_not_use_the_rules_of_its_device_is_warned_once(self):
+        for rules in (("linear", "last"), ("hold", "mean")):
+            run = engine(spring(), *rules)
+            run.push("tool")
+            with self.assertWarns(tactus.TactusWarning) as caught:
+                run.step(n=20)
+            self.assertEqual(caught.warning.message.id, "step/rules")
+            self.assertIn("step(0.005)", caught.warning.message.remedy)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                run.step(n=20)
+                engine(spring()).step(n=20)
+                engine(spring(), *rules).step(n=1)
+
     def test_wrong_steps_are_refused(self):
         run = engine(spring())
         for wrong in (0.0, -1e-3, math.nan, 1.1, math.inf, 0, 2):
@@ -126,6 +212,7 @@ class Steps(TestCase):
         self.fails("argument/value", run.step, 0.002, 8)
         self.fails("argument/type", engine, spring(), "spline")
         self.fails("argument/type", engine, spring(), "hold", "first")
+        self.assertEqual(self.fails("argument/type", engine, spring(), "by velocity").remedy, "write 'by_velocity'")
         self.fails("device/reading", run.push, "tool", velocity=3.0)
         self.assertEqual(run.ticks, 0)
 

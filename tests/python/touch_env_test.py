@@ -52,6 +52,14 @@ class Environment(TestCase):
         self.same_bits(first, episode(quiet(touch_env.TouchEnv, WOOD), 3))
         self.assertFalse(np.array_equal(first, episode(self.env, 4)))
 
+    def test_a_stop_of_the_guard_ends_the_episode(self):
+        quiet(self.env.reset, seed=1)
+        info = self.env.step(np.zeros(3))[4]
+        self.assertEqual(info["stop"], "")
+        self.env.engine.emergency_stop()
+        terminated, truncated, info = self.env.step(np.zeros(3))[2:]
+        self.assertEqual((terminated, truncated, info["stop"]), (True, False, "emergency"))
+
     def test_the_finger_presses_as_hard_as_it_is_pushed(self):
         observation, _ = quiet(self.env.reset, seed=1, options={"force": 0.5})
         self.assertEqual(observation[9], 0.5)

@@ -76,6 +76,7 @@ int main (int argc, char** argv)
 
     tactus_reading reading = TACTUS_READING;
     tactus_effort wood = TACTUS_EFFORT;
+    tactus_guard guard = TACTUS_GUARD;
     reading.valid = 1;
     data->qpos[0] = -0.015;
     data->qpos[2] = 0.5e-3;
@@ -86,6 +87,11 @@ int main (int argc, char** argv)
         tactus_run_push (run, role, &reading);
         tactus_run_step_for (run, model->opt.timestep);
         tactus_run_take (run, role, &wood);
+        if (tactus_run_guard (run, role, &guard) == TACTUS_OK && guard.is_latched != 0)
+        {
+            std::fprintf (stderr, "the guard has stopped the force: %s\n", tactus_stop_name (guard.stop));
+            return 1;
+        }
 
         pull (data->time, data->qpos, data->qvel, data->qfrc_applied);
         for (int i = 0; i < 3; ++i)

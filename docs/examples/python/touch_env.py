@@ -58,7 +58,7 @@ except ImportError:
 class TouchEnv(Base):   # type: ignore[misc]
     """action (3,): the force of the muscles, as a part of MOST_FORCE. observation (10,): position in mm, velocity in m/s, the force that is felt in N, the
     force to press with in N. reward: 1 less the error of the pressing force in N, and something for sliding along x. The episode terminates when the finger
-    is 2 cm away from where it began, across the way of the slide."""
+    is 2 cm away from where it began, across the way of the slide, or when the guard has stopped the force: info["stop"] says why."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
     render_mode = None
@@ -84,14 +84,15 @@ class TouchEnv(Base):   # type: ignore[misc]
         for _ in range(count):
             self.engine.push(self.role, self.position)
             self.engine.step(SUBSTEP)
-            self.felt = self.engine.take(self.role).force
+            effort = self.engine.take(self.role)
+            self.felt = effort.force
             self.velocity = self.velocity + SUBSTEP / MASS * (muscles + self.felt - DAMPING * self.velocity)
             self.position = self.position + SUBSTEP * self.velocity
             pressed += self.felt[2] / count
         slid = min(abs(self.position[0] - start) / STEP, 0.1)   # m/s
         reward = 1.0 - abs(pressed - self.wanted) + 5.0 * slid
-        terminated = bool(np.hypot(self.position[1], self.position[2]) > 0.02)
-        return self._observation(), float(reward), terminated, False, {"pressed": pressed}
+        terminated = bool(np.hypot(self.position[1], self.position[2]) > 0.02) or effort.stop != ""
+        return self._observation(), float(reward), terminated, False, {"pressed": pressed, "stop": effort.stop}
 
     def close(self) -> None:
         self.engine.stop()

@@ -36,7 +36,7 @@ int main (int argc, char** argv)
     tactus::Run run { tactus::catalogue(), {}, [&] (auto&&...) {
                          auto made = std::make_unique<Tool>();
                          tool = made.get();
-                         return tactus::Run::RoleDevice { std::move (made), { .max_force = 5.0 } };
+                         return tactus::Run::RoleDevice { std::move (made), { .max_force = 5.0, .watchdog = 0.05 } };
                      } };
     auto messages = loaded.messages;
     if (! tactus::hasErrors (messages)) messages = run.load (loaded.graph);
@@ -54,6 +54,11 @@ int main (int argc, char** argv)
         tool->moveTo (position);
         const auto ticks = steps.step (dt);   // 20
         const auto force = tool->motion.effort().force;
+        if (const auto& guard = run.engine().role (0).guard; guard.isLatched())
+        {
+            std::printf ("the guard has stopped the force: %s\n", describe (guard.latest()).c_str());
+            return 1;
+        }
         velocity += dt / 0.5 * (force + tactus::Vec3 { 0.2, 0, -0.5 } - 20.0 * velocity);   // 500 g, pushed and dragged: the physics of the simulator
         position += dt * velocity;
         if (k % 20 == 0)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 from typing import Any, Dict, Mapping, NamedTuple, NoReturn, Optional, Sequence
 
@@ -25,7 +26,7 @@ class PushedDevice(NamedTuple):
     between, step_effort: for Engine.step(dt), whose steps last longer than a tick. between: where the tool is on tick i of n: "hold": at the new
     reading; "linear": i/n of the way from the last one to the new one; "by_velocity": where the new one and its velocity lead in i - 1 periods.
     step_effort: what `take` returns after the step: "last": the effort of the last tick; "mean": the mean over the step. docs/steps.md has the delay of
-    each.
+    each. Engine.step(n=…) uses neither: its ticks get the reading as it is.
 
     simulated: True if your program simulates the device, and no person holds it. Only then can Engine.save and Engine.restore be used, because a state may
     step the effort."""
@@ -44,13 +45,16 @@ class PushedDevice(NamedTuple):
 
 class Effort(NamedTuple):
     """What a device should apply, after the guard. force (3,), on the tool, N. torque (3,), on the tool, N m. axes, N or N m, in the order
-    of PushedDevice.efforts. signals: the signal outputs, channel 1 first. brake: damping of the brake on the tool, N s/m, at least 0."""
+    of PushedDevice.efforts. signals: the signal outputs, channel 1 first. brake: damping of the brake on the tool, N s/m, at least 0. stop: why the
+    guard withholds the effort now, or "": "speed", "impulse", "energy" and "emergency" last until Engine.rearm(); "not_finite", "stale", "starved",
+    "released" and "halted" end with their cause."""
 
     force: Array
     torque: Array
     axes: Array
     signals: Array
     brake: float
+    stop: str = ""
 
 
 def described(role: str, device: PushedDevice) -> Dict[str, Any]:
@@ -74,7 +78,9 @@ def described(role: str, device: PushedDevice) -> Dict[str, Any]:
 def _choice(argument: str, value: Any, choices: Sequence[str]) -> int:
     """The number of a choice, as in tactus.h."""
     if value not in choices:
-        _checks.refuse(argument, value, "one of " + ", ".join(choices), f"write {choices[0]!r} or {choices[1]!r}")
+        meant = "_".join(value.lower().split()) if isinstance(value, str) else ""   # "by velocity"
+        near = difflib.get_close_matches(meant, choices, 1)
+        _checks.refuse(argument, value, "one of " + ", ".join(choices), f"write {near[0]!r}" if near else f"write {choices[0]!r} or {choices[1]!r}")
     return choices.index(value)
 
 

@@ -17,7 +17,7 @@ from ._checks import Array, Numbers
 from ._devices import Effort, PushedDevice, described, explain_push
 from ._ending import when_main_ends
 from ._graph import Graph, checked_graph
-from ._messages import fail, placed
+from ._messages import fail, placed, report
 from ._own import Node, describe
 from ._records import Layout, Records, names_of, table_of, to_json
 
@@ -93,11 +93,15 @@ class Engine:
         self._run.open()
         self._layout = Layout(self._run.columns(), self._run.units(), asked, self._run.rate())
 
+    _between = ""   # a role whose device has rules for step(dt)
+
     def __repr__(self) -> str:
         return f"<tactus.Engine at {self.rate:g} Hz: {self.ticks} ticks in its own loop>"
 
     def _give(self, role: str, device: Any) -> None:
         if isinstance(device, PushedDevice):
+            if (device.between, device.step_effort) != ("hold", "last"):
+                self._between = role
             self._run.pushed_device(role, json.dumps(described(role, device)))
         elif isinstance(device, Mapping):
             self._run.describe_device(role, to_json(dict(device), f"devices[{role!r}]"), "")
@@ -152,7 +156,10 @@ class Engine:
         """Runs n ticks, by default 1 or as many as the arrays are long.
 
         step(dt), with a time in s, runs the ticks that are due dt after the last such step, and returns how many: for loops with steps longer than a tick,
-        such as physics at 500 Hz. `push` the reading of a PushedDevice first, and `take` its effort afterwards. What remains of a period is kept.
+        such as physics at 500 Hz. `push` the reading of a PushedDevice first, and `take` its effort afterwards. What remains of a period is kept. Its ticks of
+        the ports that `record` names are kept for `collect`, up to 10 s; `lost` counts the others.
+
+        Only step(dt) uses `between` and `step_effort` of a PushedDevice. With n, each tick gets the reading as it is, and `take` gives the last effort.
 
         feed: values of fed ports: a number or (n,) for a scalar, (3,) or (n, 3) for a vector. A single
             value holds for all n ticks and stays set afterwards. Ports that are left out keep their last value.
@@ -161,8 +168,15 @@ class Engine:
             return self._run.step_for(feed if type(feed) is float and n is None and 0.0 < feed <= 1.0 else _step(feed, n))
         rows = self._rows(_checks.mapping("feed", feed, _FEED), None if n is None else _checked(n))
         count = _checked(n) if n is not None else 1 if rows is None else len(rows)
+        if count > 1 and self._between:
+            self._warn_of_rules(count)
         first, done = self._run.steps(count, rows)
         return self._layout.records(done, first)
+
+    def _warn_of_rules(self, count: int) -> None:
+        role, self._between = self._between, ""
+        report([(False, "step/rules", f"/devices/{role}", f"step(n={count}) does not use `between` and `step_effort` of '{role}': all its ticks get the "
+                 "same reading", f"give the length of the step in s: step({count / self.rate:g})")])
 
     def save(self) -> bytes:
         """The state of the run: nodes, parameters, delays, guards, controls and simulated devices. For rollouts, for undo, and for a reset that takes
@@ -285,7 +299,8 @@ class Engine:
         _live.add(self)
 
     def collect(self) -> Records:
-        """The ticks recorded since the last call, the oldest first. "t" counts only collected ticks, not `lost` ones."""
+        """The ticks recorded since the last call, the oldest first: those of a live run, and those of step(dt). "t" counts only collected ticks, not
+        `lost` ones."""
         rows = self._run.collect()
         first, self._collected = self._collected, self._collected + len(rows)
         return self._layout.records(rows, first)
