@@ -8,6 +8,7 @@
 #include <tactus/node/device.hpp>
 #include <tactus/run/device/step_motion.hpp>
 #include <tactus/run/guard.hpp>
+#include <tactus/run/guard/shorten.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -94,6 +95,14 @@ public:
         readings.store (now);
         publish (motion.effort());
         return true;
+    }
+
+    /// Shortens the effort that is taken to these limits: a restored one may be from before they were tightened. [tick thread]
+    void shorten (const GuardLimits& limits) noexcept
+    {
+        auto e = motion.effort();
+        tactus::shorten (e, limits);
+        publish (e);
     }
 
     void withhold() noexcept override { motion.withhold(); }

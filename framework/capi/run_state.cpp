@@ -50,6 +50,9 @@ tactus_result tactus_run_restore (tactus_run* r, const void* bytes, size_t size,
     return guarded (messages, TACTUS_FAILED, [&] {
         auto restored = r->run->restore ({ static_cast<const std::byte*> (bytes), size }, r->graph, moreOf (*r));
         r->guards.look();
-        return asResult (messages, std::move (restored));
+        if (! restored) return failed (messages, std::move (restored).error());
+        for (const auto& [role, device] : r->run->devices())
+            if (const auto pushed = r->pushed.find (role); pushed != r->pushed.end()) pushed->second->shorten (device.limits);
+        return TACTUS_OK;
     });
 }

@@ -409,10 +409,10 @@ TACTUS_API tactus_result tactus_run_step_for (tactus_run*, double dt_s);
  *  saved is refused by name (state/refused). Only for a run that you tick yourself. [tick thread] */
 TACTUS_API tactus_result tactus_run_save (tactus_run*, void* bytes, size_t room, size_t* size, tactus_messages*);
 
-/** Goes back, or on, to a state of this run or of another one of the same graph, with the same options and devices and the same version of Tactus, in
- *  any process: the next ticks have the same bits. A state of another graph, a damaged one and the like are refused, and then nothing changes. The state
- *  does not undo what keeps people safe: limits, a halt, an emergency stop. Restore only what you have saved: the checksum finds damage, not malice.
- *  Ids: state/… [tick thread] */
+/** Goes back, or on, to a state of this run or of another one of the same graph, with the same devices and the same version of Tactus, in any process
+ *  (docs/states.md says what may differ): the next ticks have the same bits. A state of another graph, a damaged one and the like are refused, and then
+ *  nothing changes. The state does not undo limits, a halt or an emergency stop, but a stop that the guard latched by itself. Restore only what you have
+ *  saved: the checksum finds damage, not malice. Ids: state/… [tick thread] */
 TACTUS_API tactus_result tactus_run_restore (tactus_run*, const void* bytes, size_t size, tactus_messages*);
 
 /** Sets the feeds for the next tick, one value per feed. [tick thread] */

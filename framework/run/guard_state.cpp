@@ -3,6 +3,7 @@
 #include "guard.hpp"
 
 #include <tactus/kit/state_archive.hpp>
+#include <tactus/run/guard/shorten.hpp>
 
 namespace tactus
 {
@@ -16,6 +17,9 @@ void Guard::serialize (StateArchive& archive)
     const bool is_known = std::max ({ reason, latched, event.why }) <= Stop::emergency && std::max (seen_part, event.part) <= Event::Part::brake
                           && event.fault <= ReadingFault::moved;
     if (! is_known) archive.refuse ("has a stop that does not exist");
+    if (! archive.restores()) return;
+    shorten (last, limits);   // the limits of now hold, also on the way down
+    shorten (at_stop, limits);
 }
 
 }   // namespace tactus

@@ -16,7 +16,7 @@ namespace tactus
 namespace
 {
 constexpr std::string_view magic = "tactus state\n", version = TACTUS_LIBRARY_VERSION;
-constexpr std::uint32_t state_format = 1;   // of what this file writes
+constexpr std::uint32_t state_format = 2;   // of what this file writes
 
 std::string_view textOf (std::span<const std::byte> bytes) noexcept { return { reinterpret_cast<const char*> (bytes.data()), bytes.size() }; }
 
@@ -27,10 +27,28 @@ void append (std::vector<std::byte>& to, std::string_view text)
 }
 
 /// The first line of a state: everything that must be the same where it is restored.
-std::string headOf (std::string_view graph_hash, double rate_hz)
+std::string headOf (std::string_view graph_hash, double rate_hz, std::string_view devices_hash)
 {
     return std::string (magic) + std::to_string (state_format) + " " + std::string (version) + " " + std::to_string (math::revision) + " "
-           + std::string (graph_hash) + " " + std::to_string (rate_hz) + "\n";
+           + std::string (graph_hash) + " " + std::to_string (rate_hz) + " " + std::string (devices_hash) + "\n";
+}
+
+/// What the roles have: axes, buttons, signals and brake. Limits may differ, because a state does not undo them.
+std::string hashOfDevices (const std::vector<std::pair<std::string, Run::RoleDevice>>& by_role)
+{
+    std::string text;
+    for (const auto& [role, d] : by_role)
+    {
+        const auto has = d.device->layout();
+        for (const auto* names : { &has.axes, &has.efforts, &has.buttons })
+        {
+            text += quote (role) + std::to_string (names->size());
+            for (const auto& name : *names)
+                text += quote (name);
+        }
+        text += std::to_string (has.signal_inputs) + " " + std::to_string (has.signal_outputs) + " " + std::to_string (has.brake) + "\n";
+    }
+    return contentHash (text);
 }
 
 constexpr std::size_t hash_size = 16;
@@ -49,13 +67,29 @@ Message otherHead (std::string_view state, std::string_view expected)
             head.remove_prefix (head.find (' ') + 1);
         return head.substr (0, head.find_first_of (" \n"));
     };
+    if (wordOf (state, 0) != wordOf (expected, 0) && wordOf (state, 1) == wordOf (expected, 1))
+        return refused ("state/format", "the state was saved by another build of this version of Tactus, whose states have another form",
+                        "save it again with this build");
     for (int n = 0; n < 3; ++n)
         if (wordOf (state, n) != wordOf (expected, n))
             return refused ("state/format",
                             "the state was saved by another version of Tactus, " + quote (wordOf (state, 1).substr (0, 20)) + "; this is " + quote (version),
                             "save it again with this version: a state is not a file format that outlives a version");
-    return refused ("state/graph", "the state is that of another graph, or of this one at another rate",
-                    "restore it into a run of the graph that it was saved from");
+    for (int n = 3; n < 5; ++n)
+        if (wordOf (state, n) != wordOf (expected, n))
+            return refused ("state/graph", "the state is that of another graph, or of this one at another rate",
+                            "restore it into a run of the graph that it was saved from");
+    return refused ("state/graph", "the state is that of a run with other devices: their axes, efforts, buttons, signals or brakes differ",
+                    "restore it into a run with the same devices");
+}
+
+/// Why a state with the same head does not fit. What is left over, or lacks, at the end belongs to the loop.
+Message doesNotFit (const std::string& why)
+{
+    const bool is_loop = why.starts_with ("the loop ");
+    return refused ("state/graph", "the state does not fit this run: " + why,
+                    is_loop ? "restore it with what it was saved with: in C++, pass the same MoreState as to save()"
+                            : "restore it into a run with the same graph, options and devices");
 }
 }   // namespace
 
@@ -93,7 +127,7 @@ void Run::serialize (StateArchive& archive, const MoreState& more)
 Result<std::vector<std::byte>> Run::save (const graph::Graph& graph, const MoreState& more)
 {
     if (auto why = cannotSave()) return std::move (*why);
-    const auto head = headOf (hashOf (graph), rate());
+    const auto head = headOf (hashOf (graph), rate(), hashOfDevices (by_role));
     std::vector<std::byte> bytes, state;
     state.reserve (4096);
     StateArchive archive { state };
@@ -114,7 +148,7 @@ Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& gra
         return refused ("state/log", "the run is logged, and a replay of its log could not follow", "end the log first, or restore in a run without a log");
     if (running->isEmergency())
         return refused ("state/stopped", "the emergency stop is pressed, which a state does not undo", "rearm the run first, once it is safe");
-    const auto head = headOf (hashOf (graph), rate());
+    const auto head = headOf (hashOf (graph), rate(), hashOfDevices (by_role));
     if (! textOf (bytes).starts_with (head)) return otherHead (textOf (bytes), head);
     const auto rest = bytes.subspan (head.size());
     if (rest.size() < hash_size || textOf (rest.first (hash_size)) != contentHash (textOf (rest.subspan (hash_size))))
@@ -133,7 +167,7 @@ Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& gra
     const auto why = readFrom (rest.subspan (hash_size));
     if (why.empty()) return {};
     (void)readFrom (kept);
-    return refused ("state/graph", "the state does not fit this run: " + why, "restore it into a run with the same graph, options and devices");
+    return doesNotFit (why);
 }
 
 }   // namespace tactus

@@ -9,7 +9,7 @@ from collections import deque
 
 import numpy as np
 import tactus
-from support import GRAPHS, TestCase, drag, quiet
+from support import GRAPHS, ROOT, TestCase, drag, quiet
 from tactus import _own
 
 PRESETS = sorted(GRAPHS.glob("*.json"))
@@ -254,6 +254,58 @@ class Refusals(TestCase):
             self.assertEqual(run.save(), state)
         self.fails("argument/type", run.restore, "text")
 
+    def test_a_state_of_other_devices_or_rules_is_refused(self):
+        def made(**options):
+            return engine(GRAPHS / "dry_wood.json", devices={"stylus": tactus.PushedDevice(simulated=True, **options)})
+        same = made(between="linear", step_effort="mean", axes=["x"], guard={"max_force": "3 N"})
+        same.push("stylus", (0, 0, -1e-4), axes=[0.5])
+        quiet(same.step, 0.01)
+        state = same.save()
+        other = made(between="linear", step_effort="mean", axes=["x"], guard={"max_force": "2 N", "watchdog": "20 ms"})
+        other.restore(state)   # limits may differ
+        self.assertEqual(parts(other.save()), parts(state))
+        for words, options in (("rules for steps", {"step_effort": "mean", "axes": ["x"]}), ("rules for steps", {"between": "linear", "axes": ["x"]}),
+                               ("other devices", {"axes": ["y"]}), ("other devices", {}), ("other devices", {"axes": ["x"], "signal_outputs": 1}),
+                               ("other devices", {"axes": ["x"], "buttons": ["down"]}), ("other devices", {"axes": ["x"], "brake": 3.0}),
+                               ("other devices", {"axes": ["x"], "efforts": ["x"]})):
+            rules = {} if words == "rules for steps" else {"between": "linear", "step_effort": "mean"}
+            run = made(**{**rules, **options})
+            before = run.save()
+            with self.subTest(options=options):
+                why = self.fails("state/graph", run.restore, state)
+                self.assertIn(words, why.text)
+                self.assertEqual(run.save(), before)
+        old = self.fails("state/format", same.restore, state.replace(b"state\n2 ", b"state\n1 ", 1))
+        self.assertIn("another build", old.text)
+
+    def test_a_restored_run_gives_no_more_than_the_limits_of_now(self):
+        graph = tactus.Graph(name="push", rate=1000)
+        graph.add_node("push", "signal.constant", {"value": "4 N"})
+        graph.add_node("motor", "device.force", role="tool")
+        graph.connect("push.out", "motor.force.x")
+        graph.connect("push.out", "motor.force.y")
+
+        def made(**guard):
+            return engine(graph, devices={"tool": tactus.PushedDevice(simulated=True, guard={"max_slew": "100 N/s", **guard})})
+
+        def force(run):
+            return np.linalg.norm(run.take("tool").force)
+        loose = made(max_force="5 N")
+        for _ in range(200):
+            loose.push("tool")
+            loose.step(n=1)
+        self.assertAlmostEqual(force(loose), 5.0, places=9)
+        state = loose.save()
+        tight, same = made(max_force="2 N"), made(max_force="5 N")
+        for run, most in ((tight, 2.0), (same, 5.0)):
+            run.restore(state)
+            self.assertAlmostEqual(force(run), most, places=9)
+            for _ in range(20):
+                run.push("tool")
+                run.step(n=1)
+                self.assertLessEqual(force(run), most * (1 + 1e-9))
+        self.same_bits(same.take("tool").force, loose.take("tool").force)
+
     def test_forged_states_are_refused_or_run(self):
         """Whatever the bytes are, nothing crashes (this test runs with the address sanitizer, too)."""
         random = np.random.default_rng(3)
@@ -281,6 +333,18 @@ class Refusals(TestCase):
         live.start(duration=0.01)
         self.fails("engine/not_now", live.save)
         live.stop()
+
+
+class Page(TestCase):
+    def test_the_lines_in_cpp_are_those_of_the_example(self):
+        """tests/install/run.sh builds and runs the example."""
+        page = (ROOT / "docs/states.md").read_text(encoding="utf-8")
+        block = page.split("parts of docs/examples/steps/main.cpp")[1].split("```cpp\n")[1].split("```")[0]
+        example = (ROOT / "docs/examples/steps/main.cpp").read_text(encoding="utf-8").split("\n")
+        parts = [part.split("\n") for part in block.strip("\n").split("\n\n")]
+        self.assertGreater(sum(map(len, parts)), 9)
+        for line in (line for part in parts for line in part):
+            self.assertIn(line, example)
 
 
 class Uses(TestCase):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulator with steps of 5 ms gets the force of a graph at 4 kHz: steps dry_wood.json. See docs/steps.md for the rules and their delays.
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/step_motion.hpp>
 #include <tactus/run/run.hpp>
@@ -18,6 +19,13 @@ struct Tool final : tactus::Device
     void write (const tactus::Effort& effort) noexcept override { motion.take (effort); }
     void withhold() noexcept override { motion.withhold(); }
 
+    // In the device: it can be saved, because no person holds it.
+    bool serialize (tactus::StateArchive& archive) override
+    {
+        archive (motion, reading, is_new);
+        return true;
+    }
+
     void moveTo (const tactus::Vec3& position)
     {
         reading.position = position;
@@ -28,6 +36,12 @@ struct Tool final : tactus::Device
     tactus::Reading reading {};
     bool is_new = false;
 };
+
+static int fail (const tactus::Message& why)
+{
+    std::fprintf (stderr, "%s\n", describe (why).c_str());
+    return 1;
+}
 
 int main (int argc, char** argv)
 {
@@ -47,6 +61,12 @@ int main (int argc, char** argv)
 
     tactus::Stepper steps { run };
     steps.add (tool->motion);
+
+    // In the loop.
+    const tactus::Run::MoreState more = [&] (tactus::StateArchive& archive) { archive (steps); };
+    const auto start = run.save (loaded.graph, more);
+    if (! start) return fail (start.error());
+
     constexpr double dt = 0.005;
     tactus::Vec3 position { 0, 0, 0.001 }, velocity = tactus::Vec3::Zero();
     for (int k = 0; k < 200; ++k)
@@ -64,4 +84,10 @@ int main (int argc, char** argv)
         if (k % 20 == 0)
             std::printf ("%5.3f s  %zu ticks  z %7.4f mm  %7.4f %7.4f %7.4f N\n", k * dt, ticks, 1e3 * position.z(), force.x(), force.y(), force.z());
     }
+
+    if (auto back = run.restore (*start, loaded.graph, more); ! back) return fail (back.error());
+    tool->moveTo ({ 0, 0, 0.001 });
+    steps.step (dt);
+    std::printf ("again from the start: %7.4f N\n", tool->motion.effort().force.z());
+    return 0;
 }

@@ -72,7 +72,16 @@ public:
     /// The effort of the step so far. [tick thread]
     Effort effort() const noexcept;
 
-    void serialize (auto& archive) { archive (ticks, at, period, before, has_before, age, moves, velocity, silent, taken, last, sum); }
+    /// A state with other rules is refused.
+    void serialize (auto& archive)
+    {
+        auto of_readings = readings;
+        auto of_efforts = efforts;
+        archive (of_readings, of_efforts);
+        if (of_readings != readings || of_efforts != efforts)
+            return archive.refuse ("has a device with other rules for steps (`between` or `step_effort`) than when it was saved");
+        archive (ticks, at, period, before, has_before, age, moves, velocity, silent, taken, last, sum);
+    }
 
 private:
     void blend (Reading&) const noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A device in C++ whose program stops moving it, compared with the same loop through the C API.
 #include <tactus/file/graph_file.hpp>
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/step_motion.hpp>
 #include <tactus/run/stepper.hpp>
@@ -9,7 +10,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,39 +32,64 @@ struct OwnTool final : Device
 {
     explicit OwnTool (StepMotion::Readings r) : motion (r, StepMotion::Efforts::last) {}
     void prepare (double) override {}
-    Reading read() noexcept override { return motion.move ({}, std::exchange (is_new, false)); }
+    Reading read() noexcept override { return motion.move ({ .position = place }, std::exchange (is_new, false)); }
     void write (const Effort& effort) noexcept override { motion.take (effort); }
     void withhold() noexcept override { motion.withhold(); }
+    bool serialize (StateArchive& archive) override
+    {
+        archive (is_new, place, motion);
+        return true;
+    }
 
     StepMotion motion;
+    Vec3 place = Vec3::Zero();
     bool is_new = false;
 };
 
 constexpr double step_s = 0.004;
 constexpr int moved = 10, steps = 40;   // in the first ones, the tool is moved
 
+/// A spring to the origin, at 1 kHz.
+constexpr const char* spring_graph = R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+    "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "motor": { "type": "device.force", "role": "stylus" } },
+    "wires": [ { "wire": "hand.position -> motor.force", "gain": "-100 N/m" } ] })";
+
+/// A run of a graph in C++.
+struct Rig
+{
+    explicit Rig (StepMotion::Readings readings, double watchdog_s = GuardLimits::none, const char* text = pushing_graph)
+        : run { catalogue(), {}, [=, this] (auto&&...) {
+                   auto made = std::make_unique<OwnTool> (readings);
+                   tool = made.get();
+                   return Run::RoleDevice { std::move (made), { .watchdog = watchdog_s } };
+               } }
+    {
+        const auto loaded = readGraph (text);
+        REQUIRE (! hasErrors (loaded.messages));
+        graph = loaded.graph;
+        graph.devices.clear();   // and with it the guard
+        auto messages = run.load (graph);
+        run.openDevices (graph, messages);
+        REQUIRE (! hasErrors (messages));
+        stepper.emplace (run);
+        stepper->add (tool->motion);
+    }
+
+    graph::Graph graph;
+    OwnTool* tool = nullptr;   // which the run owns
+    Run run;
+    std::optional<Stepper> stepper;
+};
+
 std::vector<double> forcesInCpp (StepMotion::Readings readings, double watchdog_s)
 {
-    auto loaded = readGraph (pushing_graph);
-    loaded.graph.devices.clear();   // and with it the guard
-    REQUIRE (! hasErrors (loaded.messages));
-    OwnTool* tool = nullptr;
-    Run run { catalogue(), {}, [&] (auto&&...) {
-                 auto made = std::make_unique<OwnTool> (readings);
-                 tool = made.get();
-                 return Run::RoleDevice { std::move (made), { .watchdog = watchdog_s } };
-             } };
-    auto messages = run.load (loaded.graph);
-    run.openDevices (loaded.graph, messages);
-    REQUIRE (! hasErrors (messages));
-    Stepper stepper { run };
-    stepper.add (tool->motion);
+    Rig rig { readings, watchdog_s };
     std::vector<double> forces;
     for (int k = 0; k < steps; ++k)
     {
-        tool->is_new = k < moved;
-        stepper.step (step_s);
-        forces.push_back (tool->motion.effort().force.x());
+        rig.tool->is_new = k < moved;
+        rig.stepper->step (step_s);
+        forces.push_back (rig.tool->motion.effort().force.x());
     }
     return forces;
 }
@@ -92,6 +120,50 @@ std::vector<double> forcesInC (tactus_between between, const char* guard)
     return forces;
 }
 }   // namespace
+
+TEST_CASE ("Steps: a step of a length that makes no sense runs no tick", "[steps]")
+{
+    Rig rig { StepMotion::Readings::linear };
+    for (const double wrong : { 0.0, -0.001, 1.1, std::nan (""), GuardLimits::none })
+        CHECK (rig.stepper->step (wrong) == 0);
+    CHECK (rig.stepper->step (0.0004) == 0);   // shorter than a period
+    CHECK (rig.stepper->step (0.0006) == 1);
+}
+
+TEST_CASE ("Steps: in C++, a state takes the Stepper with it, and what was saved with one is restored with one", "[steps][state]")
+{
+    Rig rig { StepMotion::Readings::linear, GuardLimits::none, spring_graph };
+    const auto more = [&] (StateArchive& archive) { archive (*rig.stepper); };
+    const auto forward = [&] {
+        std::vector<double> forces;
+        for (int k = 0; k < 5; ++k)
+        {
+            rig.tool->place.x() += 0.001;
+            rig.tool->is_new = true;
+            forces.push_back (static_cast<double> (rig.stepper->step (0.0037)));   // 3 or 4 ticks
+            forces.push_back (rig.tool->motion.effort().force.x());
+        }
+        return forces;
+    };
+    (void)forward();
+    const auto place = rig.tool->place;
+    const auto saved = rig.run.save (rig.graph, more);
+    REQUIRE (saved);
+    const auto forces = forward();
+    REQUIRE (rig.run.restore (*saved, rig.graph, more));
+    rig.tool->place = place;
+    CHECK (forward() == forces);
+    CHECK (forces.front() != forces.back());
+
+    const auto without = rig.run.restore (*saved, rig.graph);
+    REQUIRE (! without);
+    CHECK (without.error().remedy.find ("MoreState") != std::string::npos);
+    const auto plain = rig.run.save (rig.graph);
+    REQUIRE (plain);
+    const auto with = rig.run.restore (*plain, rig.graph, more);
+    REQUIRE (! with);
+    CHECK (with.error().remedy.find ("MoreState") != std::string::npos);
+}
 
 TEST_CASE ("Steps: in C++, a tool that is no longer moved loses its effort after the watchdog, as in C", "[steps][safety]")
 {
