@@ -16,6 +16,7 @@
 #include <host/base/platform/atomic_folder.hpp>
 #include <tactus/plan/find_param.hpp>
 #include <tactus/run/turn.hpp>
+#include <tactus/text/quick_hash.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -215,7 +216,10 @@ void addTarget (ExportedFolder& folder, const Exported& e, ExportTarget target)
     }
     if (target == ExportTarget::wasm)
     {
-        for (auto& file : wasmFiles (e))
+        std::string all;
+        for (const auto& [path, text] : files)
+            all += path + "\n" + text;
+        for (auto& file : wasmFiles (e, quickHash (all) >> 1u))
             files.push_back (std::move (file));
         std::ranges::find (files, "Makefile", &std::pair<std::string, std::string>::first)->second += wasmMake (e);
     }

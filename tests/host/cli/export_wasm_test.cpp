@@ -3,13 +3,17 @@
 
 #include "program.hpp"
 
+#include <tactus/text/json.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
+using namespace tactus;
 using namespace tactus::test;
 
 namespace
@@ -89,9 +93,13 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     {
         INFO (node);
         if (std::system (("command -v " + std::string (node) + " > /dev/null").c_str()) != 0) continue;
-        const auto package = runProgram (node, { scripts + "package_in_node.mjs", folder });
-        INFO (package.err);
-        CHECK (package.out == "ok\n");
+        for (const std::string script : { "package_in_node.mjs", "mistakes_in_node.mjs", "worklet_in_node.mjs" })
+        {
+            const auto tried = runProgram (node, { scripts + script, folder, "-0.0003" });
+            INFO (script << "\n"
+                         << tried.err);
+            CHECK (tried.out == "ok\n");
+        }
         const auto there = runProgram (node, with ({ scripts + "render_in_node.mjs", folder + "/canvas_weave.js" }));
         INFO (there.err);
         CHECK (there.status == 0);
@@ -108,6 +116,18 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     }
 }
 
+TEST_CASE ("the AudioWorklet of a graph with two tools moves each of them by itself", "[cli][export][wasm]")
+{
+    if (! hasTools()) return;
+    const Scratch scratch;
+    const auto folder = scratch.path ("web");
+    REQUIRE (runTactus ({ "export", "two_fingers", "-o", folder, "--to", "wasm" }).status == 0);
+    REQUIRE (runProgram ("make", { "-s", "-C", folder, "wasm", "WASM_CXXFLAGS=-O1" }).status == 0);
+    const auto tried = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/code/generate/wasm/worklet_in_node.mjs", folder, "-0.001", "-0.001" });
+    INFO (tried.err);
+    CHECK (tried.out == "ok\n");
+}
+
 TEST_CASE ("a module for WebAssembly has doubles, types and a class with the names of its graph", "[cli][export][wasm]")
 {
     const Scratch scratch;
@@ -118,7 +138,36 @@ TEST_CASE ("a module for WebAssembly has doubles, types and a class with the nam
     for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ",
                               "export type Hit = \"creak.hit\";", "export type Role = \"index\" | \"thumb\";" })
         CHECK (types.find (text) != std::string::npos);
-    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h" })
+    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h", "two_fingers_worklet.d.ts" })
         CHECK (std::filesystem::exists (folder + "/" + file));
     CHECK_FALSE (std::filesystem::exists (folder + "/two_fingers_example.c"));
+}
+
+TEST_CASE ("only Node.js gets files of a module for WebAssembly that import modules of Node.js", "[cli][export][wasm]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("web");
+    REQUIRE (runTactus ({ "export", "dry_wood", "-o", folder, "--to", "wasm" }).status == 0);
+    std::set<std::string> importers;
+    for (const auto& file : std::filesystem::directory_iterator (folder))
+        if (const auto name = file.path().filename().string(); name.ends_with (".js") || name.ends_with (".html"))
+            if (const auto text = textOf (file.path().string()); text.find ("node:") != std::string::npos || text.find ("tactus_node.js'") != std::string::npos)
+                importers.insert (name);
+    CHECK (importers == std::set<std::string> { "dry_wood_node.js", "tactus_node.js" });
+    const auto package = Json::parse (textOf (folder + "/package.json"));
+    std::set<std::string> listed;
+    for (const auto& file : package.at ("files").asArray())
+        listed.insert ("./" + file.asString());
+    for (const auto& [name, conditions] : package.at ("exports").asObject())
+    {
+        INFO (name);
+        if (! conditions.is_object()) continue;
+        CHECK (conditions.asObject().back().first == "default");
+        for (const auto& [condition, file] : conditions.asObject())
+        {
+            CHECK (std::filesystem::exists (folder + "/" + file.asString()));
+            CHECK (listed.contains (file.asString()));
+            if (condition != "node") CHECK_FALSE (importers.contains (file.asString().substr (2)));
+        }
+    }
 }

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
 // The types of tactus_graph.js.
 
-/** What a device reports, in SI units. Vectors are arrays of three numbers in the memory of the module: set their elements. */
+/** What a device reports, in SI units. Vectors are arrays of numbers in the memory of the module. What is assigned to them is copied. */
 export interface Reading
 {
-    readonly position: Float64Array;
-    readonly rotation: Float64Array;
+    get position(): Float64Array;
+    set position (values: ArrayLike<number>);
+    get rotation(): Float64Array;
+    set rotation (values: ArrayLike<number>);
     pressure: number;
     age: number;
     valid: boolean;
     buttons: number;
-    readonly true_position: Float64Array;
-    readonly true_velocity: Float64Array;
-    readonly unrendered_force: Float64Array;
-    readonly unrendered_torque: Float64Array;
-    readonly axes: Float64Array;
-    readonly signals: Float64Array;
+    get true_position(): Float64Array;
+    set true_position (values: ArrayLike<number>);
+    get true_velocity(): Float64Array;
+    set true_velocity (values: ArrayLike<number>);
+    get unrendered_force(): Float64Array;
+    set unrendered_force (values: ArrayLike<number>);
+    get unrendered_torque(): Float64Array;
+    set unrendered_torque (values: ArrayLike<number>);
+    get axes(): Float64Array;
+    set axes (values: ArrayLike<number>);
+    get signals(): Float64Array;
+    set signals (values: ArrayLike<number>);
 }
 
 /** What a device should apply, in SI units. */
@@ -47,8 +55,10 @@ export interface ParamAbout
     readonly unit: string;
     readonly about: string;
     readonly value: number;
-    readonly min: number | null;
+    readonly min: number | null;        // of the usual range, for a slider
     readonly max: number | null;
+    readonly hard_min: number | null;   // values are clamped to these
+    readonly hard_max: number | null;
     readonly choices?: readonly string[];
 }
 export interface ControlAbout { readonly name: string; readonly title: string; readonly value: number; readonly moves: readonly string[]; }
@@ -65,10 +75,15 @@ export interface About
     readonly controls: readonly ControlAbout[];
     readonly hits: readonly { readonly name: string }[];
     readonly limits: readonly string[];
+    readonly digest: number;   // of the export: that of the module must be the same
 }
 export type Stop = 'none' | 'not_finite' | 'stale' | 'starved' | 'released' | 'halted' | 'speed' | 'impulse' | 'energy' | 'emergency';
 
 export function compile (address: string | URL): Promise<WebAssembly.Module>;
+export function readFilesWith (reader: (file: URL) => Promise<BufferSource>): void;
+export function indexOf (list: readonly { readonly name: string }[], name: string, kind: string): number;
+export function checkNumber (value: unknown, place: string, remedy: string): void;
+export function checkPlace (values: unknown, place: string): void;
 
 export class Graph<Inputs = any, Outputs = any, Param extends string = string, Control extends string = string, Hit extends string = string,
                    Role extends string = string>

@@ -6,6 +6,7 @@
 #include <tactus/run/log/run_head.hpp>
 #include <tactus/text/json.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace tactus::host
@@ -35,7 +36,7 @@ std::string layoutChecks (const Exported& e)
     return text;
 }
 
-std::string wasmSource (const Exported& e)
+std::string wasmSource (const Exported& e, std::uint32_t digest)
 {
     std::string more;
     if (! e.parameters.empty())
@@ -94,10 +95,14 @@ EXPORT (inputs) void* wasmInputs()
     return &wasm_inputs;
 }
 EXPORT (outputs) void* wasmOutputs() { return &wasm_outputs; }
+EXPORT (digest) int wasmDigest() { return @DIGEST@; }   // @S@.js has the same, or is from another export
 EXPORT (prepare) bool wasmPrepare (double ticks_per_second) { return @S@_prepare (&wasm_graph, ticks_per_second); }
 EXPORT (tick) void wasmTick() { @S@_tick (&wasm_graph, &wasm_inputs, &wasm_outputs); }
 @MORE@)",
-                   { { "@CHECKS@", layoutChecks (e) }, { "@MORE@", filled (more, { { "@S@", e.stem } }) }, { "@S@", e.stem } });
+                   { { "@CHECKS@", layoutChecks (e) },
+                     { "@DIGEST@", std::to_string (digest) },
+                     { "@MORE@", filled (more, { { "@S@", e.stem } }) },
+                     { "@S@", e.stem } });
 }
 
 /// A limit that is infinite has no place in JSON.
@@ -121,7 +126,9 @@ Json paramsOf (const Exported& e)
                                      { "about", std::string (p.sheet->about) },
                                      { "value", limit (p.value) },
                                      { "min", limit (p.sheet->limits.usual.min) },
-                                     { "max", limit (p.sheet->limits.usual.max) } });
+                                     { "max", limit (p.sheet->limits.usual.max) },
+                                     { "hard_min", limit (p.sheet->limits.hard.min) },
+                                     { "hard_max", limit (p.sheet->limits.hard.max) } });
         if (! p.sheet->choices.empty()) param["choices"] = names (p.sheet->choices);
         all.push_back (std::move (param));
     }
@@ -174,7 +181,7 @@ Json recordsOf (const Exported& e)
 }
 
 /// The text that a program can ask the graph for, about the graph itself.
-std::string aboutOf (const Exported& e)
+std::string aboutOf (const Exported& e, std::uint32_t digest)
 {
     auto feeds = Json::array(), hits = Json::array();
     for (std::size_t i = 0; i < e.wiring.feed_names.size(); ++i)
@@ -191,11 +198,12 @@ std::string aboutOf (const Exported& e)
                            { "params", paramsOf (e) },
                            { "controls", controlsOf (e) },
                            { "hits", std::move (hits) },
-                           { "limits", names (limitNames()) } })
+                           { "limits", names (limitNames()) },
+                           { "digest", digest } })
         .dump (2);
 }
 
-std::string script (const Exported& e)
+std::string script (const Exported& e, std::uint32_t digest)
 {
     return filled (R"(// SPDX-License-Identifier: MIT
 // Written by `@PROGRAM@ export` from @FILE@. README.md says how to use it.
@@ -210,7 +218,11 @@ export class @C@ extends Graph
     static async load (address = new URL ('@S@.wasm', import.meta.url)) { return new @C@ (await compile (address)); }
 }
 )",
-                   { { "@ABOUT@", aboutOf (e) }, { "@C@", e.class_name }, { "@FILE@", comment (e.file) }, { "@PROGRAM@", e.program }, { "@S@", e.stem } });
+                   { { "@ABOUT@", aboutOf (e, digest) },
+                     { "@C@", e.class_name },
+                     { "@FILE@", comment (e.file) },
+                     { "@PROGRAM@", e.program },
+                     { "@S@", e.stem } });
 }
 
 /// Names as a type: 'drag.mu' | 'drag.d_max'.
@@ -272,10 +284,24 @@ export class @C@ extends Graph<Inputs, Outputs, Param, Control, Hit, Role>
                      { "@C@", e.class_name } });
 }
 
-/// The package.json of the folder, for npm, bundlers and Node.js.
+/// The files that are the same for all graphs.
+constexpr std::array shared_files { "tactus_graph.js", "tactus_graph.d.ts", "tactus_node.js", "tactus_worklet.js", "tactus_worklet.d.ts" };
+
+/// The package.json of the folder, for npm, bundlers and Node.js. Only with the condition `node` do they get files that import modules of Node.js.
 std::string package (const Exported& e)
 {
     const std::string stem = "./" + e.stem;
+    const auto entry = [] (const std::string& types, const std::string& file, const std::string& in_node = {}) {
+        auto all = Json::object ({ { "types", types } });
+        if (! in_node.empty()) all["node"] = in_node;
+        all["default"] = file;
+        return all;
+    };
+    auto files = Json::array();
+    for (const auto* end : { ".js", "_node.js", ".d.ts", ".wasm", "_worklet.js", "_worklet.d.ts" })
+        files.push_back (e.stem + end);
+    for (const auto* name : shared_files)
+        files.push_back (name);
     return Json::object ({ { "name", e.stem },
                            { "version", "1.0.0" },
                            { "description", e.graph.about.empty() ? e.graph.name : e.graph.about },
@@ -283,27 +309,47 @@ std::string package (const Exported& e)
                            { "type", "module" },
                            { "engines", Json::object ({ { "node", ">=18" } }) },
                            { "types", stem + ".d.ts" },
-                           { "exports", Json::object ({ { ".", Json::object ({ { "types", stem + ".d.ts" }, { "default", stem + ".js" } }) },
-                                                        { "./tactus_graph.js",
-                                                          Json::object ({ { "types", "./tactus_graph.d.ts" }, { "default", "./tactus_graph.js" } }) },
-                                                        { "./worklet", stem + "_worklet.js" },
+                           { "exports", Json::object ({ { ".", entry (stem + ".d.ts", stem + ".js", stem + "_node.js") },
+                                                        { "./tactus_graph.js", entry ("./tactus_graph.d.ts", "./tactus_graph.js", "./tactus_node.js") },
+                                                        { "./tactus_worklet.js", entry ("./tactus_worklet.d.ts", "./tactus_worklet.js") },
+                                                        { "./worklet", entry (stem + "_worklet.d.ts", stem + "_worklet.js") },
                                                         { stem + ".wasm", stem + ".wasm" } }) },
-                           { "files", Json::array ({ e.stem + ".js", e.stem + ".d.ts", e.stem + ".wasm", e.stem + "_worklet.js", "tactus_graph.js",
-                                                     "tactus_graph.d.ts", "tactus_worklet.js" }) } })
+                           { "files", std::move (files) } })
                .dump (2)
            + "\n";
 }
 
-std::string worklet (const Exported& e)
+std::string inNode (const Exported& e)
+{
+    return filled (R"(// SPDX-License-Identifier: MIT
+// @S@.js for Node.js, where load() reads the module from its file.
+import './tactus_node.js';
+
+export * from './@S@.js';
+)",
+                   { { "@S@", e.stem } });
+}
+
+std::string workletTypes()
+{
+    return R"(// SPDX-License-Identifier: MIT
+export type { FromWorklet, Options, ToWorklet } from './tactus_worklet.js';
+)";
+}
+
+/// It has what it says about the graph itself, because the script has the address of the module, for which webpack adds code that no AudioWorklet can run.
+std::string worklet (const Exported& e, std::uint32_t digest)
 {
     return filled (R"(// SPDX-License-Identifier: MIT
 // The processor '@S@' for an AudioWorkletNode: see tactus_worklet.js.
-import { @C@ } from './@S@.js';
+import { Graph } from './tactus_graph.js';
 import { register } from './tactus_worklet.js';
 
-register ('@S@', @C@);
+const about = @ABOUT@;
+
+register ('@S@', class extends Graph { constructor (module) { super (module, about); } });
 )",
-                   { { "@C@", e.class_name }, { "@S@", e.stem } });
+                   { { "@ABOUT@", aboutOf (e, digest) }, { "@S@", e.stem } });
 }
 
 /// From the pointer to the position of the tool, and from its force to sound, and to the rumble of a gamepad.
@@ -311,25 +357,52 @@ std::string page (const Exported& e)
 {
     return filled (R"(<!doctype html>
 <meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>@S@</title>
-<body style="margin: 0; height: 100vh; touch-action: none">Press, and drag.</body>
+<body style="margin: 0; height: 100vh; touch-action: none"><output>Press, and drag.</output></body>
 <script type="module">
 import { compile } from './tactus_graph.js';
 
-const module = compile (new URL ('@S@.wasm', import.meta.url));
-let node;
-addEventListener ('pointerdown', async () => {   // browsers start sound only after a gesture
-    if (node !== undefined) return;
-    node = null;
-    const sound = new AudioContext();
+const module = compile (new URL ('@S@.wasm', import.meta.url)), output = document.querySelector ('output'), told = text => { output.textContent = text; };
+let sound, node, last;   // of the pointer
+
+async function start()
+{
+    sound = new AudioContext();
     await sound.audioWorklet.addModule ('@S@_worklet.js');
     node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module: await module, gain: 0.3 } });
     node.connect (sound.destination);
-    node.port.onmessage = ({ data: { level } }) =>
-        navigator.getGamepads?.().find (pad => pad?.vibrationActuator)?.vibrationActuator
-            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, 10 * level) });   // all of it at 0.1 N
+    node.port.onmessage = ({ data: { level, stop, latched, refused } }) =>
+    {
+        told (refused ?? (latched ? `Stopped: ${stop}. Press to go on.` : 'Press, and drag.'));
+        const pad = navigator.getGamepads?.().find (one => one?.vibrationActuator);
+        if (level > 0.001) pad?.vibrationActuator   // all of it at 0.1 N
+            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, 10 * level) })?.catch (() => {});
+    };
+    move (last, true);
+}
+
+/** 0.1 mm for each pixel from the middle of the window; a pressed pointer is 0.2 mm below z = 0. A pointer that leaps touches nothing on its way. */
+function move (at, jump = false)
+{
+    last = at;
+    const x = 1e-4 * (at.clientX - innerWidth / 2), y = 1e-4 * (innerHeight / 2 - at.clientY);
+    if (jump) node?.port.postMessage ({ position: [x, y, 2e-4], jump });
+    node?.port.postMessage ({ position: [x, y, at.buttons ? -2e-4 : 2e-4] });
+}
+
+addEventListener ('pointerdown', at =>
+{
+    move (at, true);
+    node?.port.postMessage ({ rearm: true });               // a press is an act of a person
+    if (sound === undefined) start().catch (why => told (why.message));
 });
-addEventListener ('pointermove', at =>   // 0.1 mm for each pixel; a pressed pointer is 0.2 mm below z = 0
-    node?.port.postMessage ({ position: [1e-4 * at.clientX, -1e-4 * at.clientY, at.buttons ? -2e-4 : 2e-4] }));
+addEventListener ('pointermove', at => move (at));
+document.documentElement.addEventListener ('pointerenter', at => move (at, true));
+for (const end of ['pointerup', 'pointercancel'])
+    addEventListener (end, at =>
+    {
+        move ({ clientX: at.clientX, clientY: at.clientY, buttons: 0 });
+        sound?.resume();                                    // a touch lets a page sound only when it ends
+    });
 </script>
 )",
                    { { "@S@", e.stem } });
@@ -338,23 +411,25 @@ addEventListener ('pointermove', at =>   // 0.1 mm for each pixel; a pressed poi
 std::string shared (const std::string& name) { return std::string (findSource ("host/code/generate/targets/" + name)->text); }
 }   // namespace
 
-std::vector<std::pair<std::string, std::string>> wasmFiles (const Exported& e)
+std::vector<std::pair<std::string, std::string>> wasmFiles (const Exported& e, std::uint32_t digest)
 {
-    return { { e.stem + "_wasm.cpp", wasmSource (e) },
-             { e.stem + ".js", script (e) },
-             { e.stem + ".d.ts", types (e) },
-             { e.stem + "_worklet.js", worklet (e) },
-             { "package.json", package (e) },
-             { "index.html", page (e) },
-             { "tactus_graph.js", shared ("tactus_graph.js") },
-             { "tactus_worklet.js", shared ("tactus_worklet.js") },
-             { "tactus_graph.d.ts", shared ("tactus_graph.d.ts") } };
+    std::vector<std::pair<std::string, std::string>> files { { e.stem + "_wasm.cpp", wasmSource (e, digest) },
+                                                             { e.stem + ".js", script (e, digest) },
+                                                             { e.stem + "_node.js", inNode (e) },
+                                                             { e.stem + ".d.ts", types (e) },
+                                                             { e.stem + "_worklet.js", worklet (e, digest) },
+                                                             { e.stem + "_worklet.d.ts", workletTypes() },
+                                                             { "package.json", package (e) },
+                                                             { "index.html", page (e) } };
+    for (const auto* name : shared_files)
+        files.emplace_back (name, shared (name));
+    return files;
 }
 
 std::string wasmMake (const Exported& e)
 {
     return filled (R"(
-# make wasm: builds @S@.wasm (Debian: clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc).
+# make wasm: builds @S@.wasm (Debian: libeigen3-dev clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc).
 # make wasm_test: builds the self-test for WebAssembly, and runs it in node.
 WASM_CXX ?= clang++-22
 WASM_CXXFLAGS ?= -O2

@@ -48,7 +48,7 @@ export const wasm = import.meta.resolve ('${about.name}/${about.name}.wasm'), wo
     processor.port.onmessage ({ data: { stop: true } });
     for (let block = 0; block < 20; ++block)
         processor.process ([], [stereo]);
-    assert.deepStrictEqual (Array.from (processor.effort.force).map (Math.abs), [0, 0, 0]);
+    assert.deepStrictEqual (Array.from (processor.first.effort.force).map (Math.abs), [0, 0, 0]);
     console.log ('ok');
 }
 finally

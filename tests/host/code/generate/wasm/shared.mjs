@@ -49,7 +49,7 @@ export function soundOf (graph)
         {
             const at = graph.inputs[role].position;
             for (let k = 0; k < 3 && left > 0; ++k)
-                at[k] += (target[k] - at[k]) / left;
+                at[k] = left === 1 ? target[k] : at[k] + (target[k] - at[k]) / left;
             left = Math.max (0, left - 1);
             graph.tick();
             const f = graph.outputs[role].force, now = f[0] + f[1] + f[2];
