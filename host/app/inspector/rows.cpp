@@ -132,6 +132,11 @@ private:
         modulations = modulationsOf (document.graph(), patch.name, node.name, port, catalogue);
         const auto count = std::min (modulations.size(), most_rings);
         const bool has_changed = count != rings.size();
+        if (has_changed && depth_field)
+        {
+            depth_field->onFocusLost = nullptr;   // what is typed is for a dial that may be gone
+            depth_field.reset();
+        }
         while (rings.size() > count)
             rings.pop_back();
         while (rings.size() < count)

@@ -89,13 +89,10 @@ void DepthRing::mouseUp (const juce::MouseEvent& e)
 {
     if (! std::exchange (is_held, false)) return;
     const bool ends = has_moved && modulation.depth == 0.0;
-    if (! e.source.hasMovedSignificantlySincePressed()) takeFocus (*this);
+    const bool is_click = ! e.source.hasMovedSignificantlySincePressed();
+    if (is_click) takeFocus (*this);
+    if (is_click && e.getNumberOfClicks() == 2 && onType) return onType ({});
     if (ends && onEnd) onEnd (true);   // last, because the row and this ring may be replaced
-}
-
-void DepthRing::mouseDoubleClick (const juce::MouseEvent& e)
-{
-    if (onType && ! e.mods.isPopupMenu()) onType ({});
 }
 
 bool DepthRing::keyPressed (const juce::KeyPress& key)
