@@ -96,7 +96,7 @@ public:
     void requestNode (NodeRequest);                                 ///< asks the user for a node to add
     void addNodeAt (const std::string& type, const NodeRequest&);   ///< adds a node and connects it as requested
 
-    /// Adds a node of this type that moves a param of a node of the patch around its value; "": asks for it. What it reads of the hand is wired, too.
+    /// Adds a node of this type that moves a param of a node of the patch around its value; "": asks for it.
     void addModulator (const std::string& node, const std::string& param, const std::string& type);
 
     /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.

@@ -294,7 +294,6 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         const auto &from = is_output ? other : own, &to = is_output ? own : other;
         if (! checkWire (from.end(), to.end())) continue;
         const bool has_more = is_output && (other.port->id == "position" || other.port->id == "resistance");
-        const auto driven = other.node->name;
         const auto name = node->name;
         auto joined = connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port });
         if (request.modulates)
@@ -302,14 +301,6 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         else if (to.port->role == Role::param)
             addValues (*to.node, *to.port, *from.node, joined);
         perform (std::move (joined), graph::Step::joined);
-        if (const auto* added_type = canvas.types().find (type); request.modulates && added_type != nullptr)
-        {
-            graph::Batch wires;
-            const auto excluded = wiring::downstreamOf (patchShown(), driven);
-            if (std::ranges::any_of (added_type->inputs, [&] (const PortSheet& p) { return wiring::isNeeded (*added_type, p); }))
-                wiring::wireInputs (*added_type, name, document.graph(), canvas.patch(), excluded, canvas.types(), wires);
-            if (! wires.commands.empty()) perform (std::move (wires), graph::Step::joined);
-        }
         if (has_more)
             if (auto wires = wiring::obviousWires (document.graph(), canvas.patch(), name, canvas.types()); ! wires.commands.empty())
                 perform (std::move (wires), graph::Step::joined);

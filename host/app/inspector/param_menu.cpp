@@ -76,7 +76,7 @@ void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_na
             if (onModulate)
             {
                 juce::PopupMenu by;
-                for (const auto type : { "signal.lfo", "signal.envelope", "signal.noise", "motion.velocity" })
+                for (const auto type : { "signal.lfo", "signal.envelope" })
                     if (const auto* known = catalogue.find (type))
                         by.addItem (fromUtf8 (known->info.name), [safe = SafePointer (this), at, type] {
                             if (safe != nullptr) safe->onModulate (at.node, at.port, type);

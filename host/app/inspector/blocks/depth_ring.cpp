@@ -91,7 +91,7 @@ void DepthRing::mouseUp (const juce::MouseEvent& e)
     const bool ends = has_moved && modulation.depth == 0.0;
     const bool is_click = ! e.source.hasMovedSignificantlySincePressed();
     if (is_click) takeFocus (*this);
-    if (is_click && e.getNumberOfClicks() == 2 && onType) return onType ({});
+    if (is_click && ! has_moved && e.getNumberOfClicks() == 2 && onType) return onType ({});
     if (ends && onEnd) onEnd (true);   // last, because the row and this ring may be replaced
 }
 

@@ -356,7 +356,7 @@ TEST_CASE ("a right click on a parameter of a node opens its menu, inside a subg
     const auto count = exposed();
     for (const std::size_t wanted : { count - 1, count })
     {
-        c.w->choose (c.value (name, param), 2);   // below Release
+        c.w->choose (c.value (name, param), 3);   // below Release and Modulate by
         CHECK (exposed() == wanted);
     }
     c.w->choose (c.value (name, param), -2);   // above the commands of the node
