@@ -254,7 +254,7 @@ juce::Rectangle<float> usualBox (juce::Point<float> at) { return { at.x, at.y, 1
 
 juce::Point<float> freePlace (const Scene& scene, juce::Rectangle<float> box, graph::Id own)
 {
-    while (! coverOf (scene, box, own).isEmpty())
+    while (! coverOf (scene, box.expanded (Box::grid), own).isEmpty())   // a node that touched its neighbour would look like a part of it
         box.translate (0.0f, 2 * Box::grid);
     return box.getPosition();
 }

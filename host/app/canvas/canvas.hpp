@@ -127,6 +127,8 @@ public:
     std::function<void (const std::string& type, const NodeRequest&)> onTypeDropped;   ///< a node is dragged here from the list of nodes
     std::function<void (const std::filesystem::path&)> onSaveClip;                     ///< receives the clip of a node, to be saved in another format
 
+    std::function<void (const PortId& start, juce::Point<int> screen)> onWireOutside;   ///< a new wire is dropped beside the canvas
+
     std::function<void (const juce::String&)> onNotice;   ///< receives the reason why an edit was not made
 
     void hint (const juce::String&);

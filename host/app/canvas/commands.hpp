@@ -99,8 +99,14 @@ public:
     /// Adds a node of this type that moves a param of a node of the patch around its value; "": asks for it.
     void addModulator (const std::string& node, const std::string& param, const std::string& type);
 
+    /// Checks whether join() would connect two ports. Any speed may modulate a param that no wire sets: the depth of the wire has the unit for it.
+    Result<> mayJoin (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0) const;
+
     /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.
     void join (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0);
+
+    /// Connects an output to what a control sets: a modulator moves the control's targets around their values. One undo step.
+    void joinControl (const PortId& start, const std::string& control);
 
     void editParams();   ///< gives the keyboard focus to the parameters of the selected node
     void editParam (const SceneNode&, const Socket&);
@@ -122,6 +128,7 @@ private:
     void moveClear (graph::Id made, const NodeRequest&);
     void placeAddedNode();
     void modulate (const Plug& from, const Plug& to, graph::Command& joined) const;
+    void connectNew (const Plug& from, const Plug& to, graph::Step);
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;

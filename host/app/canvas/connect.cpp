@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 namespace tactus::host
 {
@@ -37,9 +38,11 @@ class WireChoices
 public:
     static constexpr std::array roles { Role::output, Role::input, Role::param };
 
+    using Fits = std::function<bool (const ScenePort& from, const ScenePort& to)>;
+
     /// `controlAt`: the name of the control that sets a param, as "drag.mu", or empty.
-    WireChoices (const Scene& s, const SceneNode& n, std::function<std::string (const std::string&)> controlAt)
-        : scene (s), node (n), nameOfControl (std::move (controlAt))
+    WireChoices (const Scene& s, const SceneNode& n, Fits f, std::function<std::string (const std::string&)> controlAt)
+        : scene (s), node (n), fits (std::move (f)), nameOfControl (std::move (controlAt))
     {
         for (const auto& w : scene.wires())
             wired.insert (w.text);
@@ -98,7 +101,7 @@ private:
     void addWire (const ScenePort& own, const ScenePort& there)
     {
         const bool leaves = isOutput (own);
-        if (! checkWireByComponent ((leaves ? own : there).end(), (leaves ? there : own).end())) return;
+        if (! fits (leaves ? own : there, leaves ? there : own)) return;
         const auto text = wireText (*own.port, there.node->name + '.' + there.port->id);
         if (wired.contains (text)) return;
         const auto& param = leaves ? there : own;
@@ -112,6 +115,7 @@ private:
 
     const Scene& scene;
     const SceneNode& node;
+    Fits fits;
     std::function<std::string (const std::string&)> nameOfControl;
     std::set<std::string, std::less<>> wired;
     std::vector<WireChoice> found;
@@ -123,7 +127,8 @@ void CanvasCommands::wireFromSelection()
     const auto nodes = selectedNodes();
     if (nodes.size() != 1 || ! canvas.onChoose) return;
     const auto& node = *nodes.front();
-    WireChoices made (canvas.scene(), node, [this] (const std::string& param) {
+    const auto fits = [this] (const ScenePort& from, const ScenePort& to) { return mayJoin (from, to).has_value(); };
+    WireChoices made (canvas.scene(), node, fits, [this] (const std::string& param) {
         const auto by = controlOf (document.graph(), canvas.address (param));
         return by ? by->name : std::string();
     });
@@ -292,7 +297,7 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     {
         const ScenePort own { node, &p };
         const auto &from = is_output ? other : own, &to = is_output ? own : other;
-        if (! checkWire (from.end(), to.end())) continue;
+        if (from.port->width != to.port->width || ! mayJoin (from, to)) continue;
         const bool has_more = is_output && (other.port->id == "position" || other.port->id == "resistance");
         const auto name = node->name;
         auto joined = connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port });
@@ -301,6 +306,12 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         else if (to.port->role == Role::param)
             addValues (*to.node, *to.port, *from.node, joined);
         perform (std::move (joined), graph::Step::joined);
+        if (const auto* reads = request.modulates ? canvas.types().find (type) : nullptr)
+        {
+            graph::Batch inputs { NEEDS_TRANS ("connect"), {} };
+            wiring::wireInputs (*reads, name, document.graph(), canvas.patch(), { name }, canvas.types(), inputs);
+            if (! inputs.commands.empty()) perform (std::move (inputs), graph::Step::joined);
+        }
         if (has_more)
             if (auto wires = wiring::obviousWires (document.graph(), canvas.patch(), name, canvas.types()); ! wires.commands.empty())
                 perform (std::move (wires), graph::Step::joined);
@@ -326,16 +337,17 @@ void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command&
                          gainText (*depth)));
 }
 
+void CanvasCommands::connectNew (const Plug& from, const Plug& to, graph::Step step)
+{
+    auto command = connect (document.graph(), canvas.patch(), from, to);
+    modulate (from, to, command);
+    perform (std::move (command), step);
+}
+
 /// One step, also if it moves a wire. Where nothing would change, no step.
 void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, const Plug& to)
 {
-    if (replaced == 0)
-    {
-        auto command = connect (document.graph(), canvas.patch(), from, to);
-        modulate (from, to, command);
-        perform (std::move (command));
-        return;
-    }
+    if (replaced == 0) return connectNew (from, to, graph::Step::own);
     const graph::RemoveWire removal { canvas.patch(), replaced };
     auto without = document.graph();
     const auto back = graph::apply (without, removal);
@@ -347,6 +359,40 @@ void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, con
     if (commands.size() == 1 && now.from == was->wire.from && now.to == was->wire.to) return;
     commands.insert (commands.begin(), removal);
     perform (graph::Batch { NEEDS_TRANS ("re-plug wire"), std::move (commands) });
+}
+
+Result<> CanvasCommands::mayJoin (const ScenePort& from, const ScenePort& to, graph::Id replaced) const
+{
+    auto checked = checkWireByComponent (from.end(), to.end());
+    const bool is_speed = from.port->role == Role::output && from.end().quantity == Quantity::speed && from.port->width == 1;
+    if (checked || ! is_speed || replaced != 0 || to.port->role != Role::param || to.port->width != 1 || to.port->isChoice()) return checked;
+    for (const auto& w : patchShown().wires)
+        if (! w.add && w.to.node == to.node->name && to.node->face->endOf (w.to) == to.port) return checked;
+    return {};
+}
+
+void CanvasCommands::joinControl (const PortId& start, const std::string& control)
+{
+    const auto* set = findControl (document.graph(), control);
+    if (set == nullptr) return;
+    std::vector<PortId> targets;
+    for (const auto& n : canvas.scene().nodes())
+        for (const auto& p : n.face->params)
+            if (std::ranges::count (set->to, canvas.address (n.name + '.' + p.id), &graph::Control::Target::path) > 0) targets.push_back ({ n.id, p.role, p.id });
+    auto step = graph::Step::own;
+    juce::String why = filled (TRANS ("%1 sets nothing in this patch"), set->name.empty() ? control : set->name);
+    for (const auto& target : targets)
+    {
+        const auto from = canvas.scene().findPort (start), to = canvas.scene().findPort (target);
+        if (! from || ! to) continue;
+        if (const auto may = mayJoin (from, to); ! may || from.port->width != to.port->width)
+        {
+            why = fromUtf8 (to.node->name + '.' + to.port->id) + ": " + (may ? TRANS ("A vector cannot drive a number") : fromUtf8 (may.error().text));
+            continue;
+        }
+        connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, std::exchange (step, graph::Step::joined));
+    }
+    if (step == graph::Step::own) canvas.notice (why);
 }
 
 void CanvasCommands::join (const ScenePort& from, const ScenePort& to, graph::Id replaced)

@@ -64,6 +64,11 @@ public:
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
             if (wire_id != 0) return unplug();
+            if (! canvas.getLocalBounds().contains (e.getPosition()))
+            {
+                if (canvas.onWireOutside) canvas.onWireOutside (start, e.getScreenPosition());
+                return;
+            }
             canvas.commands().requestNode ({ at, start });
             return;
         }
@@ -123,8 +128,8 @@ private:
     {
         const auto from = canvas.scene().findPort (start);
         if (! from) return Message::error ("wire/refused", {}, TRANS ("the port no longer exists").toStdString());
-        const WireEnd there { &p, n.quantityOf (p) };
-        return start.role == Role::output ? checkWireByComponent (from.end(), there) : checkWireByComponent (there, from.end());
+        const ScenePort there { &n, &p };
+        return start.role == Role::output ? canvas.commands().mayJoin (from, there, wire_id) : canvas.commands().mayJoin (there, from, wire_id);
     }
 
     /// Paints the problem next to the end of the wire, above the pointer.

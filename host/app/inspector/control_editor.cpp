@@ -42,6 +42,7 @@ class Header final : public Block
 public:
     Header (Document& d, const Catalogue& c, std::string i, const Refusal& refused) : document (d), catalogue (c), id (std::move (i))
     {
+        getProperties().set (shown_control, fromUtf8 (id));
         name.setTitle (TRANS ("Name of the control"));
         name.setTooltip (TRANS ("The name of the control"));
         name.onApply = [this] (const juce::String& text) { change (document, id, [to = text.trim().toStdString()] (auto& c) { c.name = to; }); };

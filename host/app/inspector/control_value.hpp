@@ -6,8 +6,13 @@
 
 #include <string>
 
+#include <juce_core/juce_core.h>
+
 namespace tactus::host
 {
+
+/// The property of a component that shows a control: the control's id.
+inline const juce::Identifier shown_control { "control" };
 
 /// The datasheet row of the value of a control, from 0 to 1.
 const PortSheet& controlSheet();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inspector.hpp"
+#include "control_value.hpp"
 
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/look/focus.hpp>
@@ -190,6 +191,13 @@ void Inspector::paint (juce::Graphics& g)
     g.fillAll (themeOf (*this).panel);
     g.setColour (themeOf (*this).hairline);
     g.drawVerticalLine (0, 0.0f, static_cast<float> (getHeight()));
+}
+
+std::string Inspector::controlAt (juce::Point<int> screen)
+{
+    for (auto* at = getComponentAt (getLocalPoint (nullptr, screen)); at != nullptr && at != this; at = at->getParentComponent())
+        if (const auto* id = at->getProperties().getVarPointer (shown_control)) return id->toString().toStdString();
+    return {};
 }
 
 void Inspector::resized()

@@ -37,6 +37,7 @@ public:
 
     Column& shown() noexcept { return *column; }
     KnobStrip& knobs() noexcept { return strip; }
+    std::string controlAt (juce::Point<int> screen);   ///< the id of the control that is shown there; "" if there is none
 
     /// Fills the menu of a param of the patch that is inspected.
     void fillParamMenu (juce::PopupMenu&, const std::string& node, const std::string& port);

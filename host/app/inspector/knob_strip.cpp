@@ -32,6 +32,7 @@ class KnobStrip::Knob final : public juce::Slider
 public:
     Knob (KnobStrip& s, std::string i) : juce::Slider (RotaryHorizontalVerticalDrag, NoTextBox), strip (s), document (s.document), id (std::move (i))
     {
+        getProperties().set (shown_control, fromUtf8 (id));
         setRange (0.0, 1.0);
         setNumDecimalPlacesToDisplay (2);
         setWantsKeyboardFocus (true);

@@ -76,14 +76,15 @@ void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_na
             if (onModulate)
             {
                 juce::PopupMenu by;
-                for (const auto type : { "signal.lfo", "signal.envelope" })
-                    if (const auto* known = catalogue.find (type))
-                        by.addItem (fromUtf8 (known->info.name), [safe = SafePointer (this), at, type] {
-                            if (safe != nullptr) safe->onModulate (at.node, at.port, type);
-                        });
-                by.addItem (TRANS ("Another node..."), [safe = SafePointer (this), at] {
-                    if (safe != nullptr) safe->onModulate (at.node, at.port, {});
-                });
+                const auto add = [&] (const juce::String& name, const char* type) {
+                    by.addItem (name, [safe = SafePointer (this), at, type] {
+                        if (safe != nullptr) safe->onModulate (at.node, at.port, type);
+                    });
+                };
+                for (const auto* type : { "signal.lfo", "signal.envelope", "signal.noise" })
+                    if (const auto* known = catalogue.find (type)) add (fromUtf8 (known->info.name), type);
+                add (TRANS ("Speed of the hand"), "motion.velocity");
+                add (TRANS ("Another node..."), "");
                 menu.addSubMenu (TRANS ("Modulate by"), by);
             }
             menu.addSeparator();

@@ -165,6 +165,10 @@ void MainView::connect()
     canvas.onChoose = [this] (const auto& purpose, auto entries, auto chosen) {
         openPalette (parts.palette, parts.patching, purpose, std::move (entries), std::move (chosen));
     };
+    canvas.onWireOutside = [this] (const PortId& start, juce::Point<int> screen) {
+        if (const auto control = parts.inspector.controlAt (screen); ! control.empty() && start.role == Role::output)
+            parts.patching.commands().joinControl (start, control);
+    };
     canvas.onProbe = [this] (const auto& ports) { parts.desk.probe (ports); };
     canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (parts.desk, file, {}, at); };
     canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (parts.desk, g); };

@@ -200,3 +200,21 @@ TEST_CASE ("a modulator with an amplitude keeps its unit, and a second wire repl
     CHECK_FALSE (d_max.add);
     CHECK (rig.graph().root.wires.size() == 2);
 }
+
+TEST_CASE ("a speed can be drawn to any number that no wire sets, and what is refused for another output names the units", "[app][canvas][sources]")
+{
+    Sketch s;
+    s.node ("drag", "friction.elasto_plastic").node ("speed", "motion.velocity").node ("level", "signal.constant").node ("hand", "device.position");
+    s.wire ("level.out -> drag.d_max");
+    CanvasRig rig { s.graph };
+    const auto port = [&] (const char* node, Role role, const char* id) { return rig.canvas->scene().findPort ({ rig.node (node).id, role, id }); };
+    const auto may = [&] (const char* node, const char* out, Role role, const char* to, graph::Id replaced = 0) {
+        return rig.canvas->commands().mayJoin (port (node, Role::output, out), port ("drag", role, to), replaced).has_value();
+    };
+    CHECK (may ("speed", "speed", Role::param, "mu"));
+    CHECK (may ("speed", "speed", Role::param, "break_away"));
+    CHECK_FALSE (may ("speed", "speed", Role::param, "d_max"));                              // a wire sets it
+    CHECK_FALSE (may ("speed", "speed", Role::param, "mu", rig.graph().root.wires[0].id));   // a moved wire keeps its gain
+    CHECK_FALSE (may ("hand", "position", Role::param, "mu"));
+    CHECK_FALSE (may ("speed", "speed", Role::input, "normal_force"));
+}

@@ -275,7 +275,7 @@ TEST_CASE ("the menu of a parameter adds what modulates it: it stays the base, a
             if (i.getItem().text == name && i.getItem().action) return i.getItem().action();
         FAIL ("there is no " << name);
     };
-    for (const juce::String type : { "LFO", "Envelope" })
+    for (const juce::String type : { "LFO", "Envelope", "Noise", "Speed of the hand" })
     {
         INFO (type);
         w.select ("drag");
@@ -283,10 +283,51 @@ TEST_CASE ("the menu of a parameter adds what modulates it: it stays the base, a
         choose (type);
         OnStage::settle();
         const auto made = first (w.graph(), "drag.mu");
-        CHECK (made.depth != 0.0);
+        CHECK (made.depth == Approx (0.1 * value.get<double>()).epsilon (0.02));
         CHECK (w.graph().root.find ("drag")->params.at ("mu") == value);
+        CHECK (compile (w.graph(), catalogue()).plan != nullptr);
+        const auto isFromHand = [] (const graph::Wire& e) { return e.from.port == "position" && graph::toText (e.to).starts_with ("velocity"); };
+        CHECK (std::ranges::any_of (w.graph().root.wires, isFromHand) == (type == "Speed of the hand"));
         w.document.undo();
         CHECK (writeGraph (w.graph()) == before);
         OnStage::settle();
     }
+}
+
+TEST_CASE ("a cable that is dropped on a knob moves what the knob sets, in one undo step; beside the canvas it adds nothing", "[app][modulation]")
+{
+    auto g = wavy ("0.02");
+    g.root.wires.pop_back();
+    DeskStage w (std::move (g), 1280, 1000);
+    const auto before = writeGraph (w.graph());
+    bool asks = false;
+    w.canvas.onNodeRequested = [&] (const NodeRequest&) { asks = true; };
+    const auto start = [&] {
+        const auto& nodes = w.canvas.scene().nodes();
+        const auto& wave = *std::ranges::find (nodes, "wave", &SceneNode::name);
+        return w.onStage (wave.placeOf (*wave.box.find (Role::output, "out")));
+    };
+    const auto dropOn = [&] (juce::Component& c) {
+        w.stage->drag (start(), w.middleOf (c));
+        OnStage::settle();
+    };
+    w.select ("board");
+    auto* strip = dynamic_cast<KnobStrip*> (w.titled ("Controls"));
+    REQUIRE (strip != nullptr);
+    dropOn (strip->knob (0));
+    CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04).epsilon (0.02));
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == before);
+
+    w.canvas.select ({});   // the column has the control itself
+    OnStage::settle();
+    auto* name = w.titled ("Name of the control");
+    REQUIRE (name != nullptr);
+    dropOn (*name);
+    CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04).epsilon (0.02));
+    w.document.undo();
+
+    dropOn (w.status);
+    CHECK (writeGraph (w.graph()) == before);
+    CHECK_FALSE (asks);
 }

@@ -146,6 +146,9 @@ private:
         canvas.onBreadcrumbs = canvas.onSelection;
         canvas.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };
         canvas.onEditParams = [this] { inspector.focusFirst(); };
+        canvas.onWireOutside = [this] (const PortId& start, juce::Point<int> screen) {
+            if (const auto control = inspector.controlAt (screen); ! control.empty()) canvas.commands().joinControl (start, control);
+        };
         canvas.onProbe = [this] (const auto& ports) { desk.probe (ports); };
         canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (desk, file, {}, at); };
         canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { host::addNode (desk, type, request); };
