@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layers_panel.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/look/size_in_view.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
@@ -382,6 +383,23 @@ void LayersPanel::drag (int layer, int x, bool let_go)
         const auto& graph = safe->document.graph();
         if (findMixer (graph, safe->chosen) != nullptr) safe->document.perform (moveLayer (graph, safe->chosen, safe->catalogue, layer, place));
     });
+}
+
+bool LayersPanel::keyPressed (const juce::KeyPress& key)
+{
+    const bool to_left = key.isKeyCode (juce::KeyPress::leftKey);
+    const auto* part = getCurrentlyFocusedComponent();
+    if (! key.getModifiers().isCtrlDown() || ! (to_left || key.isKeyCode (juce::KeyPress::rightKey)) || part == nullptr) return false;
+    const auto own = std::ranges::find (strips, part->getParentComponent(), [] (const auto& s) { return s.get(); });
+    if (own == strips.end()) return false;
+    const auto beside = own - strips.begin() + (to_left ? -1 : 1);
+    if (beside < 0 || beside >= std::ssize (strips)) return true;
+    auto& strip = *strips[static_cast<std::size_t> (beside)];
+    auto* to = strip.getChildComponent ((*own)->getIndexOfChildComponent (part));
+    if (to == nullptr || ! to->isShowing() || ! to->isEnabled()) return true;
+    scroll.setViewPosition (std::min (std::max (scroll.getViewPositionX(), strip.getRight() - scroll.getViewWidth()), strip.getX()), 0);
+    takeFocus (*to);
+    return true;
 }
 
 void LayersPanel::paint (juce::Graphics& g)

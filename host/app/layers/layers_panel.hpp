@@ -56,6 +56,7 @@ public:
     void itemDragExit (const SourceDetails&) override { endDrop(); }
     void itemDropped (const SourceDetails&) override;
 
+    bool keyPressed (const juce::KeyPress&) override;   ///< Ctrl+Left and Ctrl+Right go to the same part of the strip beside
     void paint (juce::Graphics&) override;
     void paintOverChildren (juce::Graphics&) override;
     void resized() override;

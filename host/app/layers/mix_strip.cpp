@@ -86,14 +86,16 @@ void MixStrip::paint (juce::Graphics& g)
     g.setColour (theme.dim);
     g.drawText (TRANS ("ducking"), duck_label, juce::Justification::centredLeft, false);
     g.drawText (feed.unit.empty() ? TRANS ("ceiling") : filled (TRANS ("ceiling (%1)"), feed.unit), ceiling_label, juce::Justification::centredLeft, false);
-    auto lines = text_area;
+    auto drawLine = [&, lines = text_area] (const juce::String& text) mutable {   // a long number is drawn narrower, not without its unit
+        g.drawFittedText (text, lines.removeFromTop (18), juce::Justification::centredLeft, 1, 0.6f);
+    };
     g.setColour (theme.text);
-    g.drawText (filled (TRANS ("peak %1"), peak), lines.removeFromTop (18), juce::Justification::centredLeft, false);
-    if (motor_peak.isNotEmpty()) g.drawText (filled (TRANS ("motor %1"), motor_peak), lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    drawLine (filled (TRANS ("peak %1"), peak));
+    if (motor_peak.isNotEmpty()) drawLine (filled (TRANS ("motor %1"), motor_peak));
     auto state = limits ? TRANS ("below the ceiling") : TRANS ("no ceiling");
     if (limits && over) state = filled (TRANS ("over by %1 dB"), juce::String (over_db, 1));
     g.setColour (over ? theme.warning : theme.dim);
-    g.drawText (state, lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    drawLine (state);
 }
 
 void MixStrip::resized()

@@ -162,7 +162,7 @@ void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 bool NumberField::keyPressed (const juce::KeyPress& key)
 {
     constexpr double step = 4.0, fine = 0.1;   // an arrow key acts like a drag by this many pixels; fine: with Shift
-    if (isArrow (key))
+    if (isArrow (key) && ! key.getModifiers().isCtrlDown())
     {
         const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
         if (refusesHand()) return true;

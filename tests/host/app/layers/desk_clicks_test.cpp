@@ -16,6 +16,8 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskStage;
 using tactus::host::test::OnStage;
+using tactus::host::test::readTexts;
+using tactus::host::test::waitFor;
 
 TEST_CASE ("three textures and a vibration are composed with a few clicks", "[layers]")
 {
@@ -246,4 +248,42 @@ TEST_CASE ("a preset that is dropped on the mixer is a layer of it, in one undo 
     CHECK (w.status.text().contains ("as a layer"));
     w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
+}
+
+TEST_CASE ("Ctrl and an arrow key go to the same part of the next strip, and come to rest at the last one", "[app][layers]")
+{
+    DeskStage w ("bronze_bell.json");
+    auto& desk = w.show<LayersPanel> (layersPanel);
+    REQUIRE (desk.layers() == 3);
+    const auto isAt = [&] (std::size_t i) { return desk.layer (i).gainField().hasKeyboardFocus (true); };
+    desk.layer (0).gainField().grabKeyboardFocus();
+    const auto before = w.document.history().position();
+    for (const std::size_t at : { 1u, 2u, 2u })
+    {
+        w.key ("ctrl + cursor right");
+        CHECK (isAt (at));
+    }
+    w.key ("ctrl + cursor left");
+    CHECK (isAt (1));
+    CHECK (w.document.history().position() == before);   // no value has changed
+    w.key ("cursor right");
+    CHECK (w.document.history().position() == before + 1);   // an arrow alone turns the value
+}
+
+TEST_CASE ("the strip of the mix shows each number with its unit", "[app][layers]")
+{
+    DeskStage w ("bronze_bell.json");
+    auto& desk = w.show<LayersPanel> (layersPanel);
+    REQUIRE (w.start());
+    REQUIRE (waitFor ([&] { return desk.mix()->motorMeter().peak() > 0.0; }));
+    desk.refresh();
+    int lines = 0;
+    for (const auto& t : readTexts (*desk.mix()))
+        if (t.text.startsWith ("peak ") || t.text.startsWith ("motor "))
+        {
+            INFO (t.text);
+            ++lines;
+            CHECK (t.text.endsWithChar ('N'));
+        }
+    CHECK (lines == 2);
 }
