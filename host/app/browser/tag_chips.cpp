@@ -4,6 +4,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -16,6 +17,11 @@ juce::String fewer() { return TRANS ("fewer"); }
 
 void TagChips::show (std::vector<std::string> tags)
 {
+    if (is_held)
+    {
+        pending = std::move (tags);
+        return repaint();
+    }
     std::stable_partition (tags.begin(), tags.end(), [this] (const std::string& t) { return selected.contains (t); });
     all = std::move (tags);
     repaint();
@@ -101,10 +107,18 @@ void TagChips::mouseUp (const juce::MouseEvent& e)
         else
         {
             if (selected.erase (chip.tag) == 0) selected.insert (chip.tag);
+            is_held = true;
             if (onChange) onChange();
         }
         return repaint();
     }
+}
+
+void TagChips::mouseExit (const juce::MouseEvent&)
+{
+    if (! std::exchange (is_held, false)) return;
+    if (pending) show (*std::exchange (pending, std::nullopt));
+    if (onResize) onResize();
 }
 
 }   // namespace tactus::host

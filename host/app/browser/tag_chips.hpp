@@ -5,6 +5,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ class TagChips final : public juce::Component
 public:
     TagChips() { setTitle (TRANS ("Tags")); }
 
-    void show (std::vector<std::string> tags);   ///< in this order, selected ones first
+    /// In this order, selected ones first. After a click, the chips stay where they are until the pointer has left them.
+    void show (std::vector<std::string> tags);
     const std::set<std::string>& chosen() const noexcept { return selected; }
 
     int heightFor (int width, int rows) const;   ///< at most this many rows; all rows after a click on "more"
@@ -28,6 +30,7 @@ public:
 
     void paint (juce::Graphics&) override;
     void mouseUp (const juce::MouseEvent&) override;
+    void mouseExit (const juce::MouseEvent&) override;
 
 private:
     struct Chip
@@ -43,7 +46,8 @@ private:
     std::vector<std::string> all;
     std::set<std::string> selected;
     mutable int shown_rows = 1;
-    bool unfolded = false;
+    bool unfolded = false, is_held = false;
+    std::optional<std::vector<std::string>> pending;   // what to show once the pointer has left
 };
 
 }   // namespace tactus::host

@@ -31,6 +31,7 @@ public:
     void cancel();                      ///< picks the last choice
     void answer (std::size_t choice);   ///< like a click on its button
     const juce::String& title() const noexcept { return heading; }
+    const juce::String& text() const noexcept { return body; }
     std::size_t size() const noexcept { return choices.size(); }
 
     void paint (juce::Graphics&) override;

@@ -9,6 +9,7 @@
 #include <host/devices/live/live_session.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/plan/flat/flatten.hpp>
+#include <tactus/run/device/make_device.hpp>
 #include <tactus/text/list_text.hpp>
 
 #include <algorithm>
@@ -30,6 +31,19 @@ std::string freeFolder (const std::string& name)
     for (int n = 2; std::filesystem::exists (ownFolder() / free, failed); ++n)
         free = name + ' ' + std::to_string (n);
     return free;
+}
+
+/// What moves the tool while the stems are rendered, for each role: "tool: stroke, 2 s".
+juce::String motionsOf (const graph::Graph& g)
+{
+    juce::String text;
+    for (const auto& [role, description] : g.devices)
+    {
+        Messages refused;
+        const auto made = makeDevice (describedByGraph (&description, role, refused), g.folder);
+        text << (text.isEmpty() ? "" : "; ") << fromUtf8 (role) << ": " << fromUtf8 (made.about);
+    }
+    return text.isEmpty() ? TRANS ("nothing moves the tool") : text;
 }
 
 const Message* errorIn (const Messages& messages)
@@ -94,14 +108,14 @@ void StemExport::ask()
     looped.loop_s = 0.05;
     with_clips.clips = stemClipFormats();
     const auto about = TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device "
-                              "feels them.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end is blended into "
+                              "feels them. Motion: %1.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end is blended into "
                               "its start. With clips: 24 bit, and each layer as .haptic, AHAP and HJIF. Float: as many samples as the run has, and 1 is 1 N.");
     std::vector<Question::Choice> choices { choice (TRANS ("24 bit"), integers), choice (TRANS ("16 bit"), small) };
     choices.push_back (choice (TRANS ("24 bit loop"), looped));
     choices.push_back (choice (TRANS ("With clips"), with_clips));
     choices.push_back (choice (TRANS ("Float"), {}));
     choices.push_back ({ TRANS ("Cancel"), {} });
-    desk.question.ask (filled (TRANS ("Export the stems of %1"), name), about, std::move (choices));
+    desk.question.ask (filled (TRANS ("Export the stems of %1"), name), filled (about, motionsOf (g)), std::move (choices));
 }
 
 void StemExport::render (const graph::Graph& g, const StemOptions& options, const std::filesystem::path& into)

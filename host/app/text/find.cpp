@@ -115,7 +115,7 @@ struct Fields
     }
 };
 
-constexpr int per_rank = 100, title_is_query = -3, title_ends = -2, title_begins = -1;
+constexpr int per_rank = 100, title_is_query = -4, title_ends = -3, title_begins = -2, in_order = -1;
 
 /// Less is better. The worst word counts first; per_rank * no_match if one does not fit.
 int scoreOf (const Findable& entry, const std::vector<std::string>& words, const std::string& query)
@@ -131,6 +131,7 @@ int scoreOf (const Findable& entry, const std::vector<std::string>& words, const
     }
     if (worst <= of_tag && fields.title.ends_with (' ' + query)) return title_ends;   // elasto-plastic friction is the kind that was asked for
     if (worst <= of_tag && fields.title.starts_with (query)) return title_begins;
+    if (worst == 0 && words.size() > 1 && (' ' + fields.names + ' ').find (' ' + query + ' ') != std::string::npos) return in_order;   // "lfo.amplitude"
     return worst < no_match ? worst * per_rank + sum : no_match * per_rank;
 }
 }   // namespace

@@ -154,6 +154,8 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("F6, Shift+F6"), NEEDS_TRANS ("goes to the next or the previous panel") },
     Keys { NEEDS_TRANS ("Ctrl+K, F3"),
            NEEDS_TRANS ("finds a node of the graph and shows it, or a command, a button or a panel and does what a click on it does") },
+    Keys { NEEDS_TRANS ("Ctrl+Left, Ctrl+Right"), NEEDS_TRANS ("in the mixer, go to the same field or button of the layer beside") },
+    Keys { NEEDS_TRANS ("Page Up, Page Down, Home, End"), NEEDS_TRANS ("scroll this help") },
     Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },
     Keys { NEEDS_TRANS ("V"), NEEDS_TRANS ("switches between the last two snapshots") },
     Keys { NEEDS_TRANS ("Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S, Ctrl+Q"), NEEDS_TRANS ("new, open, save, save as, quit") },

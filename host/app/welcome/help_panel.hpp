@@ -35,6 +35,7 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    bool keyPressed (const juce::KeyPress& key) override { return scroll.keyPressed (key); }   ///< arrows, Page Up, Page Down, Home and End scroll
 
 private:
     void show (std::unique_ptr<Column>);

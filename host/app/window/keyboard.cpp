@@ -49,7 +49,8 @@ bool Keyboard::press (const juce::KeyPress& key)
         parts.question.keyPressed (key);   // even if the question does not have the focus
         return true;
     }
-    if (parts.openCover() != nullptr) return true;   // it has had the key
+    if (parts.openCover() != nullptr) return true;                                            // it has had the key
+    if (parts.help.isOpen() && ! isArrow (key) && parts.help.keyPressed (key)) return true;   // arrows are for the canvas below
     if (act (key) || pressClutch (key) || parts.top.snapshotKey (key)) return true;
     auto& canvas = parts.patching;
     // Elsewhere, Tab goes to the next field.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "host/app/support/desk_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
 #include <host/app/browser/browser.hpp>
+#include <host/app/browser/tag_chips.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <chrono>
@@ -13,6 +14,8 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskRig;
+using tactus::host::test::DeskStage;
+using tactus::host::test::readTexts;
 
 TEST_CASE ("the description of a preset has two lines below the list, or is a tooltip, however low the panel is", "[app][presets]")
 {
@@ -108,4 +111,39 @@ TEST_CASE ("the browser searches by words, and Return opens a preset", "[app][pr
     list->getModel()->returnKeyPressed (0);
     CHECK (opened.name == browser.rows().front().preset->name);
     CHECK_FALSE (is_own);
+}
+
+TEST_CASE ("the tags stay under the pointer after a click, and the chosen ones come first once it has left", "[app][presets]")
+{
+    DeskStage w ("dry_wood.json");
+    TagChips chips;
+    std::vector<std::string> now { "wood", "metal", "soft" };
+    chips.onChange = [&] { chips.show (now); };
+    chips.show (now);
+    w.stage->addAndMakeVisible (chips);
+    chips.setBounds (20, 20, 400, chips.heightFor (400, 1));
+    const auto tags = [&] {
+        juce::StringArray all;
+        for (const auto& t : readTexts (chips))
+            all.add (t.text);
+        return all.joinIntoString (" ");
+    };
+    const auto placeOf = [&] (const juce::String& tag) {
+        for (const auto& t : readTexts (chips))
+            if (t.text == tag) return w.stage->getLocalPoint (&chips, t.place.getCentre());
+        FAIL ("there is no " << tag);
+        return juce::Point<float>();
+    };
+    REQUIRE (tags() == "wood metal soft");
+    const auto soft = placeOf ("soft");
+    w.stage->click (soft);
+    now = { "wood", "soft" };   // what the search has left
+    chips.onChange();
+    CHECK (chips.chosen().contains ("soft"));
+    CHECK (tags() == "wood metal soft");
+    w.stage->click (soft);   // a second click takes back the first
+    CHECK (chips.chosen().empty());
+    w.stage->click (soft);
+    w.stage->move ({ 500.0f, 400.0f });
+    CHECK (tags() == "soft wood");
 }

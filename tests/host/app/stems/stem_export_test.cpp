@@ -108,6 +108,15 @@ TEST_CASE ("a second export proposes another folder, because the dialog would op
     CHECK (proposed == std::vector { own / "Bronze bell stems", own / "Bronze bell stems 2", own / "Bronze bell stems 3" });
 }
 
+TEST_CASE ("the question before an export names the motion that is rendered", "[app][stems]")
+{
+    DeskRig r ("bronze_bell.json");
+    StemExport stems (r.desk);
+    stems.ask();
+    CHECK (r.question.text().contains ("Motion: clapper: "));
+    CHECK_FALSE (r.question.text().contains ("%1"));
+}
+
 TEST_CASE ("a clip of each layer is exported in each format", "[app][stems]")
 {
     DeskRig r ("bronze_bell.json");

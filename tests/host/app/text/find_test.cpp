@@ -50,6 +50,13 @@ TEST_CASE ("find: the title itself comes first, then words of the title, tags, t
     CHECK (titlesOf (all, "").size() == all.size());
 }
 
+TEST_CASE ("find: a port that is named whole comes before others that have its words")
+{
+    const std::vector<Findable> all { { "drag", "lfo.out -> drag.amplitude", "", "" }, { "lfo", "drag.out -> lfo.amplitude", "", "" } };
+    CHECK (titlesOf (all, "lfo.amplitude") == std::vector<std::string> { "lfo", "drag" });
+    CHECK (titlesOf (all, "drag.amplitude") == std::vector<std::string> { "drag", "lfo" });
+}
+
 TEST_CASE ("find: a word counts from its first letter, and a mistyped one only if nothing else fits")
 {
     const std::vector<Findable> all { { "Sandpaper", "", "abrasive", "rough grains" }, { "Liver cut", "", "tissue", "it breaks through the skin" } };

@@ -39,3 +39,28 @@ TEST_CASE ("the lists of the help have aligned columns", "[app][words]")
     help.showNode ("friction.elasto_plastic");
     CHECK (columnOf ({ "tool position p", "direction out of the surface", "force f_n of the tool" }).size() == 1);
 }
+
+TEST_CASE ("the list of keys scrolls by keys", "[app][keys]")
+{
+    DeskStage w ("dry_wood.json");
+    HelpPanel help { catalogue() };
+    w.stage->addChildComponent (help);
+    help.setArea (w.stage->getLocalBounds());
+    help.showKeys();
+    const auto top = [&] {
+        for (const auto& t : readTexts (help))
+            if (t.text == "Keyboard shortcuts") return t.place.getY();
+        return -1e4f;   // scrolled out of sight
+    };
+    const auto first = top();
+    REQUIRE (first >= 0.0f);
+    const auto press = [&] (int key) {
+        CHECK (help.keyPressed (juce::KeyPress (key)));
+        DeskStage::settle();   // a scroll bar tells its view later
+        return top();
+    };
+    CHECK (press (juce::KeyPress::pageDownKey) < first);
+    CHECK (press (juce::KeyPress::homeKey) == first);
+    CHECK (press (juce::KeyPress::downKey) < first);
+    CHECK_FALSE (help.keyPressed (juce::KeyPress ('x')));
+}
