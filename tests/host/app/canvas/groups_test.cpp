@@ -51,7 +51,7 @@ struct GroupBench : DeskStage
         REQUIRE (canvas.selection().size() == names.size());
     }
 
-    /// What the canvas shows of the graph alone.
+    /// The nodes that the canvas shows of the graph alone.
     juce::Image picture()
     {
         stage->move ({ 2.0f, 2.0f });   // away from every wire
@@ -60,7 +60,7 @@ struct GroupBench : DeskStage
         return canvas.createComponentSnapshot (canvas.getLocalBounds());
     }
 
-    /// What the Problems panel is told about the graph.
+    /// The messages about the graph that the Problems panel gets.
     std::multiset<std::string> problems()
     {
         std::multiset<std::string> all;
@@ -281,5 +281,35 @@ TEST_CASE ("undo and redo go to the patch that they change, and select what has 
         w.document.undo();
         CHECK (w.canvas.patch() == inner);
         CHECK (selected() == std::set<std::string> { "drag" });
+    }
+}
+
+TEST_CASE ("ungrouping selects the nodes that it has added, also where other nodes use the subgraph", "[app][canvas][groups]")
+{
+    GroupBench w (1368, 656);
+    w.canvas.select ({ w.node ("drag").id, w.node ("touch").id });
+    w.canvas.commands().groupSelection();
+    const auto is_group = [] (const SceneNode& n) { return n.face->kind == Face::Kind::subgraph; };
+    const auto group = std::ranges::find_if (w.scene().nodes(), is_group)->id;
+    for (const bool is_shared : { true, false })
+    {
+        if (is_shared)
+        {
+            w.canvas.select ({ group });
+            w.canvas.commands().duplicateSelection();
+        }
+        std::set<graph::Id> before;
+        for (const auto& n : w.scene().nodes())
+            before.insert (n.id);
+        w.canvas.select ({ group });
+        w.canvas.commands().expandSelection();
+        std::set<graph::Id> added;
+        for (const auto& n : w.scene().nodes())
+            if (! before.contains (n.id)) added.insert (n.id);
+        INFO ((is_shared ? "shared" : "its own"));
+        CHECK (added.size() == 2);
+        CHECK (std::ranges::equal (w.canvas.selection(), added));
+        w.document.undo();
+        if (is_shared) w.document.undo();
     }
 }
