@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the guards of a run do, for the caller.
+// The state of the guards of a run, for the caller.
 #include "handles.hpp"
 
 #include <iterator>

@@ -33,7 +33,7 @@ std::string headOf (std::string_view graph_hash, double rate_hz, std::string_vie
            + std::string (graph_hash) + " " + std::to_string (rate_hz) + " " + std::string (devices_hash) + "\n";
 }
 
-/// What the roles have: axes, buttons, signals and brake. Limits may differ, because a state does not undo them.
+/// The hash of the axes, buttons, signals and brakes of the roles. Limits may differ, because a state does not undo them.
 std::string hashOfDevices (const std::vector<std::pair<std::string, Run::RoleDevice>>& by_role)
 {
     std::string text;

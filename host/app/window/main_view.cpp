@@ -30,7 +30,7 @@ bool isRecording (const fs::path& file)
     return extension == ".csv" || extension == ".tsv" || extension == ".txt";
 }
 
-/// What an undo or a redo has done: it may have changed something that is not in view.
+/// The text about an undo or a redo, which may have changed something that is not in view.
 juce::String steppedText (const Document& document)
 {
     const auto from = *document.steppedFrom(), to = document.history().position();

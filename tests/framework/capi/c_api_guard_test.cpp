@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the caller learns of a guard that stops its device, in a loop of its own and in one that a clock ticks.
+// The state of a guard, as the caller sees it: one that stops its device, in a loop of its own and in one that a clock ticks.
 #include "c_handles.hpp"
 
 #include <support/no_allocation.hpp>

@@ -43,7 +43,7 @@ struct PaletteStage : DeskStage
         settle();   // JUCE tells of typed text later
     }
 
-    /// What the list has for these words after this key.
+    /// The entries of the list for these words after this key.
     const std::vector<PaletteEntry>& listed (const char* key, const char* words)
     {
         this->key (key);

@@ -18,7 +18,7 @@ struct NodesStage : DeskStage
 
     NodesStage() : DeskStage ("dry_wood.json", 1600, 900) {}
 
-    /// Where a node of the list is on the screen.
+    /// The place of a node of the list on the screen.
     juce::Point<float> rowOf (const std::string& type)
     {
         juce::ListBox* list = nullptr;

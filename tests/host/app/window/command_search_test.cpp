@@ -30,7 +30,7 @@ struct SearchDesk
         return *found;
     }
 
-    /// Whether all of a node is on the canvas as it is shown.
+    /// True if all of a node is on the canvas as it is shown.
     bool isInView (const std::string& node)
     {
         const auto b = shown (node).bounds();
@@ -38,7 +38,7 @@ struct SearchDesk
         return canvas().getLocalBounds().toFloat().contains (juce::Rectangle<float> (view.toPixels (b.getTopLeft()), view.toPixels (b.getBottomRight())));
     }
 
-    /// What the list has for these words after this key.
+    /// The entries of the list for these words after this key.
     std::vector<PaletteEntry> listed (const char* key, const char* words)
     {
         w.key (key);

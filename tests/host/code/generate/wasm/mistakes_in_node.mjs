@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a program does wrong with an exported graph is said, not ignored, in node: mistakes_in_node.mjs FOLDER. Prints "ok", or throws.
+// Mistakes of a program that uses an exported graph in node are named, not ignored: mistakes_in_node.mjs FOLDER. Prints "ok", or throws.
 import assert from 'node:assert';
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -12,7 +12,7 @@ const wait = () => { for (let k = 0; k < about.rate_hz; ++k) graph.tick(); };
 const [role] = about.roles, [control] = about.controls, param = about.params.find (one => control.moves.includes (one.name));
 const { position } = graph.inputs[role.member];
 
-// What is assigned is copied: the tool stays in the memory of the graph.
+// A position that is assigned is copied: the tool stays in the memory of the graph.
 graph.inputs[role.member].position = [1e-3, 2e-3, -3e-4];
 assert.deepStrictEqual ([...position], [1e-3, 2e-3, -3e-4]);
 assert.strictEqual (graph.inputs[role.member].position, position);

@@ -137,7 +137,7 @@ for (const jump of [true, false])
     assert (force (page) > 0);
 }
 
-// What is no place, and no name, changes nothing.
+// A message without a place or a name changes nothing.
 {
     const page = new Page();
     page.post ({ position: [...middle, z] });
