@@ -159,7 +159,9 @@ void Canvas::paint (juce::Graphics& g)
         g.drawFittedText (TRANS ("Press Space or double-click to add a node."), above, juce::Justification::centredBottom, 3, 1.0f);
     }
     if (! has_backdrop) paintBelow (g, *shown, window, look, highlights);
-    paintAbove (g, *shown, window, look, highlights);
+    if (! drag) node_pictures = {};   // they may be large
+    const auto paintPictures = [&] { node_pictures.paint (g, *shown, window, look, highlights, document.version()); };
+    paintAbove (g, *shown, window, look, highlights, drag ? std::function<void()> (paintPictures) : nullptr);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
     if (file_over) paintFileOver (g);
     if (drag) return drag->paint (g);

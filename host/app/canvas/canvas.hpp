@@ -6,6 +6,7 @@
 #include "navigation/trail.hpp"
 #include "navigation/view_history.hpp"
 #include "paint/backdrop.hpp"
+#include "paint/node_pictures.hpp"
 
 #include <host/app/look/text_overlay.hpp>
 #include <host/app/palette/search.hpp>
@@ -50,6 +51,7 @@ public:
     const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }
     const Backdrop& below() const noexcept { return backdrop; }
+    const NodePictures& pictures() const noexcept { return node_pictures; }
     std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
@@ -103,6 +105,8 @@ public:
 
     juce::String getTooltip() override;                        ///< tooltipAt the pointer
     juce::String tooltipAt (juce::Point<float> pixel) const;   ///< about the limit light, or, while nothing runs, the port at this pixel; else empty
+
+    bool isDragging() const noexcept { return drag != nullptr; }
 
     /// Ends the drag that is going on as if it had not begun. Returns false if there is none.
     bool cancelDrag();
@@ -203,6 +207,7 @@ private:
     View window;
     Highlights highlights;
     Backdrop backdrop;
+    NodePictures node_pictures;
     Trail trail { document };
     PointedPort pointed_at;
     std::unique_ptr<Drag> drag;

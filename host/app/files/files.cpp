@@ -387,8 +387,17 @@ AutosavedDocument Files::autosaved (bool is_changed, std::string text) const
 /// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
 void Files::autosaveSoon()
 {
-    is_dirty = ! autosaver->isIdle();
-    if (is_dirty) return;
+    constexpr double least_s = 0.5;   // between two autosaves of a step that goes on, such as a drag
+    const bool goes_on = document.history().position() == handed_step && clock() - handed_at < least_s;
+    is_dirty = goes_on || ! autosaver->isIdle();
+    if (! is_dirty) handToAutosaver();
+}
+
+void Files::handToAutosaver()
+{
+    is_dirty = false;
+    handed_step = document.history().position();
+    handed_at = clock();
     autosaver->write ({ autosaved (true, {}), document.graph(), document.savedText() });
 }
 
@@ -396,7 +405,7 @@ void Files::finishAutosave()
 {
     if (! session) return;
     autosaver->finish();
-    if (is_dirty) autosaveSoon();
+    if (is_dirty) handToAutosaver();
     autosaver->finish();
 }
 

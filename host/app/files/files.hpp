@@ -63,10 +63,11 @@ public:
     /// Offers to recover crashed sessions, the latest first. Returns true if there are any.
     bool recover();
 
-    void beforeRun();        ///< call before each run
-    void poll();             ///< call many times a second: an edit that came while another one was being autosaved is handed over here
-    void finishAutosave();   ///< waits until the autosave matches the document
-    void end();              ///< removes the autosave; call it when the program closes normally
+    void beforeRun();                                                     ///< call before each run
+    void poll();                                                          ///< call many times a second: an edit that came while another one was being autosaved is handed over here
+    bool isWriting() const { return session && ! autosaver->isIdle(); }   ///< an autosave is being written
+    void finishAutosave();                                                ///< waits until the autosave matches the document
+    void end();                                                           ///< removes the autosave; call it when the program closes normally
     /// Autosaves unsaved changes; call it when the program must close now. The folder of the session stays if there are takes in it.
     void endSuddenly (bool has_takes = false);
 
@@ -75,6 +76,7 @@ private:
     std::string knownHash() const;
     AutosavedDocument autosaved (bool is_changed, std::string text) const;   ///< the document as it is now
     void autosaveSoon();
+    void handToAutosaver();
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer, bool runs = true);
     void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< opens a graph that plays a clip file
@@ -100,6 +102,8 @@ private:
     std::vector<CrashedSession> crashed;
     std::optional<Autosaver> autosaver;                         // declared after the session, which it uses
     std::map<std::filesystem::path, std::string> known_files;   // hashes of files, as they were last read or written here
+    std::size_t handed_step = 0;                                // the position in the history when the autosaver last got the document
+    double handed_at = -1e9;                                    // by `clock`
     bool is_dirty = false;                                      // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
     bool safe = false, was_by_pointer = false, was_stopped = true;

@@ -38,9 +38,12 @@ Inspector::~Inspector() { document.remove (*this); }
 
 void Inspector::inspect (SeenPatch p, std::set<graph::Id> s)
 {
+    // A node that is dragged is inspected at each step, and only its place has changed.
+    const bool is_same = column && document.version() == version && p == patch && s == selection;
+    version = document.version();
     patch = std::move (p);
     selection = std::move (s);
-    rebuild();
+    if (! is_same) rebuild();
 }
 
 void Inspector::showLimits (const std::vector<ContactLimit>& now)

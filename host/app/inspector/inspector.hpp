@@ -81,6 +81,7 @@ private:
     FileAssets files;
     SeenPatch patch;
     std::set<graph::Id> selection;
+    std::uint64_t version = 0;   // of the document, when it was last inspected
     bool help = false;
     std::vector<ContactLimit> contacts;
     std::string made_for;                                 // key of the current column; the column is kept while it matches, so that a drag can continue

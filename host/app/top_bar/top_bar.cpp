@@ -151,6 +151,7 @@ void TopBar::show()
     trail = { graphName() };
     for (const auto& [node, subgraph] : desk.canvas.breadcrumbs())
         trail.emplace_back (printableName (node));
+    showSaved();
     shown = desk.canvas.instance();
     instance.setVisible (shown.has_value());
     if (shown) instance.setButtonText (filled (TRANS ("Instance [%1] of %2"), shown->number, shown->count));
@@ -272,11 +273,14 @@ void TopBar::paint (juce::Graphics& g)
     g.drawText (savedText(), all.back().withX (x).withRight (static_cast<float> (room)), juce::Justification::centredLeft, true);
 }
 
-juce::String TopBar::savedText() const
+void TopBar::showSaved()
 {
     const auto file = fromUtf8 (printableName (document.file().filename().string()));
     const auto is_edited = document.isChanged() ? TRANS ("edited") : juce::String();
-    return file + (file.isEmpty() || is_edited.isEmpty() ? "" : ", ") + is_edited;
+    const auto now = file + (file.isEmpty() || is_edited.isEmpty() ? "" : ", ") + is_edited;
+    if (now == saved) return;
+    saved = now;
+    repaint();
 }
 
 void TopBar::mouseMove (const juce::MouseEvent& e)

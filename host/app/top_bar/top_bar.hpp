@@ -26,10 +26,10 @@ public:
     explicit TopBar (Desk&);
     ~TopBar() override;
 
-    void show();   ///< call after each change of the document, or of the patch that the canvas shows
+    void show();   ///< call after each change of the document, or of the patch that the canvas shows, and after each drag on the canvas
 
     /// The file of the graph, and whether the graph was edited since it was saved: "oak.json, edited". Empty for a new graph.
-    juce::String savedText() const;
+    const juce::String& savedText() const noexcept { return saved; }
 
     juce::String graphName() const;
     bool snapshotKey (const juce::KeyPress&);   ///< a digit recalls a snapshot or stores it, and V compares; false for other keys
@@ -46,6 +46,7 @@ private:
     class Slot;
     std::vector<juce::Rectangle<float>> places() const;
     void placeCaption (juce::Rectangle<int>);
+    void showSaved();   // compares the graph with its file, which takes longer than all else that is shown
 
     void recall (int snapshot);   // from 1
     void store (int snapshot);
@@ -62,6 +63,7 @@ private:
     const void* compared_in = nullptr;   // identity of their document
     ToolButton instance { "", ToolButton::Kind::framed, TRANS ("Choose the instance of this subgraph whose values are shown") };
     std::vector<juce::String> trail;
+    juce::String saved;
     int room = 0;                   // width available for the trail, in pixels
     juce::Rectangle<int> caption;   // of the snapshots; empty if there is no room for it
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;

@@ -178,6 +178,7 @@ void MainView::timerCallback()
         wake();
     else if (awake_for == 0 || --awake_for == 0)
         rest();
+    if (std::exchange (was_dragging, parts.patching.isDragging()) && ! was_dragging) showName();
     parts.device_setup.follow();
     playback.poll();
     if (std::exchange (was_trying, playback.isTrying()) && ! was_trying) status.hint ({});   // what the test of a device said
@@ -249,11 +250,15 @@ void MainView::documentChanged()
         for (const auto& p : parts.panels)
             if (p.panel.restore) p.panel.restore();
     }
-    const bool is_begun = edited.identity() != first_identity || edited.isChanged();
-    if (parts.welcome.isVisible() && is_begun) parts.welcome.setVisible (false);
+    if (parts.welcome.isVisible() && (edited.identity() != first_identity || edited.isChanged())) parts.welcome.setVisible (false);
     beginnings.placeTemplates();
     if (is_other && parts.layout.left.isParentOf (getCurrentlyFocusedComponent()))
         takeFocus (patching);   // what is typed next is for this graph, not for a search
+    if (! patching.isDragging()) showName();   // else at its end
+}
+
+void MainView::showName()
+{
     parts.top.show();
     const auto saved = parts.top.savedText();
     if (onTitle) onTitle (parts.top.graphName() + (saved.isEmpty() ? saved : " (" + saved + ")"));

@@ -90,6 +90,7 @@ public:
 private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
+    void showName();
     void timerCallback() override;
     void wake();   ///< polls and paints often again
     void rest();   ///< call many times while nothing runs and there was no input for a while
@@ -120,6 +121,7 @@ private:
     MainMenu menu { parts };
     CommandSearch search { parts, menu, keyboard };
     bool was_trying = false;                                      // a device was being tested
+    bool was_dragging = false;                                    // something was being dragged on the canvas
     const void* const first_identity = parts.edited.identity();   // of the empty document that the window begins with
     const void* shown_identity = nullptr;                         // identity of the document that is shown
     int awake_for = 0;                                            // timer ticks until the window polls less often; 0: it does

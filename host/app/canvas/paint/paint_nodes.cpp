@@ -216,11 +216,15 @@ juce::Rectangle<float> boundsOf (const SceneNode& n, float zoom)
     return n.bounds().expanded (beside, 8.0f).getUnion (limitLightOf (n, zoom).expanded (1.0f));
 }
 
+void paintNode (juce::Graphics& g, const SceneNode& n, const View& view, const Look& look, const Highlights& highlights)
+{
+    NodePainter { g, look, highlights, view.zoom }(n);
+}
+
 void paintNodes (juce::Graphics& g, const Scene& scene, const View& view, const Look& look, const Highlights& highlights)
 {
-    const NodePainter paint { g, look, highlights, view.zoom };
     for (const auto& n : scene.nodes())
-        if (g.clipRegionIntersects (boundsOf (n, view.zoom).getSmallestIntegerContainer())) paint (n);
+        if (g.clipRegionIntersects (boundsOf (n, view.zoom).getSmallestIntegerContainer())) paintNode (g, n, view, look, highlights);
 }
 
 }   // namespace tactus::host

@@ -9,7 +9,8 @@
 namespace tactus::host
 {
 
-/// Paints the nodes of a scene, in canvas units.
+/// Paints the nodes of a scene, or one of them, in canvas units.
+void paintNode (juce::Graphics&, const SceneNode&, const View&, const Look&, const Highlights&);
 void paintNodes (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
 
 /// The bounds of the limit light of a node, in canvas units: at its top right corner, and never too small to see.

@@ -98,16 +98,23 @@ void paintBelow (juce::Graphics& g, const Scene& scene, const View& view, const 
     paintBundles (g, scene, look.theme(), highlights);
 }
 
-void paintAbove (juce::Graphics& g, const Scene& scene, const View& view, const Look& look, const Highlights& highlights)
+void paintAbove (juce::Graphics& g, const Scene& scene, const View& view, const Look& look, const Highlights& highlights,
+                 const std::function<void()>& paintsNodes)
 {
-    const juce::Graphics::ScopedSaveState state (g);
-    g.addTransform (view.transform());
-    paintSingleWires (g, scene, view, look, highlights);
-    if (view.zoom > View::too_small_to_read)
-        for (const auto& e : scene.exposed())
-            paintExposed (g, e, look);
-    paintNodes (g, scene, view, look, highlights);
-    paintSelectedBends (g, scene, view, look.theme(), highlights);
+    const auto onCanvas = [&] (const auto& paint) {
+        const juce::Graphics::ScopedSaveState state (g);
+        g.addTransform (view.transform());
+        paint();
+    };
+    onCanvas ([&] {
+        paintSingleWires (g, scene, view, look, highlights);
+        if (view.zoom > View::too_small_to_read)
+            for (const auto& e : scene.exposed())
+                paintExposed (g, e, look);
+        if (! paintsNodes) paintNodes (g, scene, view, look, highlights);
+    });
+    if (paintsNodes) paintsNodes();
+    onCanvas ([&] { paintSelectedBends (g, scene, view, look.theme(), highlights); });
 }
 
 void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const Look& look, const Highlights& highlights)

@@ -14,8 +14,9 @@ void paintGrid (juce::Graphics&, const View&, juce::Rectangle<int> area, const T
 /// Paints the notes, wires and nodes of a scene, in the graphics context of the component.
 void paintScene (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
 
-/// The two parts of paintScene(): the notes and the wires that are painted together, and above them everything else.
+/// The two parts of paintScene(): the notes and the wires that are painted together, and above them everything else. `paintsNodes` does so in place of
+/// paintNodes(), in the context of the component.
 void paintBelow (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
-void paintAbove (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
+void paintAbove (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&, const std::function<void()>& paintsNodes = {});
 
 }   // namespace tactus::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
+#include "host/app/support/desk_stage.hpp"
 
 #include "support/sketch.hpp"
 
@@ -14,6 +15,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using host::test::DeskStage;
 using tactus::test::Sketch;
 
 namespace
@@ -223,4 +225,50 @@ TEST_CASE ("the wires of a patch that has very many are painted several at a tim
     Highlights marked;
     marked.selected.insert (rig.canvas->scene().wires()[7].id);
     CHECK (pathsIn (marked) > few);   // a selected one is on top of the others, alone
+}
+
+TEST_CASE ("while a node is dragged, the others are painted from pictures, which look as they do", "[app][canvas][paint]")
+{
+    DeskStage w ("layered_cloth.json", 1280, 720);
+    auto& canvas = w.canvas;
+    canvas.toggleMap();
+    const auto bounds = canvas.getLocalBounds();
+    const auto paintedNow = [&] { return canvas.createComponentSnapshot (bounds, true, 1.0f); };
+    const auto asNew = [&] {
+        juce::Image image (juce::Image::RGB, bounds.getWidth(), bounds.getHeight(), true, juce::SoftwareImageType());
+        juce::Graphics g (image);
+        paintGrid (g, canvas.view(), bounds, lookOf (canvas).theme());
+        paintScene (g, canvas.scene(), canvas.view(), lookOf (canvas), canvas.highlighted());
+        return image;
+    };
+    // Glyphs are placed to a 256th of a pixel, which is rounded from another corner in a picture: some of their edges differ a little.
+    const auto looksAsNew = [&] {
+        const auto a = paintedNow(), b = asNew();
+        int most = 0, differing = 0;
+        for (int y = 0; y < bounds.getHeight(); ++y)
+            for (int x = 0; x < bounds.getWidth(); ++x)
+            {
+                const auto p = a.getPixelAt (x, y), q = b.getPixelAt (x, y);
+                const int by = std::max ({ std::abs (p.getRed() - q.getRed()), std::abs (p.getGreen() - q.getGreen()), std::abs (p.getBlue() - q.getBlue()) });
+                most = std::max (most, by);
+                differing += by > 2 ? 1 : 0;
+            }
+        INFO (differing << " pixels differ by up to " << most << " of 255");
+        CHECK (most <= 24);
+        CHECK (differing < 200);
+    };
+    const auto& dragged = canvas.scene().nodes().front();
+    const auto from = w.onStage (dragged.at + juce::Point<float> (20.0f, 0.5f * Box::header_height));
+    w.stage->move (from);
+    w.stage->press();
+    for (int step = 1; step <= 6; ++step)
+    {
+        w.stage->move (from.translated (30.0f * static_cast<float> (step), 10.0f * static_cast<float> (step)));
+        looksAsNew();
+    }
+    CHECK (canvas.pictures().size() > 3);
+    CHECK (canvas.pictures().size() < canvas.scene().nodes().size());   // the dragged one has none
+    w.stage->release();
+    looksAsNew();
+    CHECK (canvas.pictures().size() == 0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Autosaves, and what is recovered after a crash.
 #include "host/app/support/files_rig.hpp"
+#include "support/waiting.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -56,6 +57,35 @@ TEST_CASE ("a drag is autosaved while it goes on: a step that comes while anothe
         if (i % 10 == 0) d.files->poll();
     }
     d.files->finishAutosave();
+    CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
+}
+
+TEST_CASE ("a step that goes on is autosaved twice a second, and all of it at the end")
+{
+    Rig d;
+    d.files->beginSession (d.folder.path());
+    d.files->open (wood);
+    d.runs = false;
+    d.edit (0.5);
+    int autosaves = 0;
+    std::string last;
+    for (int i = 0; i < 200; ++i)   // for two seconds
+    {
+        d.now += 0.01;
+        REQUIRE (d.document.perform (graph::SetParam { "", "drag", "mu", Json (0.5 + 1e-3 * i) }, graph::Step::joined));
+        d.files->poll();
+        REQUIRE (tactus::test::eventually ([&] { return ! d.files->isWriting(); }));
+        if (const auto now = d.autosaved()->graph; now != last)
+        {
+            ++autosaves;
+            last = now;
+        }
+    }
+    CHECK (autosaves >= 4);
+    CHECK (autosaves <= 6);
+    d.now += 0.5;
+    d.files->poll();
+    REQUIRE (tactus::test::eventually ([&] { return ! d.files->isWriting(); }));
     CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
 }
 
