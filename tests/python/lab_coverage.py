@@ -6,8 +6,7 @@
 
 Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials), staircase or psi (both 80 trials in two intervals;
 1 up, 2 down), logistic, normal or weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals
-held the true threshold (or d', or exponent), and the true width (or criterion). A profile interval holds the truth if the profile at the truth is high
-enough. The test lab_fit compares this with the interval."""
+held the true threshold (or d', or exponent), and the true width (or criterion): by profile likelihood, and then of the posterior."""
 
 import argparse
 import math
@@ -19,32 +18,21 @@ from tactus.lab import _analysis
 from tactus.lab._draw import Draw
 from tactus.lab._procedures import PsiTrack, StaircaseTrack
 
-DROP = 0.5 * 1.959963984540054 ** 2
-THRESHOLD, WIDTH = {"logistic": 10.0, "normal": 10.0, "weibull": 10.0}, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
+THRESHOLD, WIDTH = 10.0, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
 LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
 LAPSE = 0.02
 
 
 def holds(function, levels, yes, trials, guess):
-    """Whether the profile intervals hold the true threshold and the true width."""
-    x, k, n = _analysis._gathered(levels, yes, trials)
-    given = _analysis._Likelihood(function, x, k, n, guess, None)
-    best, log = given.climb(given.begin())
-    found = []
-    for index, truth in ((0, THRESHOLD[function]), (1, math.log(WIDTH[function]))):
-        found.append(max(given.profile(index, truth, start)[1] for start in (best, np.array([THRESHOLD[function], math.log(WIDTH[function]), LAPSE])))
-                     >= log - DROP)
-    return found
-
-
-def believes(function, levels, yes, trials, guess):
-    """Whether the intervals of the posterior hold the true threshold and the true width."""
+    """Whether the intervals hold the true threshold and the true width."""
     given = _analysis._Likelihood(function, *_analysis._gathered(levels, yes, trials), guess, None)
-    return [low <= truth <= high for (low, _, high), truth in zip(given.posterior(0.95), (THRESHOLD[function], math.log(WIDTH[function])))]
+    best, threshold = given.best(), THRESHOLD if function != "weibull" else math.log(THRESHOLD)
+    return [low <= truth <= high for is_posterior in (False, True)
+            for (low, _, high), truth in zip(given.ends(0.95, is_posterior, best), (threshold, math.log(WIDTH[function])))]
 
 
 def constant(function, draw, guess=0.0):
-    chances = lab.probability(function, LEVELS, THRESHOLD[function], WIDTH[function], guess, LAPSE)
+    chances = lab.probability(function, LEVELS, THRESHOLD, WIDTH[function], guess, LAPSE)
     yes = np.array([sum(draw.uniform() < p for _ in range(40)) for p in chances])
     return LEVELS, yes, np.full(7, 40), guess
 
@@ -57,7 +45,7 @@ def adaptive(procedure, function, draw):
                                  function=function, trials=80))
     levels, yes = [], []
     while (level := track.level()) is not None:
-        right = draw.uniform() < float(lab.probability(function, level, THRESHOLD[function], WIDTH[function], 0.5, LAPSE))
+        right = draw.uniform() < float(lab.probability(function, level, THRESHOLD, WIDTH[function], 0.5, LAPSE))
         track.answer(level, right)
         levels.append(level)
         yes.append(right)
@@ -76,12 +64,12 @@ def run(method, draw):
         answers = [5.0 * level ** 0.8 * math.exp(0.3 * draw.normal()) for level in levels]
         low, high = lab.power_law(levels, answers).exponent_interval
         return [low <= 0.8 <= high]
-    procedure, function, *how = method.split("/")
-    return (believes if how else holds)(function, *(constant(function, draw) if procedure == "constant" else adaptive(procedure, function, draw)))
+    procedure, function = method.split("/")
+    return holds(function, *(constant(function, draw) if procedure == "constant" else adaptive(procedure, function, draw)))
 
 
 METHODS = [f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in ("logistic", "normal", "weibull")]
-METHODS += [f"{method}/posterior" for method in METHODS] + ["detection", "power"]
+METHODS += ["detection", "power"]
 
 
 def main():

@@ -18,12 +18,14 @@ LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
 YES = np.array([1, 4, 11, 19, 30, 37, 39])
 
 
-class Functions(TestCase):
-    def test_the_normal_distribution_is_that_of_the_library(self):
-        z = np.concatenate([np.linspace(-9.0, 9.0, 4001), np.random.default_rng(1).normal(0, 3, 2000), [-40.0, 40.0]])
-        exact = np.array([0.5 * math.erfc(-v / math.sqrt(2.0)) for v in z])
-        self.assertLess(np.abs(_functions.phi(z) - exact).max(), 1e-13)
+def likelihood(fit, threshold, width, lapse):
+    """The logarithm of the likelihood of the data of a fit at other parameters, which may be arrays of one shape."""
+    p = np.clip(lab.probability(fit.function, fit.levels, *(np.asarray(x)[..., None] for x in (threshold, width)), fit.guess, np.asarray(lapse)[..., None]),
+                1e-12, 1 - 1e-12)
+    return np.log(p) @ fit.yes + np.log1p(-p) @ (fit.trials - fit.yes)
 
+
+class Functions(TestCase):
     def test_values_at_the_threshold_and_far_away(self):
         for function, at in (("logistic", 0.5), ("normal", 0.5), ("weibull", 1.0 - math.exp(-1.0))):
             ends = lab.probability(function, [1e-9, 10.0, 1e9], 10.0, 2.0, 0.5, 0.02)
@@ -45,19 +47,19 @@ class Functions(TestCase):
 
 class Fits(TestCase):
     def test_the_fit_is_the_most_likely_one(self):
-        """Against a search of scipy, where it is installed, and against its neighbours."""
+        """Against 20000 points near and far, and a search of scipy where it is installed."""
+        draws = np.random.default_rng(3).normal(0, 1, (3, 20000)) * np.repeat([1e-3, 1.0], 10000)
         for function in ("logistic", "normal", "weibull"):
             for guess, lapse in ((0.0, 0.0), (0.0, None), (0.1, 0.03)):
                 fit = lab.psychometric(LEVELS, np.maximum(YES, 5 * (guess > 0)), np.full(7, 40), function=function, guess=guess, lapse=lapse)
-                given = _analysis._Likelihood(function, fit.levels, fit.yes, fit.trials, guess, lapse)
-                at = np.array([fit.threshold, math.log(fit.width), fit.lapse])
-                for step in np.random.default_rng(3).normal(0, 1e-3, (200, 3)):
-                    self.assertLessEqual(given.log(np.clip(at + step, given.low, given.high)), given.log(at) + 1e-9)
+                best = likelihood(fit, fit.threshold, fit.width, fit.lapse)
+                lapses = np.clip(fit.lapse + 0.01 * draws[2], 0.0, 0.06) if lapse is None else np.full(20000, lapse)
+                self.assertLessEqual(likelihood(fit, fit.threshold + draws[0], fit.width * np.exp(draws[1]), lapses).max(), best + 1e-9)
                 if importlib.util.find_spec("scipy"):
                     from scipy.optimize import differential_evolution
-                    bounds = [(a, b) if b > a else (a, a + 1e-12) for a, b in zip(given.low, given.high)]
-                    best = differential_evolution(lambda x: -given.log(x), bounds, seed=1, tol=1e-10)
-                    self.assertLess(-best.fun - given.log(at), 1e-5, (function, guess, lapse))
+                    ends = (0.0, 0.06) if lapse is None else (lapse, lapse + 1e-12)
+                    found = differential_evolution(lambda x: -likelihood(fit, *x), [(1.0, 20.0), (0.1, 20.0), ends], seed=1, tol=1e-10)
+                    self.assertLess(-found.fun - best, 1e-5, (function, guess, lapse))
 
     def test_the_logistic_without_guess_and_lapse_has_the_closed_form_of_its_scores(self):
         """At the maximum of a logistic regression, the sums of residuals, and of residuals times levels, are 0."""
@@ -69,27 +71,30 @@ class Fits(TestCase):
         self.assertAlmostEqual(fit.deviance, 2 * sum(parts), 8)
 
     def test_the_ends_of_an_interval_are_where_the_profile_has_fallen(self):
-        for function in ("logistic", "normal", "weibull"):
-            fit = lab.psychometric(LEVELS, YES, np.full(7, 40), function=function)
-            given = _analysis._Likelihood(function, fit.levels, fit.yes, fit.trials, 0.0, None)
-            best, log = given.climb(given.begin())
-            for index, interval in ((0, fit.threshold_interval), (1, [math.log(x) for x in fit.width_interval])):
-                for end in interval:
-                    self.assertAlmostEqual(log - given.profile(index, end, best)[1], lab_coverage.DROP, 2)
-                self.assertTrue(interval[0] < best[index] < interval[1])
+        """The profile is the largest value over many points. Constant stimuli, and a staircase, whose likelihood has several summits."""
+        chosen, right, _, guess = lab_coverage.adaptive("staircase", "logistic", Draw(5, 0, "logistic"))
+        for fit in (*(lab.psychometric(LEVELS, YES, np.full(7, 40), function=function) for function in ("logistic", "normal", "weibull")),
+                    lab.psychometric(chosen, right, guess=guess)):
+            best = likelihood(fit, fit.threshold, fit.width, fit.lapse)
+            intervals = fit.threshold_interval, fit.width_interval
+            many = np.meshgrid(np.geomspace(0.2, 5.0, 801), np.linspace(0.0, 0.06, 61))
+            for i, center in enumerate((fit.threshold, fit.width)):
+                other = (fit.width if i == 0 else fit.threshold) * many[0]
+                for end in intervals[i]:
+                    at = (np.full_like(other, end), other) if i == 0 else (other, np.full_like(other, end))
+                    self.assertAlmostEqual(best - likelihood(fit, *at, many[1]).max(), 0.5 * 1.959964 ** 2, delta=0.03)
+                self.assertTrue(intervals[i][0] < center < intervals[i][1])
 
     def test_the_posterior_is_that_of_a_sum_over_many_points(self):
         levels = np.repeat(LEVELS, 6)
         yes = np.array([Draw(2, i).uniform() < p for i, p in enumerate(lab.probability("logistic", levels, 10.0, 1.0, 0.5, 0.02))], dtype=float)
         fit = lab.psychometric(levels, yes, guess=0.5, method="posterior")
-        given = _analysis._Likelihood("logistic", *_analysis._gathered(levels, yes, None), 0.5, None)
-        t, w = np.linspace(given.low[0], given.high[0], 400), np.linspace(given.middle - 4, given.middle + 4, 120)
-        mass = np.array([[sum(math.exp(given.log(np.array([a, b, lapse])) + 20.0) for lapse in np.linspace(0.0, 0.06, 5))
-                          * math.exp(-0.5 * (b - given.middle) ** 2)
-                          for b in w] for a in t]).sum(axis=1)
+        t, z, lapse = np.meshgrid(np.linspace(-10.0, 30.0, 801), np.linspace(-4.0, 4.0, 161), np.linspace(0.0, 0.06, 9), indexing="ij")
+        middle = math.log((14.0 - 6.0) / 6.0)
+        mass = np.exp(likelihood(fit, t, np.exp(middle + z), lapse) + 25.0 - 0.5 * z ** 2).sum(axis=(1, 2))
         below = (np.cumsum(mass) - 0.5 * mass) / mass.sum()
         for end, share in ((fit.threshold_interval.low, 0.025), (fit.threshold, 0.5), (fit.threshold_interval.high, 0.975)):
-            self.assertLess(abs(np.interp(end, t, below) - share), 0.012, (end, share))
+            self.assertLess(abs(np.interp(end, t[:, 0, 0], below) - share), 0.005, (end, share))
 
     def test_data_that_do_not_bound_it_give_infinite_intervals(self):
         flat = lab.psychometric([1, 2, 3, 4], [5, 5, 5, 5], [10] * 4)
@@ -106,10 +111,9 @@ class Fits(TestCase):
 
     def test_intervals_hold_the_truth_about_as_often_as_they_say(self):
         """A few runs with fixed seeds; lab_coverage.py makes the 2000 of docs/lab.md."""
-        for method, least in (("constant/logistic", 0.88), ("constant/normal", 0.88), ("constant/weibull", 0.88), ("staircase/logistic/posterior", 0.9),
-                              ("detection", 0.88), ("power", 0.88)):
+        for method in ("constant/logistic", "constant/normal", "constant/weibull", "staircase/logistic", "detection", "power"):
             shares = np.mean([lab_coverage.run(method, Draw(11, method, i)) for i in range(60)], axis=0)
-            self.assertTrue((shares >= least).all(), (method, shares))
+            self.assertTrue((shares >= (0.8 if method.startswith("staircase") else 0.88)).all(), (method, shares))
 
 
 class Others(TestCase):

@@ -101,133 +101,75 @@ class Psychometric:
 
 
 class _Likelihood:
-    """The likelihood of data over threshold, log width and lapse rate."""
+    """The likelihood of data over threshold (weibull: its logarithm), log width and lapse rate, searched on grids: no start is needed, and a second summit
+    is not missed."""
 
     def __init__(self, function: Function, levels: Array, yes: Array, trials: Array, guess: float, lapse: Optional[float]):
-        self.function, self.levels, self.yes, self.trials, self.guess = function, levels, yes, trials, guess
-        span = float(levels.max() - levels.min()) or abs(float(levels[0])) or 1.0
+        self.function, self.levels, self.yes, self.no, self.guess = function, levels, yes, trials - yes, guess
         low, high = float(levels.min()), float(levels.max())
-        widths = (0.05, 60.0) if function == "weibull" else (span / 300.0, 6.0 * span)
-        thresholds = (low / 5.0 if low > 0.0 else span / 1e3, high * 5.0) if function == "weibull" else (low - 2.0 * span, high + 2.0 * span)
-        free = 0.0 if lapse is None else lapse
-        self.low = np.array([thresholds[0], math.log(widths[0]), free])
-        self.high = np.array([thresholds[1], math.log(widths[1]), min(_MOST_LAPSE, 0.99 - guess) if lapse is None else lapse])
-        self.middle = math.log(3.0 if function == "weibull" else span / 6.0)   # of the prior of the log width
-        self.step = np.array([1e-5 * span, 1e-5, 1e-6])
-
-    def chances(self, at: Array) -> Array:
-        return np.clip(probability(self.function, self.levels, at[0], math.exp(at[1]), self.guess, at[2]), _CLIP, 1.0 - _CLIP)
-
-    def log(self, at: Array) -> float:
-        p = self.chances(at)
-        return float(self.yes @ np.log(p) + (self.trials - self.yes) @ np.log1p(-p))
-
-    def begin(self) -> Array:
-        """The best point of a coarse grid."""
-        if self.function == "weibull":
-            t = np.exp(np.linspace(math.log(max(self.low[0], 1e-300)), math.log(self.high[0]), 25))
+        span = high - low or abs(low) or 1.0
+        if function == "weibull":
+            self.low, self.high = np.log([low / 5.0 if low > 0.0 else span / 1e3, 0.05]), np.log([high * 5.0, 60.0])
         else:
-            t = np.linspace(self.levels.min(), self.levels.max(), 21)
-        w = np.linspace(self.low[1], self.high[1], 13)
-        lapses = np.linspace(self.low[2], self.high[2], 2 if self.high[2] > self.low[2] else 1)
-        p = np.clip(self.guess + (1.0 - self.guess - lapses[None, None, :, None]) * core(self.function, self.levels, t[:, None, None, None],
-                                                                                        np.exp(w)[None, :, None, None]), _CLIP, 1.0 - _CLIP)
-        logs = np.log(p) @ self.yes + np.log1p(-p) @ (self.trials - self.yes)
-        i, k, m = np.unravel_index(int(np.argmax(logs)), logs.shape)
-        return np.array([t[i], w[k], lapses[m]])
+            self.low, self.high = np.array([low - 2.0 * span, math.log(span / 300.0)]), np.array([high + 2.0 * span, math.log(6.0 * span)])
+        self.lapses = np.array([lapse]) if lapse is not None else np.linspace(0.0, min(_MOST_LAPSE, 0.99 - guess), 9)
+        self.middle = math.log(3.0 if function == "weibull" else span / 6.0)   # of the prior of the log width
 
-    def climb(self, start: Array, held: Sequence[int] = ()) -> Tuple[Array, float]:
-        """The most likely point from a start on, by Fisher scoring within the bounds; parameters in `held` stay."""
-        at = np.clip(start, self.low, self.high)
-        best, damping = self.log(at), 1e-3
-        for _ in range(60):
-            p = self.chances(at)
-            free = [i for i in range(3) if i not in held and self.high[i] > self.low[i]]
-            slopes = np.stack([(self.chances(at + d) - self.chances(at - d)) / (2.0 * self.step[i]) for i in free
-                               for d in [np.eye(3)[i] * self.step[i]]]) if free else np.zeros((0, len(p)))
-            score = slopes @ ((self.yes - self.trials * p) / (p * (1.0 - p)))
-            moves = [k for k, i in enumerate(free) if not (at[i] <= self.low[i] and score[k] < 0.0 or at[i] >= self.high[i] and score[k] > 0.0)]
-            if not moves:
+    def logs(self, thresholds: Array, widths: Array, lapses: Array) -> Array:
+        """Its logarithm on a grid, shape (thresholds, widths, lapses)."""
+        at = np.exp(thresholds) if self.function == "weibull" else thresholds
+        shares = core(self.function, self.levels, at[:, None, None], np.exp(widths)[None, :, None])
+        chances = (np.clip(self.guess + (1.0 - self.guess - lapse) * shares, _CLIP, 1.0 - _CLIP) for lapse in lapses)
+        return np.stack([np.log(p) @ self.yes + np.log1p(-p) @ self.no for p in chances], axis=2)
+
+    def best(self) -> Tuple[float, float, float]:
+        """The most likely threshold, log width and lapse rate. A grid around the best point so far moves until that is inside, and then shrinks."""
+        low, high = np.append(self.low, self.lapses[0]), np.append(self.high, self.lapses[-1])
+        at, half, counts = 0.5 * (low + high), 0.5 * (high - low), np.array([101, 31, 9])
+        for _ in range(200):
+            axes = [np.unique(np.clip(np.linspace(a - h, a + h, n), b, c)) for a, h, n, b, c in zip(at, half, counts, low, high)]
+            logs = self.logs(axes[0], axes[1], axes[2])
+            where = np.unravel_index(int(np.argmax(logs)), logs.shape)
+            at = np.array([axis[i] for axis, i in zip(axes, where)])
+            if all(0 < i < len(axis) - 1 or axis[i] in (b, c) for axis, i, b, c in zip(axes, where, low, high)):
+                half, counts = 4.0 * half / (counts - 1), np.array([9, 9, 9])
+            if (half < 1e-9 * (high - low + 1e-300)).all():
                 break
-            information = (slopes[moves] * (self.trials / (p * (1.0 - p)))) @ slopes[moves].T
-            scale = np.sqrt(np.maximum(np.diag(information), 1e-300))
-            gained = 0.0
-            for _ in range(25):
-                step = np.linalg.solve(information / np.outer(scale, scale) + damping * np.eye(len(moves)), score[moves] / scale) / scale
-                tried = at.copy()
-                tried[[free[k] for k in moves]] += step
-                tried = np.clip(tried, self.low, self.high)
-                value = self.log(tried)
-                if value > best:
-                    gained, at, best, damping = value - best, tried, value, max(damping * 0.2, 1e-9)
-                    break
-                damping = min(damping * 5.0, 1e12)
-            if gained < 1e-10:
-                break
-            damping = min(damping, 1e3)
-        return at, best
+        return float(at[0]), float(at[1]), float(at[2])
 
-    def profile(self, index: int, value: float, start: Array) -> Tuple[Array, float]:
-        """The most likely point with one parameter held at a value; the start helps, and a coarse one guards against a local summit."""
-        held = start.copy()
-        held[index] = value
-        return self.climb(held, [index])
-
-    def posterior(self, confidence: float) -> List[Tuple[float, float, float]]:
-        """Low end, median and high end of threshold and log width, with equal tails of the posterior, on a grid: first a coarse
-        one, then finer ones over the part that holds its mass. The prior is flat in the threshold (weibull: its logarithm) and in the lapse rate; the log
-        width is normal, around a sixth of the span of the levels (weibull: an exponent of 3), with a standard deviation of 1."""
-        is_log = self.function == "weibull"
-        middle = self.middle
-        ends = [np.log(self.low[0]) if is_log else self.low[0], np.log(self.high[0]) if is_log else self.high[0], middle - 4.0, middle + 4.0]
-        lapses = np.linspace(self.low[2], self.high[2], 5 if self.high[2] > self.low[2] else 1)
-        for counts in ((101, 21), (61, 41), (81, 61)):
-            t, w = np.linspace(ends[0], ends[1], counts[0]), np.linspace(ends[2], ends[3], counts[1])
-            shares = core(self.function, self.levels, (np.exp(t) if is_log else t)[:, None, None], np.exp(w)[None, :, None])
-            logs = np.stack([np.log(p) @ self.yes + np.log1p(-p) @ (self.trials - self.yes) for lapse in lapses
-                             for p in [np.clip(self.guess + (1.0 - self.guess - lapse) * shares, _CLIP, 1.0 - _CLIP)]])
-            mass = np.exp(logs - logs.max()).sum(axis=0) * np.exp(-0.5 * (w - middle) ** 2)
-            tails = [mass.sum(axis=1) / mass.sum(), mass.sum(axis=0) / mass.sum()]
-            if counts != (81, 61):
-                for at, (grid, tail) in enumerate(zip((t, w), tails)):
-                    inside = np.flatnonzero(tail > 1e-6)
-                    ends[2 * at:2 * at + 2] = [grid[max(inside[0] - 1, 0)], grid[min(inside[-1] + 1, len(grid) - 1)]]
-        found = []
-        for grid, tail in zip((t, w), tails):
-            below = np.concatenate([[0.0], np.cumsum(0.5 * (tail[1:] + tail[:-1]))])
-            found.append([float(x) for x in np.interp([0.5 - 0.5 * confidence, 0.5, 0.5 + 0.5 * confidence], below / below[-1], grid)])
-        (a, b, c), (d, e, f) = [math.exp(x) for x in found[0]] if is_log else found[0], found[1]
-        return [(a, b, c), (d, e, f)]
-
-
-def _interval(given: _Likelihood, best: Array, log: float, index: int, drop: float) -> Tuple[float, float]:
-    """Where the profile of a parameter has fallen by `drop`; infinite if it does not within the bounds."""
-    ends = []
-    for sign, bound in ((-1.0, given.low[index]), (1.0, given.high[index])):
-        at, step = best, 1e-3 * (given.high[index] - given.low[index])
-        inside, outside = best[index], math.nan
-        while math.isnan(outside):
-            value = inside + sign * step
-            if (bound - value) * sign <= 0.0:
-                value = bound
-            at, here = given.profile(index, value, at)
-            if log - here > drop:
-                outside = value
-            elif value == bound:
-                break
+    def ends(self, confidence: float, is_posterior: bool, best: Tuple[float, float, float]) -> List[Tuple[float, float, float]]:
+        """Low end, middle and high end of threshold and log width, from a coarse grid and then finer ones over the part that matters. With the posterior: the
+        median and equal tails; its prior is that of `psychometric`. Else: where the profile, the largest value over all others, has fallen from the best."""
+        ends = np.array([self.low, self.high]).T
+        if is_posterior:
+            ends[1] = self.middle - 4.0, self.middle + 4.0
+        fallen = self.logs(*(np.array([x]) for x in best)).item() - 0.5 * statistics.NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
+        for counts in ((101, 21), (61, 41), (161, 61)):
+            grids = [np.linspace(low, high, count) for (low, high), count in zip(ends, counts)]
+            logs = self.logs(grids[0], grids[1], self.lapses)
+            if is_posterior:
+                mass = np.exp(logs - logs.max()).sum(axis=2) * np.exp(-0.5 * (grids[1] - self.middle) ** 2)
+                kept = [mass.sum(axis=1), mass.sum(axis=0)]
+                insides = [np.flatnonzero(one > 1e-6 * one.sum()) for one in kept]
             else:
-                inside, step = value, 2.0 * step
-        if math.isnan(outside):
-            ends.append(sign * math.inf)
-            continue
-        for _ in range(40):
-            middle = 0.5 * (inside + outside)
-            at, here = given.profile(index, middle, at)
-            inside, outside = (inside, middle) if log - here > drop else (middle, outside)
-            if abs(outside - inside) < 1e-4 * max(abs(inside - best[index]), 1e-12):
-                break
-        ends.append(0.5 * (inside + outside))
-    return ends[0], ends[1]
+                kept = [logs.max(axis=(1, 2)), logs.max(axis=(0, 2))]
+                insides = [np.flatnonzero(one > min(fallen, one.max()) - 4.0) for one in kept]
+            ends = np.array([[grid[max(i[0] - 1, 0)], grid[min(i[-1] + 1, len(grid) - 1)]] for grid, i in zip(grids, insides)])
+        return [_tails(grid, one, confidence) if is_posterior else _crossings(grid, one, at, fallen) for grid, one, at in zip(grids, kept, best)]
+
+
+def _tails(grid: Array, mass: Array, confidence: float) -> Tuple[float, float, float]:
+    below = np.concatenate([[0.0], np.cumsum(0.5 * (mass[1:] + mass[:-1]))])
+    low, middle, high = np.interp([0.5 - 0.5 * confidence, 0.5, 0.5 + 0.5 * confidence], below / below[-1], grid)
+    return float(low), float(middle), float(high)
+
+
+def _crossings(grid: Array, profile: Array, at: float, fallen: float) -> Tuple[float, float, float]:
+    """Where a profile has fallen, on both sides of a point; infinite if it does not on the grid."""
+    low, high = np.flatnonzero((profile < fallen) & (grid < at))[-1:], np.flatnonzero((profile < fallen) & (grid > at))[:1]
+    ends = [float(np.interp(fallen, [profile[i[0]], max(profile[i[0] + step], fallen)], [grid[i[0]], grid[i[0] + step]])) if len(i) else -step * math.inf
+            for i, step in ((low, 1), (high, -1))]
+    return ends[0], at, ends[1]
 
 
 def _gathered(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike]) -> Tuple[Array, Array, Array]:
@@ -266,19 +208,15 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
     if function == "weibull" and x.min() < 0.0:
         fail("lab/value", "levels", "a level is less than 0", "the function weibull needs levels from 0; use logistic or normal")
     given = _Likelihood(function, x, k, n, guess, lapse)
-    best, log = given.climb(given.begin())
-    share = np.clip(k / n, _CLIP, 1.0 - _CLIP)
-    saturated = float(k @ np.log(share) + (n - k) @ np.log1p(-share))
-    if method == "posterior":
-        thresholds, logs = given.posterior(confidence)
-        best[0], best[1], log = thresholds[1], logs[1], given.log(np.array([thresholds[1], logs[1], best[2]]))
-        ends, widths = (thresholds[0], thresholds[2]), (logs[0], logs[2])
-    else:
-        drop = 0.5 * statistics.NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
-        ends, widths = _interval(given, best, log, 0, drop), _interval(given, best, log, 1, drop)
-    return Psychometric(function, float(best[0]), math.exp(best[1]), guess, float(best[2]), Interval(*ends),
-                        Interval(math.exp(widths[0]), math.exp(widths[1]) if widths[1] < math.inf else math.inf),
-                        2.0 * (saturated - log), confidence, x, k, n, unit)
+    best = given.best()
+    ends, widths = given.ends(confidence, method == "posterior", best)
+    threshold, width, missed = ends[1], widths[1], best[2]
+    if function == "weibull":
+        threshold, ends = math.exp(threshold), (math.exp(ends[0]), math.exp(ends[1]), math.exp(ends[2]))
+    share, p = (np.clip(chances, _CLIP, 1.0 - _CLIP) for chances in (k / n, probability(function, x, threshold, math.exp(width), guess, missed)))
+    deviance = 2.0 * float(k @ np.log(share / p) + (n - k) @ np.log((1.0 - share) / (1.0 - p)))
+    return Psychometric(function, threshold, math.exp(width), guess, missed, Interval(ends[0], ends[2]),
+                        Interval(math.exp(widths[0]), math.exp(widths[2])), deviance, confidence, x, k, n, unit)
 
 
 # ------------------------------------------------------------------------ Signals and noise
@@ -334,17 +272,10 @@ def power_law(levels: ArrayLike, answers: ArrayLike) -> PowerLaw:
 
 
 def t_quantile(free: int, share: float = 0.975) -> float:
-    """The quantile of Student's distribution with `free` degrees of freedom, by bisection of its integral."""
-    def below(t: float) -> float:
-        x = np.linspace(0.0, math.atan(t / math.sqrt(free)), 2001)   # t = sqrt (free) tan (x)
-        y = np.cos(x) ** (free - 1)
-        scale = math.exp(math.lgamma(0.5 * (free + 1)) - math.lgamma(0.5 * free)) / math.sqrt(math.pi)
-        return 0.5 + scale * float((y[0] + 4.0 * y[1:-1:2].sum() + 2.0 * y[2:-1:2].sum() + y[-1]) * (x[1] - x[0]) / 3.0)
-    low, high = 0.0, 1e4
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if below(middle) < share else (low, middle)
-    return low
+    """The quantile of Student's distribution with `free` degrees of freedom, from a sum over x, where t = sqrt (free) tan (x)."""
+    x = np.linspace(0.0, 0.5 * math.pi, 100001)
+    below = np.cumsum(np.cos(0.5 * (x[1:] + x[:-1])) ** (free - 1))
+    return math.sqrt(free) * math.tan(float(np.interp(2.0 * share - 1.0, np.append(0.0, below / below[-1]), x)))
 
 
 # ------------------------------------------------------------------------ Plots

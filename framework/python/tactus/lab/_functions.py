@@ -33,17 +33,8 @@ def probability(function: Function, level: Any, threshold: Any, width: Any, gues
 
 
 def phi(z: Any) -> Array:
-    """The distribution function of the standard normal distribution: a table of math.erfc with steps of 1/512, and cubics between; off by
-    less than 1e-13 where a test compares it."""
-    at = np.clip(np.asarray(z, dtype=float), -_ENDS, _ENDS) + _ENDS
-    i = np.minimum((at * _PER_UNIT).astype(int), len(_VALUES) - 2)
-    u = at * _PER_UNIT - i
-    rise = _VALUES[i + 1] - _VALUES[i]
-    slope, next_slope = _SLOPES[i] / _PER_UNIT, _SLOPES[i + 1] / _PER_UNIT
-    return np.asarray(_VALUES[i] + u * (slope + u * (3.0 * rise - 2.0 * slope - next_slope + u * (slope + next_slope - 2.0 * rise))))
+    """The distribution function of the standard normal distribution."""
+    return np.asarray(0.5 * _erfc(np.asarray(z, dtype=float) * -math.sqrt(0.5)), dtype=float)
 
 
-_ENDS, _PER_UNIT = 9, 512
-_POINTS = [i / _PER_UNIT - _ENDS for i in range(2 * _ENDS * _PER_UNIT + 1)]
-_VALUES = np.array([0.5 * math.erfc(-z / math.sqrt(2.0)) for z in _POINTS])
-_SLOPES = np.array([math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi) for z in _POINTS])
+_erfc = np.frompyfunc(math.erfc, 1, 1)
