@@ -30,22 +30,31 @@ from waiting import eventually
 
 OBSERVER = lab.Observer(threshold=2.0, width=0.3)
 
-DIES = """
-import os, signal, sys
-from tactus import lab
-out, resume, dies, torn = sys.argv[1], sys.argv[2] == "1", int(sys.argv[3]), sys.argv[4] == "1"
-class Dying(lab.Simulated):
-    asked = 0
+class Asked(lab.Simulated):
+    """An observer. A function of the trial, the keys and the hand may answer first."""
+
+    def __init__(self, first, observer=OBSERVER):
+        super().__init__(observer)
+        self.first = first
+
     def ask(self, trial, level, keys, limit, hand):
-        Dying.asked += 1
-        if Dying.asked == dies:
-            if torn:   # as if the power had failed in the middle of a line
-                os.write(experiment._journal._file.fileno(), b'{"event": "trial", "numb')
-            os.kill(os.getpid(), signal.SIGKILL)
-        return super().ask(trial, level, keys, limit, hand)
-experiment = lab.Experiment(lab.Protocol.load(out + "/p.json"), out, window=Dying(lab.Observer(threshold=2.0, width=0.3)), resume=resume)
-experiment.run()
-"""
+        answer = self.first(trial, keys, hand)
+        return super().ask(trial, level, keys, limit, hand) if answer is None else answer
+
+
+def leaves(number):
+    """A window whose observer leaves at a trial."""
+    def leave(trial, keys, hand):
+        if trial.number == number:
+            raise lab.Aborted("enough")
+    return Asked(leave)
+
+
+def awaited(hand):
+    """The answer of a hand, once it gives one."""
+    found = []
+    assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
+    return found[0]
 
 
 class Case(TestCase):
@@ -65,16 +74,17 @@ class Sessions(Case):
     made = protocol(block(procedure=lab.Staircase(start=4.0, steps=(1.0, 0.5), trials=30, tracks=2), practice=2, catch=0.1, break_every=10,
                           instructions="feel it"))
 
-    def test_nothing_is_lost_and_the_order_stays_after_three_kills(self):
-        self.made.save(self.out / "p.json")
-        for resume, dies, torn in ((0, 9, 0), (1, 14, 1), (1, 1, 1)):
-            done = subprocess.run([sys.executable, "-B", "-c", DIES, str(self.out), str(resume), str(dies), str(torn)], check=False, capture_output=True)
-            self.assertEqual(done.returncode, -signal.SIGKILL, done.stderr.decode())
-        folder = self.out / "sub-01/ses-01/beh"
-        before = next(folder.glob("*journal.jsonl")).read_bytes()
-        self.assertEqual(lab.load(folder).trials.rows, 8 + 13)
-        resumed = self.run_session(lab.Protocol.load(self.out / "p.json"), resume=True)
-        self.assertTrue(next(folder.glob("*journal.jsonl")).read_bytes().startswith(before))   # append-only
+    def test_nothing_is_lost_and_the_order_stays_after_three_breaks_in_the_middle_of_a_line(self):
+        before = b""
+        for resume, number in ((False, 9), (True, 22), (True, 22)):
+            data = self.run_session(self.made, leaves(number), resume=resume)
+            self.assertEqual(data.trials.rows, number - 1)
+            path = next(data.folder.glob("*journal.jsonl"))
+            self.assertTrue(path.read_bytes().startswith(before))   # append-only
+            with open(path, "ab") as file:   # as if the power had failed
+                file.write(b'{"event": "trial", "numb')
+            before = path.read_bytes()
+        resumed = self.run_session(self.made, resume=True)
         with tempfile.TemporaryDirectory() as other:
             whole = lab.Experiment(self.made, other, window=lab.Simulated(OBSERVER)).run()
         self.assertEqual(self.answers(resumed), self.answers(whole))
@@ -82,12 +92,7 @@ class Sessions(Case):
         self.assertEqual([resumed.turns(), [e for e in resumed.events["trial_type"]].count("run")], [whole.turns(), 4])
 
     def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol(self):
-        class Leaves(lab.Simulated):
-            def ask(self, trial, *rest):
-                if trial.number == 5:
-                    raise lab.Aborted("enough")
-                return super().ask(trial, *rest)
-        data = self.run_session(self.made, Leaves(OBSERVER))
+        data = self.run_session(self.made, leaves(5))
         self.assertEqual((data.trials.rows, data.is_complete), (4, False))
         self.fails("lab/exists", self.run_session, self.made)
         self.fails("lab/protocol", self.run_session, protocol(block()), resume=True)
@@ -103,13 +108,7 @@ class Sessions(Case):
         made = protocol(lab.Block(name="a", task="2ifc", procedure=lab.Constant(levels=(0.2, 0.4), repeats=2), varies=lab.Varies(target="roughness")),
                         graph="own.json")
         made.save(study / "p.json")
-
-        class Leaves(lab.Simulated):
-            def ask(self, trial, *rest):
-                if trial.number == 2:
-                    raise lab.Aborted("enough")
-                return super().ask(trial, *rest)
-        self.run_session(lab.Protocol.load(study / "p.json"), Leaves(OBSERVER), stage=lab.Silent())
+        self.run_session(lab.Protocol.load(study / "p.json"), leaves(2), stage=lab.Silent())
         (study / "p.json").unlink()
         own = next(self.out.rglob("*_protocol.json"))
         self.fails("lab/protocol", self.run_session, self.made, stage=lab.Silent(), resume=True)
@@ -129,22 +128,17 @@ class Sessions(Case):
         self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
 
     def test_answers_by_osc_that_are_none_or_come_early_do_not_count(self):
-        answers = []
+        answers, receiver = [], lab.Receiver(0)
+        self.addCleanup(receiver.close)
 
-        class Given(lab.Simulated):
-            def ask(self, trial, level, keys, limit, hand):
-                receiver.answers.put("xyz")
-                receiver.answers.put(keys["yes"] if trial.number % 2 else "no")
-                answers.append((hand(), hand()))
-                receiver.answers.put("yes")   # for the next trial
-                return answers[-1][1]
-        receiver = lab.Receiver(0)
+        def first(trial, keys, hand):
+            receiver.answers.put("xyz")
+            receiver.answers.put(keys["yes"] if trial.number % 2 else "no")
+            answers.append((hand(), hand()))
+            receiver.answers.put("yes")   # for the next trial
+            return answers[-1][1]
         receiver.answers.put("yes")
-        try:
-            made = protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=4)))
-            data = lab.Experiment(made, self.out, window=Given(OBSERVER), receiver=receiver).run()
-        finally:
-            receiver.close()
+        data = self.run_session(protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=4))), Asked(first), receiver=receiver)
         self.assertEqual(answers, [(None, "yes"), (None, "no")] * 2)
         self.assertTrue(data.is_complete)
 
@@ -214,18 +208,13 @@ class Marks(Case):
                 other.sendto(packet, ("127.0.0.1", receiver.port))
         self.assertTrue(lab.mark("blink", "left", receiver.port))
 
-        class Sends(lab.Simulated):
-            def ask(self, trial, level, keys, limit, hand):
-                if trial.number == 2:
-                    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-                        own.sendto(_marks.osc("/tactus/answer", "first", "wrong"), ("127.0.0.1", receiver.port))
-                        own.sendto(_marks.osc("/tactus/answer", "first"), ("127.0.0.1", receiver.port))
-                        own.sendto(_marks.osc("/tactus/answer", "second", receiver.token), ("127.0.0.1", receiver.port))
-                    found = []
-                    assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
-                    return found[0]
-                return super().ask(trial, level, keys, limit, hand)
-        data = self.run_session(protocol(), Sends(OBSERVER), receiver=receiver)
+        def first(trial, keys, hand):
+            if trial.number == 2:
+                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+                    for words in (("first", "wrong"), ("first",), ("second", receiver.token)):
+                        own.sendto(_marks.osc("/tactus/answer", *words), ("127.0.0.1", receiver.port))
+                return awaited(hand)
+        data = self.run_session(protocol(), Asked(first), receiver=receiver)
         row = list(data.events["trial_type"]).index("blink")
         self.assertEqual(data.events["value"][row], "left")
         self.assertEqual(data.trials["answer"][1], "second")
@@ -438,11 +427,9 @@ class OnDevices(Case):
         made = self.rests((500.0,), 500.0, max_force=0.5)
         stage = lab.Live(made, None, "off")
 
-        class Waits(lab.Simulated):
-            def ask(self, trial, *rest):
-                assert trial.number > 1 or eventually(lambda: stage.wait(0.0) or "run/clipped" in stage._seen)
-                return super().ask(trial, *rest)
-        data = self.run_session(made, Waits(OBSERVER), stage=stage)
+        def first(trial, keys, hand):
+            assert trial.number > 1 or eventually(lambda: stage.wait(0.0) or "run/clipped" in stage._seen)
+        data = self.run_session(made, Asked(first), stage=stage)
         self.assertEqual((data.trials["guard"][0], data.trials["guard_count"][0]), ("run/clipped", 1))
 
     def test_switching_a_stimulus_never_steps_the_force(self):
@@ -453,25 +440,15 @@ class OnDevices(Case):
         self.assertLess(np.abs(np.diff(force)).max(), 0.7, force)   # in a tick of 1 ms: 4 N take 10 ms, along a cosine
 
     def test_an_emergency_stop_ends_the_session_which_can_be_resumed(self):
-        class Stops(lab.Simulated):
-            def ask(self, trial, *rest):
-                if trial.number == 2:
-                    self.stop()
-                return super().ask(trial, *rest)
-        self.fails("lab/stopped", self.run_session, self.made, Stops(lab.Observer(threshold=0.3, width=0.1)), stage=lab.Live(self.made, None, "off"))
+        window = Asked(lambda trial, keys, hand: window.stop() if trial.number == 2 else None, lab.Observer(threshold=0.3, width=0.1))
+        self.fails("lab/stopped", self.run_session, self.made, window, stage=lab.Live(self.made, None, "off"))
         data = self.run_session(self.made, stage=lab.Live(self.made, None, "off"), resume=True)
         self.assertTrue(data.is_complete)
         self.assertEqual(data.trials.rows, 3)
 
     def test_the_hand_itself_answers(self):
         made = dataclasses.replace(self.made, hand={"first": lab.HandAnswer(port="motor.force.x", above=-1e9)})
-
-        class Waits(lab.Window):
-            def ask(self, trial, level, keys, limit, hand):
-                found = []
-                assert eventually(lambda: found or found.extend(filter(None, [hand()])) or found)
-                return found[0]
-        data = self.run_session(made, Waits(), stage=lab.Live(made, None, "off"))
+        data = self.run_session(made, Asked(lambda trial, keys, hand: awaited(hand)), stage=lab.Live(made, None, "off"))
         self.assertEqual(set(data.trials["answer"]), {"first"})
 
     def test_a_level_out_of_range_is_refused_before_anything_plays(self):
