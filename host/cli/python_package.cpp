@@ -112,7 +112,7 @@ void addExperiment (const Command& app)
 {
     struct Flags
     {
-        bool resume = false, web = false, no_devices = false;
+        bool resume = false, web = false, no_devices = false, packed_log = false;
     };
     const auto words = std::make_shared<LabWords>();
     const auto flags = std::make_shared<Flags>();
@@ -131,6 +131,7 @@ void addExperiment (const Command& app)
     command.addFlag ("--resume", flags->resume, "Go on with a session that was not completed");
     command.addFlag ("--web", flags->web, "Pages for the participant and the experimenter, for a browser on this computer");
     command.addFlag ("--no-devices", flags->no_devices, "Play no graph: nothing is felt");
+    command.addFlag ("--packed-log", flags->packed_log, "Pack the log of the inputs, which takes less space");
     command.footer ("Starts python3 -m tactus.lab. See docs/lab.md.\n\n"
                     "Examples:\n"
                     "  tactus experiment roughness.json --web --participant 07\n"
@@ -138,7 +139,8 @@ void addExperiment (const Command& app)
                     "  tactus experiment grating.json --observer threshold=0.02,width=0.004 --no-devices");
     command.callback ([words, flags] {
         for (const auto& [given, name] :
-             { std::pair { flags->resume, "--resume" }, std::pair { flags->web, "--web" }, std::pair { flags->no_devices, "--no-devices" } })
+             { std::pair { flags->resume, "--resume" }, std::pair { flags->web, "--web" }, std::pair { flags->no_devices, "--no-devices" },
+               std::pair { flags->packed_log, "--packed-log" } })
             if (given) words->flags.emplace_back (name);
         startPython ("tactus.lab.__main__", words->all ("experiment"));
     });
