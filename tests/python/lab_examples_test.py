@@ -6,7 +6,6 @@ import contextlib
 import io
 import json
 import os
-import pathlib
 import subprocess
 import sys
 import tempfile
@@ -42,8 +41,7 @@ def run_cell(source, names):
 class Literature(TestCase):
     def run_one(self, name, observer):
         protocol = lab.Protocol.load(EXAMPLES / f"{name}.json")
-        with tempfile.TemporaryDirectory() as out:
-            return lab.Experiment(protocol, out, window=lab.Simulated(observer), stage=lab.Silent()).run()
+        return lab.Experiment(protocol, self.folder, window=lab.Simulated(observer), stage=lab.Silent()).run()
 
     def test_the_stiffness_jnd(self):
         data = self.run_one("stiffness", lab.Observer(threshold=500.0, width=105.0, lapse=0.01, seed=3))
@@ -75,12 +73,11 @@ class Examples(TestCase):
                               env={**os.environ, "MPLBACKEND": "Agg"}).stdout
 
     def test_the_staircase_finds_the_threshold(self):
-        with tempfile.TemporaryDirectory() as out:
-            said = self.run_script("staircase.py", *([out] if matplotlib else []))
-            low, high = (float(x.rstrip("),")) for x in said.split("95 % ")[1].split(",")[0].split(" to "))
-            self.assertTrue(low < 0.4 < high, said)
-            if matplotlib:
-                self.assertTrue((pathlib.Path(out) / "fit.svg").read_text(encoding="utf-8").startswith("<?xml"))
+        said = self.run_script("staircase.py", *([self.folder] if matplotlib else []))
+        low, high = (float(x.rstrip("),")) for x in said.split("95 % ")[1].split(",")[0].split(" to "))
+        self.assertTrue(low < 0.4 < high, said)
+        if matplotlib:
+            self.assertTrue((self.folder / "fit.svg").read_text(encoding="utf-8").startswith("<?xml"))
 
     def test_the_participant_learns_the_wall_twice(self):
         sys.path.insert(0, str(EXAMPLES))
@@ -95,15 +92,12 @@ class Examples(TestCase):
 class Notebook(TestCase):
     def test_its_outputs_are_those_of_this_program(self):
         cells = [cell for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
-        names, before = {}, os.getcwd()
-        with tempfile.TemporaryDirectory() as folder:
-            os.chdir(folder)
-            try:
-                for cell in cells:
-                    stored = "".join(text for output in cell["outputs"] for text in output.get("text", output.get("data", {}).get("text/plain", [])))
-                    self.assertEqual(run_cell("".join(cell["source"]), names), stored, cell["id"])
-            finally:
-                os.chdir(before)
+        names = {}
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        for cell in cells:
+            stored = "".join(text for output in cell["outputs"] for text in output.get("text", output.get("data", {}).get("text/plain", [])))
+            self.assertEqual(run_cell("".join(cell["source"]), names), stored, cell["id"])
 
 
 if __name__ == "__main__":

@@ -5,9 +5,7 @@ import csv
 import importlib.util
 import json
 import math
-import pathlib
 import struct
-import tempfile
 import unittest
 
 import numpy as np
@@ -24,9 +22,6 @@ def has(module):
 
 class Writers(TestCase):
     def setUp(self):
-        made = tempfile.TemporaryDirectory()
-        self.addCleanup(made.cleanup)
-        self.folder = pathlib.Path(made.name)
         self.table = lab.Table({"t": np.arange(46) / 1000.0, "motor.force.x": NUMBERS, "name": TEXTS}, {"t": "s", "motor.force.x": "N"},
                                {"graph": "abc"}, 1000.0)
 

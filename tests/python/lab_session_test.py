@@ -58,13 +58,21 @@ def awaited(hand):
 
 
 class Case(TestCase):
-    def setUp(self):
-        made = tempfile.TemporaryDirectory()
-        self.addCleanup(made.cleanup)
-        self.out = pathlib.Path(made.name)
-
     def run_session(self, made, window=None, **more):
-        return lab.Experiment(made, self.out, window=window or lab.Simulated(OBSERVER), **more).run()
+        return lab.Experiment(made, self.folder, window=window or lab.Simulated(OBSERVER), **more).run()
+
+    def browser(self):
+        made = lab.Browser()
+        self.addCleanup(made.end)
+        return made
+
+    def web(self, address, data=None, **headers):
+        """The status and the text of a page, or of the reply to data that are sent there."""
+        try:
+            with urllib.request.urlopen(urllib.request.Request(address, data, headers), timeout=60) as reply:
+                return reply.status, reply.read().decode()
+        except urllib.error.HTTPError as why:
+            return why.code, ""
 
     def answers(self, data):
         return list(zip(*(list(data.trials[key]) for key in ("number", "kind", "condition", "level", "intervals", "answer"))))
@@ -102,7 +110,7 @@ class Sessions(Case):
         self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
 
     def test_a_session_goes_on_from_its_own_copy_of_a_protocol_with_relative_paths(self):
-        study = self.out / "study"
+        study = self.folder / "study"
         study.mkdir()
         tactus.Graph("dry_wood").save(study / "own.json")
         made = protocol(lab.Block(name="a", task="2ifc", procedure=lab.Constant(levels=(0.2, 0.4), repeats=2), varies=lab.Varies(target="roughness")),
@@ -110,19 +118,19 @@ class Sessions(Case):
         made.save(study / "p.json")
         self.run_session(lab.Protocol.load(study / "p.json"), leaves(2), stage=lab.Silent())
         (study / "p.json").unlink()
-        own = next(self.out.rglob("*_protocol.json"))
+        own = next(self.folder.rglob("*_protocol.json"))
         self.fails("lab/protocol", self.run_session, self.made, stage=lab.Silent(), resume=True)
         again = lab.Protocol.load(own)
         self.assertIsNotNone(again.graph_of(again.all_conditions()[0]))
         self.assertTrue(self.run_session(again, stage=lab.Silent(), resume=True).is_complete)
         self.assertTrue(lab.load(own.parent).is_complete)
-        self.assertNotIn(str(self.out), own.read_text(encoding="utf-8"))   # no path of this computer
+        self.assertNotIn(str(self.folder), own.read_text(encoding="utf-8"))   # no path of this computer
 
     def test_a_session_that_ended_before_its_protocol_was_written_goes_on(self):
-        experiment = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))
+        experiment = lab.Experiment(self.made, self.folder, window=lab.Simulated(OBSERVER))
         experiment._journal.close()
         experiment.stage.close()
-        own = next(self.out.rglob("*_protocol.json"))
+        own = next(self.folder.rglob("*_protocol.json"))
         own.unlink()
         self.assertTrue(self.run_session(self.made, resume=True).is_complete)
         self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
@@ -152,13 +160,13 @@ class Sessions(Case):
         self.assertEqual(list(data.chosen("set")["outcomes"]), [2.5])
 
     def test_one_process_at_a_time(self):
-        held = lab.Experiment(self.made, self.out, window=lab.Simulated(OBSERVER))
-        self.fails("lab/busy", lab.Experiment, self.made, self.out, window=lab.Simulated(OBSERVER), resume=True)
+        held = lab.Experiment(self.made, self.folder, window=lab.Simulated(OBSERVER))
+        self.fails("lab/busy", lab.Experiment, self.made, self.folder, window=lab.Simulated(OBSERVER), resume=True)
         held.run()
 
     def test_a_changed_line_is_an_error_not_a_loss(self):
         self.run_session(self.made)
-        path = next(self.out.rglob("*journal.jsonl"))
+        path = next(self.folder.rglob("*journal.jsonl"))
         lines = path.read_bytes().split(b"\n")
         for change in (lambda: lines[:9] + [lines[9][:20]] + lines[10:], lambda: [b"{}"] + lines[1:], lambda: [b"\xff"]):
             path.write_bytes(b"\n".join(change()))
@@ -189,7 +197,7 @@ class Sessions(Case):
         names = sorted(p.name for p in data.folder.iterdir())
         stem = "sub-01_ses-01_task-tried"
         self.assertEqual(names, sorted(f"{stem}_{end}" for end in ("beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json")))
-        self.assertTrue((self.out / "dataset_description.json").exists())
+        self.assertTrue((self.folder / "dataset_description.json").exists())
         about = json.loads((data.folder / f"{stem}_events.json").read_text())
         self.assertEqual((about["seed"], about["onset"]["Units"], about["protocol_sha256"]), (1, "s", self.made.hash()))
         self.assertLessEqual({"tactus", "python", "numpy"}, set(about["versions"]))
@@ -224,24 +232,12 @@ class Marks(Case):
         """As docs/examples/lab/jspsych_marks.html sends them: text, from another origin."""
         page = (ROOT / "docs/examples/lab/jspsych_marks.html").read_text(encoding="utf-8")
         self.assertIn('fetch(participant + "mark", {method: "POST", mode: "no-cors", body: JSON.stringify({name, value', page)
-        browser = lab.Browser()
-        self.addCleanup(browser.end)
-
-        def send(body, status=200):
-            request = urllib.request.Request(browser.participant + "mark", data=body, headers={"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})
-            try:
-                with urllib.request.urlopen(request, timeout=60) as answer:
-                    return answer.status == status
-            except urllib.error.HTTPError as why:
-                return why.code == status
-
-        class Marked(lab.Simulated):
-            marks = browser.marks
-
-        self.assertTrue(send('{"name": "picture", "value": "hölzern"}'.encode()))
-        for wrong in (b"", b"[]", b"{}", b"\xff", b'{"value": "x"}', b"3"):
-            self.assertTrue(send(wrong, 400), wrong)
-        data = self.run_session(protocol(), Marked(OBSERVER))
+        browser, window = self.browser(), lab.Simulated(OBSERVER)
+        for status, body in ((200, '{"name": "picture", "value": "hölzern"}'.encode()), *((400, wrong) for wrong in
+                             (b"", b"[]", b"{}", b"\xff", b'{"value": "x"}', b"3"))):
+            self.assertEqual(self.web(browser.participant + "mark", body, **{"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})[0], status, body)
+        window.marks = browser.marks
+        data = self.run_session(protocol(), window)
         row = list(data.events["trial_type"]).index("picture")
         self.assertEqual((data.events["value"][row], list(data.events["trial_type"]).count("picture")), ("hölzern", 1))
 
@@ -258,7 +254,7 @@ class Marks(Case):
         data = self.run_session(made)
         self.assertEqual(os.read(ours, 100), b"\x01\x02\x02\xff" * 3)
         self.assertEqual([code for code in data.events["code"] if not math.isnan(code)], [1, 2, 2, 255] * 3)
-        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/dev/null")), self.out, "02", window=lab.Simulated(OBSERVER))
+        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/dev/null")), self.folder, "02", window=lab.Simulated(OBSERVER))
 
 
 class Windows(Case):
@@ -284,14 +280,8 @@ class Windows(Case):
             with self.assertRaises(lab.Aborted):
                 terminal.ask(trial, 1.0, {"first": "1"}, 0.0, lambda: None)
 
-    def get(self, address, data=None, host=None):
-        request = urllib.request.Request(address, data=data, headers={"Host": host} if host else {})
-        with urllib.request.urlopen(request, timeout=60) as answer:
-            return answer.read().decode()
-
     def test_a_participant_answers_in_a_browser_and_the_experimenter_sees_it(self):
-        browser = lab.Browser()
-        self.addCleanup(browser.end)
+        browser = self.browser()
         found = []
         made = protocol(block("a", procedure=lab.Constant(levels=(1.0, 3.0), repeats=2), instructions="press a key"),
                         block("b", "magnitude", lab.Constant(levels=(2.0,), repeats=1)))
@@ -299,38 +289,33 @@ class Windows(Case):
         thread.start()
         asked = []
         def answer():
-            state = json.loads(self.get(browser.participant + "state"))
+            state = json.loads(self.web(browser.participant + "state")[1])
             if "id" in state and state["id"] not in asked:
                 asked.append(state["id"])
                 for key in ("q", "3.5" if state["number"] else " " if state["keys"] == {"go on": " "} else "Pad1" if len(asked) == 3 else "2"):
-                    self.get(browser.participant + "answer", json.dumps({"id": state["id"], "key": key}).encode())
+                    self.web(browser.participant + "answer", json.dumps({"id": state["id"], "key": key}).encode())
             return not thread.is_alive()
         self.assertTrue(eventually(answer))
         thread.join()
         self.assertEqual(found[0].trials["answer"], ["second"] * 4 + ["3.5"])
-        report = json.loads(self.get(browser.participant + "report"))
+        report = json.loads(self.web(browser.participant + "report")[1])
         self.assertTrue(report["over"])
         self.assertEqual((report["report"]["block"], report["report"]["done"]), ("b", 4))
-        self.assertIn("STOP", self.get(browser.experimenter))
-        self.assertIn('fetch("mark"', self.get(browser.experimenter))   # a key is a mark
-        self.assertIn("fetch(\"state\")", self.get(browser.participant))
+        for text, page in (("STOP", browser.experimenter), ('fetch("mark"', browser.experimenter), ('fetch("state")', browser.participant)):
+            self.assertIn(text, self.web(page)[1])
 
     def test_stop_aborts_and_strangers_see_nothing(self):
-        browser = lab.Browser()
-        self.addCleanup(browser.end)
+        browser = self.browser()
         stopped = []
-        experiment = lab.Experiment(protocol(), self.out, window=browser)
+        experiment = lab.Experiment(protocol(), self.folder, window=browser)
         browser.stop = lambda: stopped.append(1)
         top = browser.participant.rsplit("/", 2)[0]
-        for address, host in ((top + "/", None), (top + "/wrong/", None), (top + "/wrong/state", None), (browser.participant, "evil.example"),
-                              (browser.participant + "x", None)):
-            with self.assertRaises(urllib.error.HTTPError) as caught:
-                self.get(address, host=host)
-            self.assertEqual(caught.exception.code, 404)
+        for address in (top + "/", top + "/wrong/", top + "/wrong/state", browser.participant + "x"):
+            self.assertEqual(self.web(address)[0], 404, address)
+        self.assertEqual(self.web(browser.participant, Host="evil.example")[0], 404)
         for body in (b"", b"[]", b'{"id": "x", "key": 1}', b"\xff"):
-            with self.assertRaises(urllib.error.HTTPError):
-                self.get(browser.participant + "answer", body)
-        self.get(browser.participant + "stop", b"")
+            self.assertEqual(self.web(browser.participant + "answer", body)[0], 400, body)
+        self.web(browser.participant + "stop", b"")
         self.assertFalse(experiment.run().is_complete)
         self.assertEqual(stopped, [1])
 
@@ -353,20 +338,20 @@ class OnDevices(Case):
                       varies=lab.Varies(target="roughness", standard=0.1, rest=0.0), interval=0.02, gap=0.01)])
 
     def test_a_session_plays_marks_ticks_and_its_log_replays(self):
-        stage = lab.Live(self.made, str(self.out / "log.jsonl"), "off")
+        stage = lab.Live(self.made, str(self.folder / "log.jsonl"), "off")
         data = self.run_session(self.made, stage=stage)
         self.assertTrue(data.is_complete)
         ticks = np.asarray(data.events["tick"], dtype=float)[2:]
         self.assertTrue((np.diff(ticks) >= 0.0).all() and ticks[-1] > ticks[0], ticks)
         self.assertEqual(set(data.header["graphs"]), {"dry"})
-        lines = [json.loads(line) for line in (self.out / "log.jsonl").read_text().splitlines()]
+        lines = [json.loads(line) for line in (self.folder / "log.jsonl").read_text().splitlines()]
         clocks = lines[0]["clocks"]
         events = np.stack([np.asarray(data.events[key], dtype=float)[2:] for key in ("wall", "monotonic")])
         self.assertTrue((events[0] >= clocks["wall"] - 1.0).all() and (events[1] >= clocks["monotonic"]).all())
         turned = [line["turn"] for line in lines[1:] if "turn" in line]
         self.assertGreaterEqual(len(turned), 6)   # each interval and each rest
         if PROGRAM:
-            replayed = subprocess.run([PROGRAM, "render", "--replay", str(self.out / "log.jsonl"), "--out", str(self.out / "r.csv")],
+            replayed = subprocess.run([PROGRAM, "render", "--replay", str(self.folder / "log.jsonl"), "--out", str(self.folder / "r.csv")],
                                       capture_output=True, text=True)
             self.assertEqual(replayed.returncode, 0, replayed.stderr)
 
@@ -398,7 +383,7 @@ class OnDevices(Case):
                 program.wait()
                 return program.returncode, said + program.stdout.read(), program.stderr.read()
 
-        out, whole = self.out / "killed", self.out / "whole"
+        out, whole = self.folder / "killed", self.folder / "whole"
         for first, kills_at, resume in ((1, 4, False), (4, 5, True), (5, 17, True)):
             self.assertEqual(run(out, first, kills_at, resume)[0], -signal.SIGKILL)
             self.assertEqual(lab.load(out / "sub-01/ses-01/beh").trials.rows, kills_at - 1)
@@ -412,13 +397,13 @@ class OnDevices(Case):
 
     def rests(self, levels, rest=100.0, **guard):
         """A protocol with two walls, in which a tool rests 2 mm deep."""
-        (self.out / "rests.csv").write_text("t,x,y,z\n0,0,0,-0.002\n600,0,0,-0.002\n", encoding="utf-8")
+        (self.folder / "rests.csv").write_text("t,x,y,z\n0,0,0,-0.002\n600,0,0,-0.002\n", encoding="utf-8")
         for name, kind in (("plane", "deform.plane"), ("coupled", "coupling.virtual")):
-            (self.out / f"{name}.json").write_text(json.dumps({
+            (self.folder / f"{name}.json").write_text(json.dumps({
                 "format": "tactus-graph", "version": 2, "rate_hz": 1000, "devices": {"stylus": {"driver": "sim", "mass": 0.1, "damping": 3.0, "guard": guard}},
                 "nodes": {"hand": {"type": "device.position", "role": "stylus"}, "wall": {"type": kind, "params": {"stiffness": 500.0}},
                           "motor": {"type": "device.force", "role": "stylus"}}, "wires": ["hand.position -> wall.position", "wall.force -> motor.force"]}))
-        return lab.Protocol(name="wall", folder=str(self.out), devices={"stylus": f"trace:{self.out}/rests.csv"}, conditions=[
+        return lab.Protocol(name="wall", folder=str(self.folder), devices={"stylus": f"trace:{self.folder}/rests.csv"}, conditions=[
             lab.Condition(name="a", graph="plane.json"), lab.Condition(name="b", graph="coupled.json")], blocks=[
                 lab.Block(name="w", task="2ifc", interval=0.1, gap=0.1, varies=lab.Varies(target="wall.stiffness", standard=500.0, rest=rest),
                           procedure=lab.Constant(levels=levels, repeats=2))])
@@ -434,8 +419,8 @@ class OnDevices(Case):
 
     def test_switching_a_stimulus_never_steps_the_force(self):
         made = self.rests((1000.0, 2000.0))
-        self.assertTrue(self.run_session(made, stage=lab.Live(made, str(self.out / "log.jsonl"), "off")).is_complete)
-        force = tactus.replay(self.out / "log.jsonl", record=["motor.applied"])["motor.applied"][20:, 2]   # the tool begins in the wall
+        self.assertTrue(self.run_session(made, stage=lab.Live(made, str(self.folder / "log.jsonl"), "off")).is_complete)
+        force = tactus.replay(self.folder / "log.jsonl", record=["motor.applied"])["motor.applied"][20:, 2]   # the tool begins in the wall
         self.assertGreater(np.ptp(force), 3.0)                      # from 0 to 4 N
         self.assertLess(np.abs(np.diff(force)).max(), 0.7, force)   # in a tick of 1 ms: 4 N take 10 ms, along a cosine
 
@@ -453,17 +438,17 @@ class OnDevices(Case):
 
     def test_a_level_out_of_range_is_refused_before_anything_plays(self):
         self.assertRaises(tactus.Error, lab.Experiment, lab.Protocol(name="wood", graph="dry_wood", blocks=[
-            block(procedure=lab.Constant(levels=(2.0,)))]), self.out, window=lab.Simulated(OBSERVER))
+            block(procedure=lab.Constant(levels=(2.0,)))]), self.folder, window=lab.Simulated(OBSERVER))
 
 
 @unittest.skipUnless(PROGRAM, "the program is not built")
 class Commands(Case):
     def ran(self, *words, **environment):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.out, capture_output=True, text=True,
+        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
                               env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment})
 
     def test_an_experiment_runs_and_tells_its_threshold(self):
-        Sessions.made.save(self.out / "p.json")
+        Sessions.made.save(self.folder / "p.json")
         ran = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off")
         self.assertEqual(ran.returncode, 0, ran.stderr)
         self.assertRegex(ran.stdout, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ")
@@ -479,7 +464,7 @@ class Commands(Case):
         self.addCleanup(receiver.close)
         self.assertEqual(self.ran("mark", "--osc", receiver.port, "--", "blink", "-left").returncode, 0)
         self.assertEqual(receiver.marks.get(timeout=60)[:2], ("blink", "-left"))
-        ran = self.ran("mark", "x", PYTHONPATH=str(self.out))
+        ran = self.ran("mark", "x", PYTHONPATH=str(self.folder))
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(ran.stderr, "error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n")
 

@@ -12,7 +12,6 @@ import pickle
 import re
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 import wave
@@ -48,11 +47,6 @@ def strokes(rows=4000):
 
 
 class Case(TestCase):
-    def setUp(self):
-        made = tempfile.TemporaryDirectory()
-        self.addCleanup(made.cleanup)
-        self.folder = pathlib.Path(made.name)
-
     def said(self, *words, status=0):
         """What a command prints, as JSON."""
         done = subprocess.run([PROGRAM, *map(str, words), "--json"], capture_output=True, text=True, cwd=self.folder, check=False)

@@ -2,6 +2,7 @@
 """What the tests of the Python package share."""
 
 import csv
+import functools
 import os
 import pathlib
 import signal
@@ -62,6 +63,13 @@ def pixels(path):
 
 
 class TestCase(unittest.TestCase):
+    @functools.cached_property
+    def folder(self):
+        """A folder for the files of this test."""
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        return pathlib.Path(made.name)
+
     def same_bits(self, a, b):
         a, b = np.ascontiguousarray(a, dtype=float), np.ascontiguousarray(b, dtype=float)
         self.assertEqual(a.shape, b.shape)

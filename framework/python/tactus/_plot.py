@@ -21,17 +21,13 @@ def plot(records: Mapping[str, Any], ports: Optional[Sequence[str]] = None, over
     if not isinstance(records, Mapping):
         _checks.refuse("records", records, "what render or step returned", "give tactus.plot(graph.render(…))")
     _checks.text("over", over, "name a recorded port, such as 't'")
-    try:
-        pyplot: Any = importlib.import_module("matplotlib.pyplot")
-    except ImportError:
-        fail("plot/no_matplotlib", "", "matplotlib is not installed", "install it: on Debian, python3-matplotlib")
     units = getattr(records, "units", {})
     chosen = [p for p in (_checks.texts("ports", ports, "['drag.force']") if ports is not None else records) if p not in ("t", over)]
     by_unit: Dict[str, List[str]] = {}
     for port in chosen:
         by_unit.setdefault(units.get(port, units.get(port[:-2], "")), []).append(port)
     if axes is None:
-        figure, grid = pyplot.subplots(max(len(by_unit), 1), 1, sharex=True, squeeze=False, constrained_layout=True)
+        figure, grid = subplots(max(len(by_unit), 1), 1, sharex=True, squeeze=False)
         all_axes: List[Any] = list(grid[:, 0])
     else:
         figure, all_axes = axes.figure, [axes] * len(by_unit)
@@ -48,6 +44,20 @@ def plot(records: Mapping[str, Any], ports: Optional[Sequence[str]] = None, over
     if all_axes:
         all_axes[-1].set_xlabel(f"{over} ({units.get(over, units.get(over[:-2], ''))})")
     return figure
+
+
+def subplots(*shape: int, **options: Any) -> Any:
+    """The figure and the axes of matplotlib.pyplot."""
+    try:
+        pyplot: Any = importlib.import_module("matplotlib.pyplot")
+    except ImportError:
+        fail("plot/no_matplotlib", "", "matplotlib is not installed", "install it: on Debian, python3-matplotlib")
+    return pyplot.subplots(*shape, constrained_layout=True, **options)
+
+
+def axes_of(axes: Any) -> Any:
+    """The given axes, or those of a new figure."""
+    return subplots()[1] if axes is None else axes
 
 
 def _column(records: Mapping[str, Any], name: str) -> Array:

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import ctypes
-import html
-import importlib
 import json
 import math
 import os
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -20,8 +18,9 @@ from ._checks import Array, Path
 from ._graph import Graph
 from ._library import Messages, Opened, live, texts
 from ._messages import Message, fail
+from ._plot import axes_of
 from ._records import table_of, to_json
-from ._views import plain
+from ._views import html_table, html_text, plain
 
 Amount = Union[float, str]
 
@@ -73,8 +72,8 @@ class Check:
 
     def _repr_html_(self) -> str:
         rows = [(c.role, c.node, c.id, c.verdict, _with_unit(c.value, c.unit), _with_unit(c.limit, c.unit), c.text) for c in self.conditions]
-        unjudged = "".join(f"<li>not judged: {_text(n['what'])}: {_text(n['why'])}</li>" for n in self.not_judged)
-        return f"<p>{_text(self.scope)}</p><ul>{unjudged}</ul>" + _table(("role", "node", "condition", "verdict", "value", "limit", ""), rows)
+        unjudged = "".join(f"<li>not judged: {html_text(n['what'])}: {html_text(n['why'])}</li>" for n in self.not_judged)
+        return f"<p>{html_text(self.scope)}</p><ul>{unjudged}</ul>" + html_table(("role", "node", "condition", "verdict", "value", "limit", ""), rows)
 
 
 class Interval(NamedTuple):
@@ -106,7 +105,7 @@ class Limits:
     def _repr_html_(self) -> str:
         rows = [(f"{name} ({unit})", f"{now:.4g}", _shown(self.passive[name]), _shown(self.stable[name]))
                 for name, unit, now in (("stiffness", "N/m", self.stiffness), ("damping", "N s/m", self.damping), ("rate", "Hz", self.rate))]
-        return _table((f"{self.role}, {self.node}", "now", "passive (sufficient)", "stable"), rows)
+        return html_table((f"{self.role}, {self.node}", "now", "passive (sufficient)", "stable"), rows)
 
     def plot(self, x: str = "stiffness (N/m)", y: str = "damping (N*s/m)", axes: Any = None) -> Any:
         """Draws the points that are stable, passive or neither over two of the columns, and returns the matplotlib figure. It needs `steps`."""
@@ -116,7 +115,7 @@ class Limits:
             if name not in self.columns:
                 fail("plot/unknown", name, f"there is no column '{plain(name)}'", f"use one of {', '.join(self.columns)}")
         column = {name: self.points[:, i] for i, name in enumerate(self.columns)}
-        figure, ax = _axes(axes)
+        ax = axes_of(axes)
         stable, passive = column["stable"] == 1.0, column["passive"] == 1.0
         unknown = np.isnan(column["stable"]) & ~passive
         for label, which in (("passive", passive), ("stable, not passive", stable & ~passive), ("not stable", ~stable & ~passive & ~unknown),
@@ -124,7 +123,7 @@ class Limits:
             ax.plot(column[x][which], column[y][which], ".", label=label)
         ax.set(xlabel=x, ylabel=y)
         ax.legend(frameon=False, fontsize="small")
-        return figure
+        return ax.figure
 
 
 class FitValue(NamedTuple):
@@ -173,18 +172,18 @@ class Fit:
         rows = [(v.name, _with_unit(v.value, v.unit), f"{v.low:.4g} to {v.high:.4g}") for v in self.values.values()]
         lines = [f"verdict: {self.verdict}; residual {_with_unit(self.residual, self.residual_unit)} of {_with_unit(self.size, self.residual_unit)}",
                  *self.lacking, *self.notes]
-        return _table((self.kind, "value", "95 % interval"), rows) + "<ul>" + "".join(f"<li>{_text(line)}</li>" for line in lines) + "</ul>"
+        return html_table((self.kind, "value", "95 % interval"), rows) + "<ul>" + "".join(f"<li>{html_text(line)}</li>" for line in lines) + "</ul>"
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the recording and the fit, and returns the matplotlib figure."""
         picture = self.json["picture"]
-        figure, ax = _axes(axes)
+        ax = axes_of(axes)
         for curve in picture["curves"]:
             x, y = (np.array(curve[k], dtype=np.float64) for k in "xy")
             ax.plot(x, y, "." if curve["recorded"] else "-", label=curve["label"], markersize=2)
         ax.set(xlabel=f"{picture['x']} ({picture['x_unit'] or '1'})", ylabel=f"{picture['y']} ({picture['y_unit'] or 'as recorded'})")
         ax.legend(frameon=False, fontsize="small")
-        return figure
+        return ax.figure
 
 
 class Conversion:
@@ -203,7 +202,7 @@ class Conversion:
 
     def _repr_html_(self) -> str:
         lines = [*(f"wrote {name}" for name in self.files), *(f"lost: {loss.where}: {loss.text}" for loss in self.losses), *self.differences]
-        return "<ul>" + "".join(f"<li>{_text(line)}</li>" for line in lines) + "</ul>"
+        return "<ul>" + "".join(f"<li>{html_text(line)}</li>" for line in lines) + "</ul>"
 
 
 class Devices(List[Dict[str, Any]]):
@@ -213,7 +212,7 @@ class Devices(List[Dict[str, Any]]):
         return f"<tactus.Devices: {len(self)}>"
 
     def _repr_html_(self) -> str:
-        return _table(("device", "profiles", "may be opened"), [(d.get("product") or d.get("port") or d.get("name", ""),
+        return html_table(("device", "profiles", "may be opened"), [(d.get("product") or d.get("port") or d.get("name", ""),
                                                                  ", ".join(p["id"] for p in d.get("profiles", [])) or d.get("profile", ""),
                                                                  {True: "yes", False: "no"}.get(d.get("may_open", None), "only simulated")) for d in self])
 
@@ -343,25 +342,3 @@ def _shown(interval: Optional[Interval]) -> str:
     if interval is None:
         return "nowhere"
     return f"{interval.low:.4g}{'' if interval.is_low_known else ' (unknown below)'} to {interval.high:.4g}{'' if interval.is_high_known else ' (unknown above)'}"
-
-
-def _text(text: Any) -> str:
-    return html.escape(plain(text, 1000))
-
-
-def _table(head: Sequence[str], rows: Sequence[Tuple[Any, ...]]) -> str:
-    """A table for notebooks. Names from files never become markup."""
-    line = "<tr>{}</tr>".format
-    return "<table>" + line("".join(f"<th>{_text(h)}</th>" for h in head)) \
-        + "".join(line("".join(f"<td>{_text(cell)}</td>" for cell in row)) for row in rows) + "</table>"
-
-
-def _axes(axes: Any) -> Tuple[Any, Any]:
-    if axes is not None:
-        return axes.figure, axes
-    try:
-        pyplot: Any = importlib.import_module("matplotlib.pyplot")
-    except ImportError:
-        fail("plot/no_matplotlib", "", "matplotlib is not installed", "install it: on Debian, python3-matplotlib")
-    figure, ax = pyplot.subplots(constrained_layout=True)
-    return figure, ax

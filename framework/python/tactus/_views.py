@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import html
 import re
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, NamedTuple, NoReturn, Tuple, TypeVar
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, NoReturn, Sequence, Tuple, TypeVar
 
 from ._messages import fail
 
@@ -94,6 +95,17 @@ def plain(text: Any, most: int = 40) -> str:
     whole = str(text)
     shown = whole if len(whole) <= most else whole[:most - 1] + "…"
     return "".join(c if c.isprintable() else "\ufffd" for c in shown)
+
+
+def html_text(text: Any) -> str:
+    """Text of a file for a notebook, where it never becomes markup."""
+    return html.escape(plain(text, 1000))
+
+
+def html_table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    """A table for notebooks."""
+    lines = [f"<th>{'</th><th>'.join(map(html_text, head))}</th>", *(f"<td>{'</td><td>'.join(map(html_text, row))}</td>" for row in rows)]
+    return f"<table><tr>{'</tr><tr>'.join(lines)}</tr></table>"
 
 
 def shortened(names: List[str], most: int = 6) -> str:

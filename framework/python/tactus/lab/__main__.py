@@ -129,10 +129,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
             print(f"error: no experiment has answered at port {given.osc}\n    start one, or name its port with --osc", file=sys.stderr)
             return 1
         return 0
-    except Error as why:
-        print(f"error: {why}", file=sys.stderr)
-        return 1
-    except DiskError as why:
+    except (Error, DiskError) as why:
         print(f"error: {why}", file=sys.stderr)
         return 1
     except ValueError as why:

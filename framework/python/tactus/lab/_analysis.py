@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import html
 import importlib
 import math
 import os
@@ -16,6 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _checks
 from .._messages import fail
+from .._plot import axes_of
+from .._views import html_table
 from ._functions import FUNCTIONS, Function, core, probability
 
 Array = NDArray[np.float64]
@@ -78,7 +79,7 @@ class Psychometric:
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the data and the function with matplotlib; returns the axes."""
-        ax = _axes(ax)
+        ax = axes_of(ax)
         span = np.linspace(self.levels.min(), self.levels.max(), 200)
         ax.plot(span, self(span), color="black", lw=1.0)
         ax.scatter(self.levels, self.yes / self.trials, s=4.0 + 60.0 * self.trials / self.trials.max(), color="tab:blue", zorder=3)
@@ -95,9 +96,8 @@ class Psychometric:
         rows = [("threshold", self.threshold, self.unit, self.threshold_interval),
                 ("width", self.width, "1" if self.function == "weibull" else self.unit, self.width_interval),
                 ("guess", self.guess, "1", None), ("lapse", self.lapse, "1", None), ("deviance", self.deviance, "1", None)]
-        cells = "".join(f"<tr><td>{name}</td><td>{value:.4g}</td><td>{html.escape(unit)}</td><td>{f'{i.low:.4g} to {i.high:.4g}' if i else ''}</td></tr>"
-                        for name, value, unit, i in rows)
-        return f"<table><caption>{self.function}, {int(self.trials.sum())} trials, {self.confidence:.0%} intervals</caption>{cells}</table>"
+        head = f"{self.function}, {int(self.trials.sum())} trials", "value", "unit", f"{self.confidence:.0%} interval"
+        return html_table(head, [(name, f"{value:.4g}", unit, f"{i.low:.4g} to {i.high:.4g}" if i else "") for name, value, unit, i in rows])
 
 
 class _Likelihood:
@@ -280,16 +280,6 @@ def t_quantile(free: int, share: float = 0.975) -> float:
 
 # ------------------------------------------------------------------------ Plots
 
-def _axes(ax: Any) -> Any:
-    if ax is not None:
-        return ax
-    try:
-        figure = importlib.import_module("matplotlib.figure")
-    except ImportError as why:
-        fail("lab/no_matplotlib", "plot", f"matplotlib cannot be imported: {why}", "install it: on Debian, python3-matplotlib")
-    return figure.Figure(figsize=(4.0, 3.0), layout="constrained").add_subplot()
-
-
 def save_plot(ax: Any, path: Union[str, "os.PathLike[str]"]) -> None:
     """Writes the figure of axes as .svg, .pdf or .png; the same figure gives the same bytes."""
     matplotlib = importlib.import_module("matplotlib")
@@ -301,7 +291,7 @@ def save_plot(ax: Any, path: Union[str, "os.PathLike[str]"]) -> None:
 
 def plot_staircase(levels: Sequence[float], outcomes: Sequence[float], unit: str = "1", ax: Any = None) -> Any:
     """Draws the levels of a staircase over its trials; right answers are filled. Returns the axes."""
-    ax = _axes(ax)
+    ax = axes_of(ax)
     count, right = np.arange(1, len(levels) + 1), np.asarray(outcomes, dtype=float) > 0.0
     ax.plot(count, levels, color="gray", lw=0.8)
     for kind, face in ((right, "tab:blue"), (~right, "white")):

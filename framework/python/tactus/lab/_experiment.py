@@ -64,7 +64,7 @@ class Experiment:
             self._journal.add({"event": "resumed", **Silent().now()._asdict()})
         own = self.folder / f"{self.stem}_protocol.json"
         if not resume or not own.exists():   # a session may end between its first line and this file
-            protocol.copy(own)
+            protocol.save(own)
         self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
         self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.{'tlog' if packed else 'jsonl'}"
         self.stage = stage if stage is not None else Live(protocol, str(self.log), devices, device) if protocol.graph or protocol.conditions else Silent()
@@ -72,16 +72,7 @@ class Experiment:
         window.now = self.stage.now
         if receiver is not None:
             receiver.now = self.stage.now
-        self._done = sum(event.get("event") == "trial" for event in past)
-        self._last: Dict[str, Any] = {}
-        self._history: Dict[str, List[Tuple[float, float]]] = {}
-        for event in past:
-            if event.get("event") == "trial":
-                self._remember(event["block"], event["kind"], event["level"], event["outcome"])
-
-    def _remember(self, block: str, kind: str, level: float, outcome: Optional[float]) -> None:
-        if kind == "main" and outcome is not None:
-            self._history.setdefault(block, []).append((level, outcome))
+        self._trials = [event for event in past if event.get("event") == "trial"]
 
     def _header(self) -> _journal.Event:
         graphs = {}
@@ -89,9 +80,6 @@ class Experiment:
             graph = self.protocol.graph_of(condition)
             if graph is not None:
                 graphs[condition.name] = hashlib.sha256(graph.text.encode()).hexdigest()
-        if self.protocol.graph_hash and self.protocol.graph_hash not in graphs.values():
-            fail("lab/graph", "/graph_hash", "no graph of the conditions has this hash: the graph has changed, or this version writes it differently",
-                 f"give one of the hashes, or leave out graph_hash: {graphs}")
         return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
                 "seed": self.protocol.seed, "graphs": graphs, "devices": self.protocol.devices,
                 "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
@@ -173,13 +161,12 @@ class Experiment:
         answer = self._answer(trial, trial.level)
         end = self.mark("answer", "" if answer is None else str(answer))
         outcome = trial.outcome(answer)
-        self._journal.add({"event": "trial", "number": trial.number, "block": trial.block.name, "kind": trial.kind, "condition": trial.condition,
-                           "track": trial.track, "level": trial.level, "intervals": [interval.level for interval in trial.intervals],
-                           "expected": trial.expected, "answer": answer, "outcome": outcome, "response_time": end.monotonic - asked,
-                           "guard": self.stage.events(), "begin": begin._asdict(), "end": end._asdict()})
-        self._done += 1
-        self._remember(trial.block.name, trial.kind, trial.level, outcome)
-        self._last = {"trial": trial.number, "answer": answer, "outcome": outcome}
+        event = {"event": "trial", "number": trial.number, "block": trial.block.name, "kind": trial.kind, "condition": trial.condition,
+                 "track": trial.track, "level": trial.level, "intervals": [interval.level for interval in trial.intervals],
+                 "expected": trial.expected, "answer": answer, "outcome": outcome, "response_time": end.monotonic - asked,
+                 "guard": self.stage.events(), "begin": begin._asdict(), "end": end._asdict()}
+        self._journal.add(event)
+        self._trials.append(event)
         self.plan.answer(answer)
         if trial.kind == "practice" or trial.block.feedback:
             if trial.expected:
@@ -234,13 +221,16 @@ class Experiment:
                     self.mark(*marks.get_nowait())
 
     def _report(self, trial: Trial) -> None:
+        history = [(event["level"], event["outcome"]) for event in self._trials
+                   if event["block"] == trial.block.name and event["kind"] == "main" and event["outcome"] is not None]
+        last = {key: self._trials[-1][key] for key in ("number", "answer", "outcome")} if self._trials else {}
         self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": trial.block.name,
-                            "kind": trial.kind, "trial": trial.number, "done": self._done, "left": self.plan.left(), "level": trial.level,
-                            "unit": trial.block.varies.unit, "last": self._last, "health": self.stage.health(),
-                            "history": self._history.get(trial.block.name, []), "fit": self._running_fit(trial.block)})
+                            "kind": trial.kind, "trial": trial.number, "done": len(self._trials), "left": self.plan.left(), "level": trial.level,
+                            "unit": trial.block.varies.unit, "last": last, "health": self.stage.health(), "history": history,
+                            "fit": self._running_fit(trial.block, history)})
 
-    def _running_fit(self, block: Block) -> str:
-        data = np.array(self._history.get(block.name, [])).reshape(-1, 2)
+    def _running_fit(self, block: Block, history: List[Tuple[float, float]]) -> str:
+        data = np.array(history).reshape(-1, 2)
         if len(data) < 10 or block.task in ("magnitude", "adjust", "match") or isinstance(self.window, Simulated):
             return ""
         try:

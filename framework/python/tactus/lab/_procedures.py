@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
+from typing import Any, List, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,47 +91,44 @@ def check(procedure: Procedure, where: str) -> None:
 class Track:
     """A procedure that runs: `level` is the next level, or None at the end; `answer` takes the outcome."""
 
+    def __init__(self, most: int):
+        self._most, self._done = most, 0
+
     def level(self) -> Optional[float]:
         """The level of the next trial, in the unit of what varies; None once the procedure is over. Asking changes nothing."""
         raise NotImplementedError
 
     def answer(self, level: float, outcome: float) -> None:
         """Takes the outcome of a trial at this level: 1 for "yes" or right, 0 for the others."""
-        raise NotImplementedError
+        self._done += 1
 
     def left(self) -> int:
         """The largest number of trials that are left."""
-        raise NotImplementedError
+        return self._most - self._done
 
 
 class ConstantTrack(Track):
     def __init__(self, given: Constant, draw: Draw):
         self._levels = [level for _ in range(given.repeats) for level in draw.order(given.levels)]
-        self._done = 0
+        super().__init__(len(self._levels))
 
     def level(self) -> Optional[float]:
-        return self._levels[self._done] if self._done < len(self._levels) else None
-
-    def answer(self, level: float, outcome: float) -> None:
-        self._done += 1
-
-    def left(self) -> int:
-        return len(self._levels) - self._done
+        return self._levels[self._done] if self.left() else None
 
 
 class StaircaseTrack(Track):
     """A running staircase. turns: the levels at which the direction changed."""
 
     def __init__(self, given: Staircase):
-        self._given, self._level, self._trials, self._right, self._wrong, self._direction = given, given.start, 0, 0, 0, 0
+        super().__init__(given.trials)
+        self._given, self._level, self._right, self._wrong, self._direction = given, given.start, 0, 0, 0
         self.turns: List[float] = []
 
     def level(self) -> Optional[float]:
-        over = self._trials >= self._given.trials or (self._given.reversals > 0 and len(self.turns) >= self._given.reversals)
-        return None if over else self._level
+        return None if self.left() <= 0 or 0 < self._given.reversals <= len(self.turns) else self._level
 
     def answer(self, level: float, outcome: float) -> None:
-        self._trials += 1
+        super().answer(level, outcome)
         self._right, self._wrong = (self._right + 1, 0) if outcome else (0, self._wrong + 1)
         if self._right == self._given.down:
             self._move(-1)
@@ -148,24 +145,20 @@ class StaircaseTrack(Track):
         moved = self._level * step ** (direction * count) if self._given.scale == "ratio" else self._level + direction * count * step
         self._level = min(max(moved, self._given.low), self._given.high)
 
-    def left(self) -> int:
-        return self._given.trials - self._trials
-
 
 class PsiTrack(Track):
     """A running psi method. posterior: shape (thresholds, widths, lapses), its sum is 1."""
 
     def __init__(self, given: Psi):
-        self._given, self._trials = given, 0
+        super().__init__(given.trials)
         self._levels = np.array(given.levels)
-        self._thresholds = np.array(given.thresholds or given.levels)
-        axes = self._thresholds[:, None, None], np.array(given.widths)[None, :, None], np.array(given.lapses)[None, None, :]
+        axes = np.array(given.thresholds or given.levels)[:, None, None], np.array(given.widths)[None, :, None], np.array(given.lapses)[None, None, :]
         self._yes = np.stack([probability(given.function, np.array(x), axes[0], axes[1], given.guess, axes[2]) for x in self._levels])
         self.posterior: Array = np.full(self._yes.shape[1:], 1.0 / self._yes[0].size)
         self._next: Optional[float] = None
 
     def level(self) -> Optional[float]:
-        if self._trials >= self._given.trials:
+        if self.left() <= 0:
             return None
         if self._next is None:
             self._next = float(self._levels[int(np.argmin(self._expected()))])
@@ -185,18 +178,8 @@ class PsiTrack(Track):
         yes = self._yes[int(np.argmin(np.abs(self._levels - level)))]
         self.posterior = self.posterior * (yes if outcome else 1.0 - yes)
         self.posterior = self.posterior / self.posterior.sum()
-        self._trials += 1
+        super().answer(level, outcome)
         self._next = None
-
-    def left(self) -> int:
-        return self._given.trials - self._trials
-
-    def estimate(self) -> Dict[str, float]:
-        """The means of threshold and width, and the standard deviation of the threshold, in the unit of what varies."""
-        over = self.posterior.sum(axis=(1, 2))
-        mean = float(over @ self._thresholds)
-        return {"threshold": mean, "threshold_sd": float(np.sqrt(over @ (self._thresholds - mean) ** 2)),
-                "width": float(self.posterior.sum(axis=(0, 2)) @ np.array(self._given.widths))}
 
 
 def start(procedure: Procedure, draw: Draw) -> List[Track]:

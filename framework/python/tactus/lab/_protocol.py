@@ -112,7 +112,6 @@ class Protocol:
     keys: Dict[str, str] = field(default_factory=dict, metadata=note("other keys for answers: {\"first\": \"ArrowLeft\"}"))
     hand: Dict[str, HandAnswer] = field(default_factory=dict, metadata=note("answers that the hand gives itself"))
     triggers: Optional[Triggers] = field(default=None, metadata=note("codes that go out with marks"))
-    graph_hash: str = field(default="", metadata=note("sha256 of the text of the graph; if it is given and differs, the experiment does not start"))
     folder: str = field(default="", compare=False, repr=False, metadata=note("of files with relative paths, seen from the folder of this file"))
 
     def key(self, answer: str) -> str:
@@ -153,17 +152,13 @@ class Protocol:
         return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
                           indent=2, ensure_ascii=False) + "\n"
 
-    def copy(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the file into another folder. If it names files by relative paths, they are found from there, as `folder` says."""
-        data = json.loads(self.text())
-        named = [self.graph, *(name for c in self.conditions for name in (c.graph, c.snapshot))]
-        if any(name and not os.path.isabs(name) and os.path.isfile(os.path.join(self.folder, name)) for name in named):
-            data["folder"] = os.path.relpath(self.folder or os.curdir, os.path.dirname(os.path.abspath(path)))
-        pathlib.Path(path).write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
-
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the file."""
-        pathlib.Path(path).write_text(self.text(), encoding="utf-8")
+        """Writes the file. If it names files by relative paths, they are found from its folder, as `folder` says."""
+        data, to = json.loads(self.text()), os.path.relpath(self.folder or os.curdir, os.path.dirname(os.path.abspath(path)))
+        named = [self.graph, *(name for c in self.conditions for name in (c.graph, c.snapshot))]
+        if to != os.curdir and any(name and not os.path.isabs(name) and os.path.isfile(os.path.join(self.folder, name)) for name in named):
+            data["folder"] = to
+        pathlib.Path(path).write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
     def hash(self) -> str:
         """sha256 of the text of the protocol: a session is resumed only with the protocol with which it began."""

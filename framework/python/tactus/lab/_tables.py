@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import math
 import pathlib
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -14,8 +14,9 @@ from .._messages import fail
 from . import _journal
 from ._analysis import Detection, PowerLaw, Psychometric, detection, power_law, psychometric
 from ._functions import Function
-from ._procedures import Constant, Psi, Staircase
+from ._procedures import Constant, Psi, Staircase, StaircaseTrack
 from ._protocol import Block, Protocol
+from ._schema import read
 from ._writers import Path, Table
 
 _TRIAL_UNITS = {"onset": "s", "duration": "s", "response_time": "s", "begin_wall": "s", "begin_monotonic": "s"}
@@ -32,42 +33,29 @@ class SessionData:
         self.is_complete = any(event.get("event") == "end" for event in events)
         about = {key: self.header[key] for key in ("name", "participant", "session", "seed", "versions", "graphs", "devices", "started")}
         about["protocol_sha256"] = self.header["protocol"]
-        self.trials, self.events = self._trial_table(about), self._event_table(about)
+        self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], _TRIAL_UNITS, about)
+        self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a", "code": _number(event.get("code")),
+                               "tick": _number(event["tick"]), "wall": event["wall"], "monotonic": event["monotonic"]}
+                              for event, onset in self._timed("mark")], _EVENT_UNITS, about)
 
-    def _onset(self, moment: Dict[str, Any], run: Dict[str, Any]) -> float:
-        """The time since the session began, in s. It is taken from the monotonic clock within a run, as that may begin anew between runs."""
-        begun = self.header["started"]
-        return float(run["wall"] - begun["wall"] + moment["monotonic"] - run["monotonic"])
-
-    def _trial_table(self, about: Dict[str, Any]) -> Table:
-        rows: List[Dict[str, Any]] = []
-        run = self.header["started"]
+    def _timed(self, kind: str) -> Iterator[Tuple[_journal.Event, float]]:
+        """The events of a kind, with the time since the session began, in s. It is taken from the monotonic clock within a run, which may begin anew
+        between runs."""
+        begun = run = self.header["started"]
         for event in self._events:
             if event.get("event") == "mark" and event["name"] == "run":
                 run = event
-            if event.get("event") != "trial":
-                continue
-            row = {"onset": self._onset(event["begin"], run), "duration": event["end"]["monotonic"] - event["begin"]["monotonic"],
-                   **{key: event[key] for key in ("number", "block", "kind", "condition", "track", "level")},
-                   "intervals": " ".join(map(repr, event["intervals"])), "expected": event["expected"] or "n/a",
-                   "answer": "n/a" if event["answer"] is None else str(event["answer"]), "outcome": math.nan if event["outcome"] is None else event["outcome"],
-                   "response_time": event["response_time"], "guard": " ".join(event["guard"]) or "n/a", "guard_count": len(event["guard"]),
-                   "tick": math.nan if event["begin"]["tick"] is None else event["begin"]["tick"], "begin_wall": event["begin"]["wall"],
-                   "begin_monotonic": event["begin"]["monotonic"]}
-            rows.append(row)
-        return _table(rows, _TRIAL_UNITS, about)
+            if event.get("event") == kind:
+                yield event, float(run["wall"] - begun["wall"] + event.get("begin", event)["monotonic"] - run["monotonic"])
 
-    def _event_table(self, about: Dict[str, Any]) -> Table:
-        rows: List[Dict[str, Any]] = []
-        run = self.header["started"]
-        for event in self._events:
-            if event.get("event") != "mark":
-                continue
-            run = event if event["name"] == "run" else run
-            rows.append({"onset": self._onset(event, run), "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a",
-                         "code": event.get("code", math.nan), "tick": math.nan if event["tick"] is None else event["tick"], "wall": event["wall"],
-                         "monotonic": event["monotonic"]})
-        return _table(rows, _EVENT_UNITS, about)
+    def _trial_row(self, event: _journal.Event, onset: float) -> Dict[str, Any]:
+        begin = event["begin"]
+        return {"onset": onset, "duration": event["end"]["monotonic"] - begin["monotonic"],
+                **{key: event[key] for key in ("number", "block", "kind", "condition", "track", "level")},
+                "intervals": " ".join(map(repr, event["intervals"])), "expected": event["expected"] or "n/a",
+                "answer": "n/a" if event["answer"] is None else str(event["answer"]), "outcome": _number(event["outcome"]),
+                "response_time": event["response_time"], "guard": " ".join(event["guard"]) or "n/a", "guard_count": len(event["guard"]),
+                "tick": _number(begin["tick"]), "begin_wall": begin["wall"], "begin_monotonic": begin["monotonic"]}
 
     def write(self, *formats: str) -> List[pathlib.Path]:
         """Writes _beh.tsv (trials) and _events.tsv with sidecars, and the same in further formats: "csv", "h5", "mat", "xdf". They are made from the journal,
@@ -126,7 +114,6 @@ class SessionData:
         given = self._block(block)
         if not isinstance(given.procedure, Staircase):
             fail("lab/data", given.name, "the procedure of this block is not a staircase", "give a block with a staircase")
-        from ._procedures import StaircaseTrack
         tracks: Dict[str, StaircaseTrack] = {}
         for b, kind, c, t, level, outcome in zip(*(self.trials[key] for key in ("block", "kind", "condition", "track", "level", "outcome"))):
             if b == given.name and kind == "main" and not math.isnan(outcome):
@@ -136,6 +123,10 @@ class SessionData:
     def _repr_html_(self) -> str:
         state = "complete" if self.is_complete else "not complete"
         return f"<p>{self.stem}: {self.trials.rows} trials, {state}</p>{self.trials._repr_html_()}"
+
+
+def _number(value: Optional[float]) -> float:
+    return math.nan if value is None else value
 
 
 def _table(rows: List[Dict[str, Any]], units: Dict[str, str], about: Dict[str, Any]) -> Table:
@@ -155,5 +146,4 @@ def load(folder: Path, name: str = "") -> SessionData:
              "give the folder of a session, such as data/sub-01/ses-01/beh, and the name of an experiment if there are several")
     stem = found[0].name[:-len("_journal.jsonl")]
     data = json.loads((place / f"{stem}_protocol.json").read_text(encoding="utf-8"))
-    from ._schema import read
     return SessionData(place, stem, _journal.read(found[0]), read(Protocol, data))

@@ -78,10 +78,6 @@ class Plan:
             self.step = None
         return self.step
 
-    def tracks(self, block: str) -> List[Tuple[str, int, Track]]:
-        """The condition, the number and the state of each procedure of a block that has begun."""
-        return next((t for b, t in zip(self._protocol.blocks, self._tracks) if b.name == block), [])
-
     def left(self) -> int:
         """The largest number of trials that are left, without practice and catch trials."""
         begun = {i for i, tracks in enumerate(self._tracks) if tracks}

@@ -18,6 +18,7 @@ import numpy as np
 
 from .._messages import fail
 from .._records import Records, names_of
+from .._views import html_table
 
 Column = Any   # an array of numbers, or a list of texts
 Path = Union[str, "os.PathLike[str]"]
@@ -42,9 +43,9 @@ class Table(Dict[str, Column]):
         return len(next(iter(self.values()), []))
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th>{escape(name)}{f' ({escape(self.units[name])})' if self.units.get(name, '1') not in ('', '1') else ''}</th>" for name in self)
-        body = "".join("<tr>" + "".join(f"<td>{escape(_shown(values[i]))}</td>" for values in self.values()) + "</tr>" for i in range(min(self.rows, 20)))
-        return f"<table><tr>{head}</tr>{body}</table><p>{self.rows} rows</p>"
+        units = (f" ({unit})" if (unit := self.units.get(name, "1")) not in ("", "1") else "" for name in self)
+        rows = zip(*(map(_shown, values[:20]) for values in self.values()))
+        return html_table([name + unit for name, unit in zip(self, units)], rows) + f"<p>{self.rows} rows</p>"
 
     def write(self, path: Path) -> None:
         """Writes the table; the extension selects the format: .csv, .tsv, .h5, .mat or .xdf. Numbers keep all their bits. A .csv and a .tsv get a sidecar .json
