@@ -3,8 +3,6 @@
 
 import importlib.util
 import math
-import pathlib
-import tempfile
 import unittest
 
 import numpy as np
@@ -69,6 +67,16 @@ class Fits(TestCase):
         self.assertLess(abs((residuals * LEVELS).sum()), 1e-3)
         parts = [y * math.log(y / (40 * p)) + (40 - y) * math.log((40 - y) / (40 - 40 * p)) for y, p in zip(YES, fit(LEVELS))]
         self.assertAlmostEqual(fit.deviance, 2 * sum(parts), 8)
+
+    def test_threshold_width_and_deviance_are_those_of_psyphy(self):
+        """psyphy 0.2-3 of R (Debian: r-cran-psyphy): glm (cbind (k, n - k) ~ x, binomial (mafc.logit (2))), and mafc.probit, mafc.weib over log (x)."""
+        right = np.array([22, 24, 28, 30, 35, 38, 40])
+        for function, guess, yes, told in (("logistic", 0.0, YES, (9.9690506757, 1.0547274570, 0.4407702492)),
+                                           ("logistic", 0.5, right, (9.664519443, 1.206292916, 1.697352519)),
+                                           ("normal", 0.5, right, (9.642818136, 2.081579470, 1.313757795)),
+                                           ("weibull", 0.5, right, (10.4292770337, 5.1303940738, 0.8716821986))):
+            fit = lab.psychometric(LEVELS, yes, np.full(7, 40), function=function, guess=guess, lapse=0.0)
+            self.assertTrue(np.allclose((fit.threshold, fit.width, fit.deviance), told, rtol=3e-6), (function, fit))
 
     def test_the_ends_of_an_interval_are_where_the_profile_has_fallen(self):
         """The profile is the largest value over many points. Constant stimuli, and a staircase, whose likelihood has several summits."""
@@ -138,14 +146,12 @@ class Others(TestCase):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
     def test_plots_are_the_same_bytes_each_time(self):
         fit = lab.psychometric(LEVELS, YES, np.full(7, 40), unit="N/m")
-        with tempfile.TemporaryDirectory() as folder:
-            for end, head in (("svg", b"<?xml"), ("pdf", b"%PDF")):
-                written = []
-                for i in range(2):
-                    path = pathlib.Path(folder) / f"{i}.{end}"
-                    lab.save_plot(fit.plot(), path)
-                    written.append(path.read_bytes())
-                self.assertTrue(written[0].startswith(head) and written[0] == written[1])
+        for end, head in (("svg", b"<?xml"), ("pdf", b"%PDF")):
+            written = []
+            for i in range(2):
+                lab.save_plot(fit.plot(), self.folder / f"{i}.{end}")
+                written.append((self.folder / f"{i}.{end}").read_bytes())
+            self.assertTrue(written[0].startswith(head) and written[0] == written[1])
         ax = lab.plot_staircase([3.0, 2.0, 1.0, 2.0], [1, 1, 0, 1], unit="N")
         self.same_bits(ax.get_lines()[0].get_ydata(), [3.0, 2.0, 1.0, 2.0])
         self.assertIn("threshold", fit._repr_html_())
