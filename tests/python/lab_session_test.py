@@ -193,14 +193,14 @@ class Sessions(Case):
         self.assertTrue(found.criterion_interval.low < 0.0 < found.criterion_interval.high, found)
 
     def test_tables_have_times_and_what_others_must_know(self):
-        data = self.run_session(self.made)
+        data = self.run_session(self.made, device={"stylus": "hid:auto"})
         names = sorted(p.name for p in data.folder.iterdir())
         stem = "sub-01_ses-01_task-tried"
         self.assertEqual(names, sorted(f"{stem}_{end}" for end in ("beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json")))
         self.assertTrue((self.folder / "dataset_description.json").exists())
         about = json.loads((data.folder / f"{stem}_events.json").read_text())
         self.assertEqual((about["seed"], about["onset"]["Units"], about["protocol_sha256"]), (1, "s", self.made.hash()))
-        self.assertLessEqual({"tactus", "python", "numpy"}, set(about["versions"]))
+        self.assertEqual((set(about["versions"]), about["devices"]), ({"tactus", "python", "numpy"}, {"stylus": "hid:auto"}))
         onset = np.asarray(data.events["onset"])
         self.assertTrue((np.diff(onset) >= 0.0).all() and onset[0] >= 0.0)
         self.same_bits(np.asarray(data.events["wall"]) > 1.7e9, np.ones(data.events.rows))

@@ -51,17 +51,18 @@ class Experiment:
         path = self.folder / f"{self.stem}_journal.jsonl"
         past = _journal.read(path) if resume else []
         self._replay(past)
+        bound = {**protocol.devices, **device}
         if not resume:
             self.folder.mkdir(parents=True, exist_ok=True)
         self._triggers = TriggerLine(protocol.triggers) if protocol.triggers else None
         try:
-            self._journal = _journal.Journal(path, None if resume else self._header())
+            self._journal = _journal.Journal(path, None if resume else {**self._header(), "devices": bound})
         except BaseException:
             if self._triggers:
                 self._triggers.close()
             raise
         if resume:
-            self._journal.add({"event": "resumed", **Silent().now()._asdict()})
+            self._journal.add({"event": "resumed", "devices": bound, **Silent().now()._asdict()})
         own = self.folder / f"{self.stem}_protocol.json"
         if not resume or not own.exists():   # a session may end between its first line and this file
             protocol.save(own)
@@ -81,7 +82,7 @@ class Experiment:
             if graph is not None:
                 graphs[condition.name] = hashlib.sha256(graph.text.encode()).hexdigest()
         return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
-                "seed": self.protocol.seed, "graphs": graphs, "devices": self.protocol.devices,
+                "seed": self.protocol.seed, "graphs": graphs,
                 "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
                 "started": {"wall": time.time(), "monotonic": time.monotonic()}}
 
