@@ -109,6 +109,17 @@ class Files(TestCase):
         values = made.values_of(lab.Condition(name="a", snapshot="s.json", controls={"roughness": 0.7}))
         self.assertEqual(values, ({"drag.mu": 0.2}, {"roughness": 0.7}))
 
+    def test_a_snapshot_of_the_window_is_a_condition(self):
+        wood = json.loads(tactus.Graph("dry_wood").text)
+        stored = {"nodes": {"drag": {"type": wood["nodes"]["drag"]["type"], "params": {"mu": 0.11}, "overrides": {}}, "gone": {"type": "x", "params": {}}},
+                  "graphs": {}, "controls": {"roughness": 0.9}}
+        (self.folder / "g.json").write_text(json.dumps({**wood, "ui": {"snapshots": {"2": stored}}}), encoding="utf-8")
+        made = protocol(graph="g.json", folder=str(self.folder))
+        graph = made.graph_of(lab.Condition(name="a", snapshot="2", set={"grain.amplitude": 0.05}))
+        self.assertEqual((dict(graph.nodes["drag"].params), graph.controls["roughness"].value), ({"mu": 0.11}, 0.9))
+        self.assertEqual(graph.nodes["grain"].params["amplitude"], 0.05)
+        self.assertEqual(self.fails("lab/value", made.graph_of, lab.Condition(name="a", snapshot="3")).remedy, "its snapshots: 2")
+
 
 class Order(TestCase):
     def test_it_follows_from_the_seed_and_the_participant(self):

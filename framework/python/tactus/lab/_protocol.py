@@ -8,7 +8,7 @@ import json
 import os
 import pathlib
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, Optional, Tuple, Union
 
 from .._graph import Graph
 from .._messages import fail, placed
@@ -32,7 +32,8 @@ class Condition:
     graph: str = field(default="", metadata=note("a graph file, or the name of a preset; without it, that of the protocol"))
     set: Dict[str, Any] = field(default_factory=dict, metadata=note("values of parameters, as in a graph file: {\"drag.mu\": 0.3}"))
     controls: Dict[str, float] = field(default_factory=dict, metadata=note("values of controls, from 0 to 1"))
-    snapshot: str = field(default="", metadata=note("a JSON file with such `set` and `controls`, relative to the protocol; those given here come on top"))
+    snapshot: str = field(default="", metadata=note("\"1\" to \"9\": a snapshot of the window, in the graph file; or a JSON file with such `set` and `controls`, "
+                                                    "relative to the protocol. Those given here come on top"))
 
 
 @dataclass(frozen=True)
@@ -133,6 +134,8 @@ class Protocol:
             return None
         beside = os.path.join(self.folder, named)
         graph = Graph(beside if os.path.isfile(beside) else named)
+        if condition.snapshot.isdigit():
+            graph = _recalled(graph, condition.snapshot)
         for name, value in self.values_of(condition)[0].items():
             with placed(f"condition {condition.name}: {name}"):
                 _set(graph, name, value)
@@ -141,7 +144,7 @@ class Protocol:
     def values_of(self, condition: Condition) -> Tuple[Dict[str, Any], Dict[str, float]]:
         """The values of parameters and of controls of a condition."""
         values, controls = {}, {}
-        if condition.snapshot:
+        if condition.snapshot and not condition.snapshot.isdigit():
             held = _load(os.path.join(self.folder, condition.snapshot))
             kept = _schema.read(Condition, {"name": condition.name, **held}, condition.snapshot)
             values, controls = dict(kept.set), dict(kept.controls)
@@ -172,6 +175,34 @@ class Protocol:
             data["folder"] = os.path.join(os.path.dirname(os.path.abspath(path)), str(data.get("folder", "")))
         with placed(os.fspath(path)):
             return checked(_schema.read(Protocol, data))
+
+
+def edited(graph: Graph, change: Callable[[Dict[str, Any], Dict[str, Any]], None]) -> Graph:
+    """A copy of a graph. `change` edits it and each of its subgraphs as JSON; it gets the whole graph, and the part."""
+    make, (text, *rest) = graph.__reduce__()
+    data = json.loads(text)
+    for part in (data, *data.get("graphs", {}).values()):
+        change(data, part)
+    made: Graph = make(json.dumps(data), *rest)
+    return made
+
+
+def _recalled(graph: Graph, number: str) -> Graph:
+    """A copy of a graph with the values of a snapshot, as the window recalls it: only those of nodes and controls that it knows."""
+    def recall(whole: Dict[str, Any], part: Dict[str, Any]) -> None:
+        stored = whole.get("ui", {}).get("snapshots", {})
+        if number not in stored:
+            fail("lab/value", "snapshot", f"the graph has no snapshot {number}", f"its snapshots: {', '.join(stored) or 'none'}")
+        name = next((name for name, one in whole.get("graphs", {}).items() if one is part), "")
+        then = stored[number]["graphs"].get(name, {}) if name else stored[number]["nodes"]
+        for id, node in part.get("nodes", {}).items():
+            if then.get(id, {}).get("type") == node.get("type"):
+                node.update({key: then[id][key] for key in ("params", "overrides") if then[id].get(key) or key in node})
+        for id, control in part.get("controls", {}).items():
+            control["value"] = stored[number]["controls"].get(id, control.get("value", 0.0))
+
+    with placed(f"snapshot {number}"):
+        return edited(graph, recall)
 
 
 def _set(graph: Graph, name: str, value: Any) -> None:

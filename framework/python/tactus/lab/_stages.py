@@ -13,7 +13,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 from .._graph import Graph
 from .._messages import fail
 from .._play import Session, play
-from ._protocol import Condition, Protocol
+from ._protocol import Condition, Protocol, edited
 
 
 class Moment(NamedTuple):
@@ -64,14 +64,11 @@ FADE = 0.03   # s: an edited graph takes over the force in 10 ms, and nodes know
 
 def without_motors(graph: Graph) -> Graph:
     """A copy of a graph in which nothing is wired to its devices, except in files that it includes."""
-    make, (text, *rest) = graph.__reduce__()
-    data = json.loads(text)
-    for part in (data, *data.get("graphs", {}).values()):
+    def unwire(whole: Dict[str, Any], part: Dict[str, Any]) -> None:
         sinks = {name for name, node in part.get("nodes", {}).items() if str(node.get("type")).startswith("device.")}
         ends = [(wire if isinstance(wire, str) else wire["wire"]).split("->")[-1].replace("(+)", "").strip().split(".")[0] for wire in part.get("wires", [])]
         part["wires"] = [wire for wire, end in zip(part.get("wires", []), ends) if end not in sinks]
-    quiet: Graph = make(json.dumps(data), *rest)
-    return quiet
+    return edited(graph, unwire)
 
 
 def _shape(graph: Graph) -> Any:
