@@ -23,16 +23,17 @@ def protocol(*blocks, **more):
     return lab.Protocol(name="tried", blocks=list(blocks) or [block()], **more)
 
 
-def trials_of(plan, answer):
-    """Goes through a plan, with the answers of a function."""
-    found = []
+def walk(plan, answer):
+    """Goes through a plan, with the answers of a function. The texts, and the trials."""
+    texts, trials = [], []
     while (step := plan.step) is not None:
-        if isinstance(step, lab.Trial):
-            found.append(step)
-            plan.answer(answer(step))
-        else:
-            plan.answer()
-    return found
+        (trials if isinstance(step, lab.Trial) else texts).append(step)
+        plan.answer(answer(step) if isinstance(step, lab.Trial) else None)
+    return [step.text for step in texts], trials
+
+
+def trials_of(plan, answer):
+    return walk(plan, answer)[1]
 
 
 class Files(TestCase):
@@ -149,16 +150,8 @@ class Order(TestCase):
     def test_practice_catch_trials_breaks_and_missed_trials(self):
         made = protocol(block(practice=3, catch=0.25, break_every=6, instructions="read this", procedure=lab.Constant(levels=(1.0, 2.0), repeats=30)),
                         instructions="welcome")
-        plan, texts, trials, missed = lab.Plan(made), [], [], 0
-        while (step := plan.step) is not None:
-            if isinstance(step, lab.Text):
-                texts.append(step.text)
-                plan.answer()
-                continue
-            trials.append(step)
-            answer = None if step.number % 7 == 0 else step.expected
-            missed += answer is None and step.kind == "main"
-            plan.answer(answer)
+        texts, trials = walk(lab.Plan(made), lambda t: None if t.number % 7 == 0 else t.expected)
+        missed = sum(t.number % 7 == 0 and t.kind == "main" for t in trials)
         self.assertEqual(texts[:3], ["welcome", "read this", "The practice is over."])
         self.assertGreaterEqual(texts.count("Take a break."), 9)
         self.assertEqual([t.kind for t in trials[:3]], ["practice"] * 3)
@@ -168,15 +161,9 @@ class Order(TestCase):
         self.assertEqual({t.level for t in trials if t.kind == "catch"}, {0.0})
 
     def test_a_trial_without_an_answer_brings_no_second_break(self):
-        plan, texts, trials = lab.Plan(protocol(block(break_every=2, procedure=lab.Constant(levels=(1.0,), repeats=6)))), 0, 0
-        while (step := plan.step) is not None:
-            if isinstance(step, lab.Text):
-                texts += step.text == "Take a break."
-                plan.answer()
-            else:
-                trials += 1
-                plan.answer(None if trials % 3 == 0 else "first")
-        self.assertEqual(texts, 2)   # after two and after four trials that count
+        made = protocol(block(break_every=2, procedure=lab.Constant(levels=(1.0,), repeats=6)))
+        texts = walk(lab.Plan(made), lambda t: None if t.number % 3 == 0 else "first")[0]
+        self.assertEqual(texts, ["Take a break."] * 2)   # after two and after four trials that count
 
     def test_abx_and_match_have_their_intervals(self):
         for t in trials_of(lab.Plan(protocol(block(task="abx"))), lambda t: "a"):

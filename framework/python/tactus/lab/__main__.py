@@ -80,7 +80,7 @@ def describe(data: SessionData, block: str, condition: str) -> str:
     if isinstance(fit, PowerLaw):
         return f"exponent {fit.exponent:.4g} (95 % {fit.exponent_interval.low:.4g} to {fit.exponent_interval.high:.4g})"
     ends = fit.threshold_interval
-    return f"threshold {fit.threshold:.4g} {fit.unit} (95 % {ends.low:.4g} to {ends.high:.4g}), width {fit.width:.4g}, {fit.function}"
+    return f"threshold {fit.threshold:.4g}{f' {fit.unit}' if fit.unit != '1' else ''} (95 % {ends.low:.4g} to {ends.high:.4g}), width {fit.width:.4g}, {fit.function}"
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Function = Literal["logistic", "normal", "weibull"]
-FUNCTIONS = ("logistic", "normal", "weibull")
+FUNCTIONS = get_args(Function)
 
 
 def core(function: Function, level: Any, threshold: Any, width: Any) -> Array:

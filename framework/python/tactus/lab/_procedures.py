@@ -62,7 +62,7 @@ class Psi:
     widths: Tuple[float, ...] = field(default=(), metadata=note("possible widths of the function, in the same unit (for weibull: exponents)", fewest=1))
     lapses: Tuple[float, ...] = field(default=(0.02,), metadata=note("possible lapse rates", fewest=1))
     guess: float = field(default=0.5, metadata=note("the rate of \"yes\" or right answers without a stimulus", low=0.0, high=0.99))
-    function: Literal["logistic", "normal", "weibull"] = field(default="logistic", metadata=note("the psychometric function"))
+    function: Function = field(default="logistic", metadata=note("the psychometric function"))
     trials: int = field(default=60, metadata=note("it ends after this many trials", low=1, high=100000))
 
 
@@ -199,6 +199,3 @@ def mean_of_turns(levels: Sequence[float], drop: int = 2, ratio: bool = False) -
     if not kept:
         return float("nan")
     return float(np.exp(np.mean(np.log(kept)))) if ratio else float(np.mean(kept))
-
-
-__all__ = ["Constant", "Function", "Procedure", "Psi", "Staircase"]

@@ -279,6 +279,3 @@ def levels_of(block: Block) -> List[float]:
 def schema() -> Dict[str, Any]:
     """The JSON schema of protocol files, made from the dataclasses."""
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Experiment of tactus.lab", **_schema.schema(Protocol)}
-
-
-__all__ = ["Block", "Condition", "Constant", "HandAnswer", "Protocol", "Psi", "Staircase", "Triggers", "Varies", "checked", "schema"]

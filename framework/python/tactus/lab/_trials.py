@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Generator, List, Optional, Tuple, Union
 
 from ._draw import Draw, latin_square
-from ._procedures import Constant, Psi, PsiTrack, StaircaseTrack, Track, start
+from ._procedures import Constant, Psi, Track, start
 from ._protocol import QUESTIONS, Block, Protocol
 
 Answer = Union[str, float, None]
@@ -153,6 +153,3 @@ class Plan:
             levels, expected = (level,), "yes" if block.task == "yes_no" else ""   # type: ignore[assignment]
         labels = ("", "") if len(levels) == 1 else ("standard", "yours") if block.task == "match" else ("1", "2", "3")
         return Trial(self._number, block, kind, condition, track, level, tuple(Interval(a, b) for a, b in zip(labels, levels)), expected)
-
-
-__all__ = ["Plan", "PsiTrack", "StaircaseTrack", "Text", "Trial"]
