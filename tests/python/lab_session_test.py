@@ -198,6 +198,7 @@ class Sessions(Case):
         stem = "sub-01_ses-01_task-tried"
         self.assertEqual(names, sorted(f"{stem}_{end}" for end in ("beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json")))
         self.assertTrue((self.folder / "dataset_description.json").exists())
+        self.assertEqual(json.loads((data.folder / f"{stem}_beh.json").read_text())["level"]["Units"], "N")
         about = json.loads((data.folder / f"{stem}_events.json").read_text())
         self.assertEqual((about["seed"], about["onset"]["Units"], about["protocol_sha256"]), (1, "s", self.made.hash()))
         self.assertEqual((set(about["versions"]), about["devices"]), ({"tactus", "python", "numpy"}, {"stylus": "hid:auto"}))
@@ -343,7 +344,7 @@ class OnDevices(Case):
         self.assertTrue(data.is_complete)
         ticks = np.asarray(data.events["tick"], dtype=float)[2:]
         self.assertTrue((np.diff(ticks) >= 0.0).all() and ticks[-1] > ticks[0], ticks)
-        self.assertEqual(set(data.header["graphs"]), {"dry"})
+        self.assertEqual((set(data.header["graphs"]), data.header["rates_hz"]), ({"dry"}, {"dry": 4000.0}))
         lines = [json.loads(line) for line in (self.folder / "log.jsonl").read_text().splitlines()]
         clocks = lines[0]["clocks"]
         events = np.stack([np.asarray(data.events[key], dtype=float)[2:] for key in ("wall", "monotonic")])

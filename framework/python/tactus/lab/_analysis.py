@@ -7,7 +7,7 @@ import importlib
 import math
 import os
 import statistics
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Dict, List, Literal, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -45,9 +45,9 @@ class Psychometric:
     width_interval: Interval
     deviance: float
     confidence: float
-    levels: Array
-    yes: Array
-    trials: Array
+    levels: Array = field(repr=False)
+    yes: Array = field(repr=False)
+    trials: Array = field(repr=False)
     unit: str = "1"
 
     def __call__(self, level: ArrayLike) -> Array:

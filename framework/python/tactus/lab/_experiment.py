@@ -76,13 +76,10 @@ class Experiment:
         self._trials = [event for event in past if event.get("event") == "trial"]
 
     def _header(self) -> _journal.Event:
-        graphs = {}
-        for condition in self.protocol.all_conditions():
-            graph = self.protocol.graph_of(condition)
-            if graph is not None:
-                graphs[condition.name] = hashlib.sha256(graph.text.encode()).hexdigest()
+        felt = {condition.name: graph for condition in self.protocol.all_conditions() if (graph := self.protocol.graph_of(condition)) is not None}
+        graphs = {name: hashlib.sha256(graph.text.encode()).hexdigest() for name, graph in felt.items()}
         return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
-                "seed": self.protocol.seed, "graphs": graphs,
+                "seed": self.protocol.seed, "graphs": graphs, "rates_hz": {name: graph.rate for name, graph in felt.items()},
                 "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
                 "started": {"wall": time.time(), "monotonic": time.monotonic()}}
 

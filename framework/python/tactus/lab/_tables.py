@@ -31,9 +31,12 @@ class SessionData:
         self.header = events[0]
         self._events = events
         self.is_complete = any(event.get("event") == "end" for event in events)
-        about = {key: self.header[key] for key in ("name", "participant", "session", "seed", "versions", "graphs", "devices", "started")}
+        keys = "name", "participant", "session", "seed", "versions", "graphs", "rates_hz", "devices", "started"
+        about = {key: self.header[key] for key in keys if key in self.header}
         about["protocol_sha256"] = self.header["protocol"]
-        self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], _TRIAL_UNITS, about)
+        units = {block.varies.unit for block in protocol.blocks}
+        of_levels = {"level": units.pop()} if len(units) == 1 else {}   # blocks may vary different things
+        self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], {**_TRIAL_UNITS, **of_levels}, about)
         self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a", "code": _number(event.get("code")),
                                "tick": _number(event["tick"]), "wall": event["wall"], "monotonic": event["monotonic"]}
                               for event, onset in self._timed("mark")], _EVENT_UNITS, about)

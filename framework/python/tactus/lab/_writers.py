@@ -109,7 +109,7 @@ def _write_hdf5(path: pathlib.Path, table: Table) -> None:
     try:
         h5py = importlib.import_module("h5py")
     except ImportError as why:
-        fail("lab/no_h5py", str(path), f"h5py cannot be imported: {why}", "install it: on Debian, python3-h5py; or use .mat, .csv or .xdf")
+        fail("lab/no_h5py", str(path.with_suffix("")), f"h5py cannot be imported: {why}", "install it: on Debian, python3-h5py; or use .mat, .csv or .xdf")
     with h5py.File(path, "w") as file:
         file.attrs["about"] = json.dumps(table.sidecar(), ensure_ascii=False)
         for name, values in table.items():
