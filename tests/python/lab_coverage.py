@@ -26,9 +26,8 @@ LAPSE = 0.02
 def holds(function, levels, yes, trials, guess):
     """Whether the intervals hold the true threshold and the true width."""
     given = _analysis._Likelihood(function, *_analysis._gathered(levels, yes, trials), guess, None)
-    best, threshold = given.best(), THRESHOLD if function != "weibull" else math.log(THRESHOLD)
-    return [low <= truth <= high for is_posterior in (False, True)
-            for (low, _, high), truth in zip(given.ends(0.95, is_posterior, best), (threshold, math.log(WIDTH[function])))]
+    truths = THRESHOLD if function != "weibull" else math.log(THRESHOLD), math.log(WIDTH[function])
+    return [low <= truth <= high for best in (given.best(), None) for (low, _, high), truth in zip(given.ends(0.95, best)[0], truths)]
 
 
 def constant(function, draw, guess=0.0):

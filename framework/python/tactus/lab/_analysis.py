@@ -118,9 +118,14 @@ class _Likelihood:
     def logs(self, thresholds: Array, widths: Array, lapses: Array) -> Array:
         """Its logarithm on a grid, shape (thresholds, widths, lapses)."""
         at = np.exp(thresholds) if self.function == "weibull" else thresholds
-        shares = core(self.function, self.levels, at[:, None, None], np.exp(widths)[None, :, None])
-        chances = (np.clip(self.guess + (1.0 - self.guess - lapse) * shares, _CLIP, 1.0 - _CLIP) for lapse in lapses)
-        return np.stack([np.log(p) @ self.yes + np.log1p(-p) @ self.no for p in chances], axis=2)
+        found = np.zeros((len(thresholds), len(widths), len(lapses)))
+        for first in range(0, len(self.levels), 200):   # so that many levels take no more memory
+            some = slice(first, first + 200)
+            shares = core(self.function, self.levels[some], at[:, None, None], np.exp(widths)[None, :, None])
+            for i, lapse in enumerate(lapses):
+                p = np.clip(self.guess + (1.0 - self.guess - lapse) * shares, _CLIP, 1.0 - _CLIP)
+                found[:, :, i] += np.log(p) @ self.yes[some] + np.log1p(-p) @ self.no[some]
+        return found
 
     def best(self) -> Tuple[float, float, float]:
         """The most likely threshold, log width and lapse rate. A grid around the best point so far moves until that is inside, and then shrinks."""
@@ -137,25 +142,29 @@ class _Likelihood:
                 break
         return float(at[0]), float(at[1]), float(at[2])
 
-    def ends(self, confidence: float, is_posterior: bool, best: Tuple[float, float, float]) -> List[Tuple[float, float, float]]:
-        """Low end, middle and high end of threshold and log width, from a coarse grid and then finer ones over the part that matters. With the posterior: the
-        median and equal tails; its prior is that of `psychometric`. Else: where the profile, the largest value over all others, has fallen from the best."""
+    def ends(self, confidence: float, best: Optional[Tuple[float, float, float]]) -> Tuple[List[Tuple[float, float, float]], float]:
+        """Low end, middle and high end of threshold and log width, and the lapse rate, from a coarse grid and then finer ones over the part that matters.
+        With the best point: where the profile, the largest value over all others, has fallen from it. Without: medians and equal tails of the posterior,
+        whose prior is that of `psychometric`, and the mean of the lapse rate."""
         ends = np.array([self.low, self.high]).T
-        if is_posterior:
+        if best is None:
             ends[1] = self.middle - 4.0, self.middle + 4.0
-        fallen = self.logs(*(np.array([x]) for x in best)).item() - 0.5 * statistics.NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
-        for counts in ((101, 21), (61, 41), (161, 61)):
+        else:
+            fallen = self.logs(*(np.array([x]) for x in best)).item() - 0.5 * statistics.NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
+        for counts in ((101, 21), (61, 41), (81 if best is None else 161, 61)):
             grids = [np.linspace(low, high, count) for (low, high), count in zip(ends, counts)]
             logs = self.logs(grids[0], grids[1], self.lapses)
-            if is_posterior:
-                mass = np.exp(logs - logs.max()).sum(axis=2) * np.exp(-0.5 * (grids[1] - self.middle) ** 2)
-                kept = [mass.sum(axis=1), mass.sum(axis=0)]
+            if best is None:
+                mass = np.exp(logs - logs.max() - 0.5 * (grids[1][:, None] - self.middle) ** 2)
+                kept = [mass.sum(axis=(1, 2)), mass.sum(axis=(0, 2))]
                 insides = [np.flatnonzero(one > 1e-6 * one.sum()) for one in kept]
             else:
                 kept = [logs.max(axis=(1, 2)), logs.max(axis=(0, 2))]
                 insides = [np.flatnonzero(one > min(fallen, one.max()) - 4.0) for one in kept]
             ends = np.array([[grid[max(i[0] - 1, 0)], grid[min(i[-1] + 1, len(grid) - 1)]] for grid, i in zip(grids, insides)])
-        return [_tails(grid, one, confidence) if is_posterior else _crossings(grid, one, at, fallen) for grid, one, at in zip(grids, kept, best)]
+        if best is None:
+            return [_tails(grid, one, confidence) for grid, one in zip(grids, kept)], float(mass.sum(axis=(0, 1)) @ self.lapses / mass.sum())
+        return [_crossings(grid, one, at, fallen) for grid, one, at in zip(grids, kept, best)], best[2]
 
 
 def _tails(grid: Array, mass: Array, confidence: float) -> Tuple[float, float, float]:
@@ -208,9 +217,8 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
     if function == "weibull" and x.min() < 0.0:
         fail("lab/value", "levels", "a level is less than 0", "the function weibull needs levels from 0; use logistic or normal")
     given = _Likelihood(function, x, k, n, guess, lapse)
-    best = given.best()
-    ends, widths = given.ends(confidence, method == "posterior", best)
-    threshold, width, missed = ends[1], widths[1], best[2]
+    (ends, widths), missed = given.ends(confidence, given.best() if method == "profile" else None)
+    threshold, width = ends[1], widths[1]
     if function == "weibull":
         threshold, ends = math.exp(threshold), (math.exp(ends[0]), math.exp(ends[1]), math.exp(ends[2]))
     share, p = (np.clip(chances, _CLIP, 1.0 - _CLIP) for chances in (k / n, probability(function, x, threshold, math.exp(width), guess, missed)))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ._draw import Draw
 from ._functions import Function, probability
+from ._protocol import ANSWERS
 from ._trials import Answer, Trial
 
 
@@ -36,5 +37,5 @@ class Observer:
             off = level - (self.threshold + self.width * draw.normal())
             return "done" if abs(off) <= 0.5 * trial.block.step else "less" if off > 0.0 else "more"
         chance = float(probability(self.function, level, self.threshold, self.width, trial.block.guess_rate, self.lapse))
-        others = {"yes": "no", "no": "yes", "first": "second", "second": "first", "a": "b", "b": "a"}
-        return trial.expected if draw.uniform() < chance else others[trial.expected]
+        wrong = next(answer for answer in ANSWERS[task] if answer != trial.expected)
+        return trial.expected if draw.uniform() < chance else wrong
