@@ -43,9 +43,6 @@ class Log(Records):
     program: str
     is_cut_off: bool
 
-    def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (dict(self), self.units, self.rate_hz, dict(vars(self)))
-
     def at(self, time: float) -> float:
         """The tick, with its fraction, at a monotonic time in s, such as that of a mark or of another recording on this computer. The ticks are those of this
         log; before and after them, it is not a number."""
@@ -82,12 +79,6 @@ def replay(log: Path, graph: Optional[Graph] = None, *, record: Optional[Sequenc
     played = None if graph is None else checked_graph(graph)._graph
     begin, end = _part(start, until)
     return _read(_tactus.replay(_checks.path("log", log), played, ports, values, reader(assets), begin, end), ports)[0]
-
-
-def _restored(arrays: Dict[str, Array], units: Dict[str, str], rate_hz: float, rest: Dict[str, Any]) -> Log:
-    log = Log(arrays, units=units, rate_hz=rate_hz)
-    vars(log).update(rest)
-    return log
 
 
 def _part(start: Any, until: Any) -> Tuple[float, float]:

@@ -25,9 +25,6 @@ class Records(Dict[str, Array]):
         self.units: Dict[str, str] = dict(units or {})
         self.rate_hz = rate_hz
 
-    def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (dict(self), self.units, self.rate_hz)
-
     def __repr__(self) -> str:
         ports = [f"{port}{f' ({unit})' if (unit := self.units.get(port, '')) not in ('', '1') else ''}" for port in self if port != "t"]
         return f"<tactus.Records of {len(self.get('t', ()))} ticks at {self.rate_hz:g} Hz: {shortened(ports) or 'nothing'}>"
@@ -36,7 +33,7 @@ class Records(Dict[str, Array]):
         """A pandas.DataFrame with one row per tick, indexed by t in s, and one column per component: "drag.force.x".
 
         Its attrs have "units", the SI unit of each column and of "t", and "rate_hz". pandas must be installed."""
-        pandas = _imported("pandas", "to_dataframe")
+        pandas = imported("pandas", "to_dataframe")
         columns: Dict[str, Array] = {}
         units = {"t": "s"}
         for port, values in self._ports():
@@ -51,7 +48,7 @@ class Records(Dict[str, Array]):
         """An xarray.Dataset with the dimension t in s and, for vectors, the dimension axis: "x", "y", "z".
 
         Each variable has its SI unit in attrs["units"], and the dataset has attrs["rate_hz"]. xarray must be installed."""
-        xarray = _imported("xarray", "to_xarray")
+        xarray = imported("xarray", "to_xarray")
         coordinates: Dict[str, Any] = {"t": ("t", self._t(), {"units": "s"})}
         variables = {}
         for port, values in self._ports():
@@ -75,15 +72,12 @@ class Records(Dict[str, Array]):
         return ports
 
 
-def _imported(name: str, function: str) -> Any:
+def imported(name: str, where: str) -> Any:
+    """A package that is needed only here."""
     try:
         return importlib.import_module(name)
     except ImportError as why:
-        fail(f"records/no_{name}", function, f"the package {name} cannot be imported: {why}", f"install it: pip install {name}, or on Debian python3-{name}")
-
-
-def _restored(arrays: Dict[str, Array], units: Dict[str, str], rate_hz: float) -> Records:
-    return Records(arrays, units=units, rate_hz=rate_hz)
+        fail(f"records/no_{name}", where, f"the package {name} cannot be imported: {why}", f"install it: pip install {name}, or on Debian python3-{name}")
 
 
 class Layout:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import csv
-import importlib
 import json
 import math
 import os
@@ -17,7 +16,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from .._messages import fail
-from .._records import Records, names_of
+from .._records import Records, imported, names_of
 from .._views import html_table
 
 Column = Any   # an array of numbers, or a list of texts
@@ -106,10 +105,7 @@ def _write_text(path: pathlib.Path, table: Table, separator: str) -> None:
 
 
 def _write_hdf5(path: pathlib.Path, table: Table) -> None:
-    try:
-        h5py = importlib.import_module("h5py")
-    except ImportError as why:
-        fail("lab/no_h5py", str(path.with_suffix("")), f"h5py cannot be imported: {why}", "install it: on Debian, python3-h5py; or use .mat, .csv or .xdf")
+    h5py = imported("h5py", str(path.with_suffix("")))
     with h5py.File(path, "w") as file:
         file.attrs["about"] = json.dumps(table.sidecar(), ensure_ascii=False)
         for name, values in table.items():
