@@ -8,18 +8,18 @@ import math
 import os
 import statistics
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Literal, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import _checks
+from .._checks import Array, Path
 from .._messages import fail
 from .._plot import axes_of
 from .._views import html_table
 from ._functions import FUNCTIONS, Function, core, probability
 
-Array = NDArray[np.float64]
 _CLIP = 1e-12   # chances of 0 and 1 have no likelihood
 _MOST_LAPSE = 0.06
 
@@ -288,7 +288,7 @@ def t_quantile(free: int, share: float = 0.975) -> float:
 
 # ------------------------------------------------------------------------ Plots
 
-def save_plot(ax: Any, path: Union[str, "os.PathLike[str]"]) -> None:
+def save_plot(ax: Any, path: Path) -> None:
     """Writes the figure of axes as .svg, .pdf or .png; the same figure gives the same bytes."""
     matplotlib = importlib.import_module("matplotlib")
     kind = os.path.splitext(os.fspath(path))[1].lower()

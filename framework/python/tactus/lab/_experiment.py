@@ -5,16 +5,16 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import os
 import pathlib
 import platform
 import queue
 import time
-from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+from typing import Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 
 from .. import _tactus
+from .._checks import Path
 from .._messages import Error, fail
 from . import _journal, _tables
 from ._analysis import psychometric
@@ -33,7 +33,7 @@ class Experiment:
         session = experiment.run()
     """
 
-    def __init__(self, protocol: Protocol, out: Union[str, "os.PathLike[str]"], participant: str = "01", session: str = "01", *, window: Window,
+    def __init__(self, protocol: Protocol, out: Path, participant: str = "01", session: str = "01", *, window: Window,
                  stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {},
                  devices: Optional[str] = None, packed: bool = False):
         """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.

@@ -7,9 +7,9 @@ import math
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .._checks import Array
+
 Function = Literal["logistic", "normal", "weibull"]
 FUNCTIONS = get_args(Function)
 

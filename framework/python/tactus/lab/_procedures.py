@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from typing import Any, List, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .._checks import Array
 from .._messages import fail
 from ._draw import Draw
 from ._functions import Function, probability
 
-Array = NDArray[np.float64]
 
 
 def note(text: str, **more: Any) -> Any:

@@ -8,12 +8,13 @@ import json
 import os
 import pathlib
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Literal, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, Optional, Tuple
 
+from .._checks import Path
 from .._graph import Graph
 from .._messages import fail, placed
 from . import _schema
-from ._procedures import Constant, Procedure, Psi, Staircase, check, note
+from ._procedures import Constant, Procedure, Psi, check, note
 
 Task = Literal["yes_no", "2ifc", "greater", "abx", "magnitude", "adjust", "match"]
 ANSWERS: Dict[str, Tuple[str, ...]] = {"yes_no": ("yes", "no"), "2ifc": ("first", "second"), "greater": ("first", "second"), "abx": ("a", "b"),
@@ -155,7 +156,7 @@ class Protocol:
         return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
                           indent=2, ensure_ascii=False) + "\n"
 
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+    def save(self, path: Path) -> None:
         """Writes the file. If it names files by relative paths, they are found from its folder, as `folder` says."""
         data, to = json.loads(self.text()), os.path.relpath(self.folder or os.curdir, os.path.dirname(os.path.abspath(path)))
         named = [self.graph, *(name for c in self.conditions for name in (c.graph, c.snapshot))]
@@ -168,7 +169,7 @@ class Protocol:
         return hashlib.sha256(self.text().encode()).hexdigest()
 
     @staticmethod
-    def load(path: Union[str, "os.PathLike[str]"]) -> "Protocol":
+    def load(path: Path) -> "Protocol":
         """Reads and checks a file. Errors name the place in it as a JSON pointer."""
         data = _load(os.fspath(path))
         if isinstance(data, dict):

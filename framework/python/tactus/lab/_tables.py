@@ -10,6 +10,7 @@ from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
+from .._checks import Path
 from .._messages import fail
 from . import _journal
 from ._analysis import Detection, PowerLaw, Psychometric, detection, power_law, psychometric
@@ -17,7 +18,7 @@ from ._functions import Function
 from ._procedures import Constant, Psi, Staircase, StaircaseTrack
 from ._protocol import Block, Protocol
 from ._schema import read
-from ._writers import Path, Table
+from ._writers import Table
 
 _TRIAL_UNITS = {"onset": "s", "duration": "s", "response_time": "s", "begin_wall": "s", "begin_monotonic": "s"}
 _EVENT_UNITS = {"onset": "s", "duration": "s", "wall": "s", "monotonic": "s"}
@@ -31,9 +32,7 @@ class SessionData:
         self.header = events[0]
         self._events = events
         self.is_complete = any(event.get("event") == "end" for event in events)
-        keys = "name", "participant", "session", "seed", "versions", "graphs", "rates_hz", "devices", "started"
-        about = {key: self.header[key] for key in keys if key in self.header}
-        about["protocol_sha256"] = self.header["protocol"]
+        about = {{"protocol": "protocol_sha256"}.get(key, key): value for key, value in self.header.items() if key not in ("format", "version")}
         units = {block.varies.unit for block in protocol.blocks}
         of_levels = {"level": units.pop()} if len(units) == 1 else {}   # blocks may vary different things
         self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], {**_TRIAL_UNITS, **of_levels}, about)
@@ -133,11 +132,7 @@ def _number(value: Optional[float]) -> float:
 
 
 def _table(rows: List[Dict[str, Any]], units: Dict[str, str], about: Dict[str, Any]) -> Table:
-    columns: Dict[str, Any] = {}
-    for name in rows[0] if rows else units:
-        values = [row[name] for row in rows]
-        columns[name] = values if values and isinstance(values[0], str) else np.array(values)
-    return Table(columns, units, about)
+    return Table({name: [row[name] for row in rows] for name in (rows[0] if rows else units)}, units, about)
 
 
 def load(folder: Path, name: str = "") -> SessionData:

@@ -10,17 +10,17 @@ import os
 import pathlib
 import re
 import struct
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 from xml.sax.saxutils import escape
 
 import numpy as np
 
+from .._checks import Path
 from .._messages import fail
 from .._records import Records, imported, names_of
 from .._views import html_table
 
 Column = Any   # an array of numbers, or a list of texts
-Path = Union[str, "os.PathLike[str]"]
 
 
 class Table(Dict[str, Column]):
