@@ -20,7 +20,7 @@ from ._library import Messages, Opened, live, texts
 from ._messages import Message, fail
 from ._plot import axes_of
 from ._records import table_of, to_json
-from ._views import html_table, html_text, plain
+from ._views import html_table, html_text, plain, with_unit
 
 Amount = Union[float, str]
 
@@ -71,7 +71,7 @@ class Check:
         return f"<tactus.Check: {'broken: ' + ', '.join(broken) if self.is_broken else 'no judged condition is broken'}; {plain(self.scope, 80)}>"
 
     def _repr_html_(self) -> str:
-        rows = [(c.role, c.node, c.id, c.verdict, _with_unit(c.value, c.unit), _with_unit(c.limit, c.unit), c.text) for c in self.conditions]
+        rows = [(c.role, c.node, c.id, c.verdict, with_unit(c.value, c.unit), with_unit(c.limit, c.unit), c.text) for c in self.conditions]
         unjudged = "".join(f"<li>not judged: {html_text(n['what'])}: {html_text(n['why'])}</li>" for n in self.not_judged)
         return f"<p>{html_text(self.scope)}</p><ul>{unjudged}</ul>" + html_table(("role", "node", "condition", "verdict", "value", "limit", ""), rows)
 
@@ -169,8 +169,8 @@ class Fit:
         return f"<tactus.Fit of {self.kind}, {self.verdict}: " + ", ".join(f"{v.name} {v.value:.4g} {v.unit}".rstrip() for v in self.values.values()) + ">"
 
     def _repr_html_(self) -> str:
-        rows = [(v.name, _with_unit(v.value, v.unit), f"{v.low:.4g} to {v.high:.4g}") for v in self.values.values()]
-        lines = [f"verdict: {self.verdict}; residual {_with_unit(self.residual, self.residual_unit)} of {_with_unit(self.size, self.residual_unit)}",
+        rows = [(v.name, with_unit(v.value, v.unit), f"{v.low:.4g} to {v.high:.4g}") for v in self.values.values()]
+        lines = [f"verdict: {self.verdict}; residual {with_unit(self.residual, self.residual_unit)} of {with_unit(self.size, self.residual_unit)}",
                  *self.lacking, *self.notes]
         return html_table((self.kind, "value", "95 % interval"), rows) + "<ul>" + "".join(f"<li>{html_text(line)}</li>" for line in lines) + "</ul>"
 
@@ -332,10 +332,6 @@ def _intervals(ranges: Mapping[str, Any]) -> Dict[str, Optional[Interval]]:
 
 def _finite(value: Optional[float], otherwise: float) -> float:
     return otherwise if value is None else float(value)
-
-
-def _with_unit(value: Optional[float], unit: str) -> str:
-    return "" if value is None else f"{value:.4g}{'' if unit in ('', '1') else ' ' + unit}"
 
 
 def _shown(interval: Optional[Interval]) -> str:

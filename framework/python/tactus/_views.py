@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import html
 import re
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, NoReturn, Sequence, Tuple, TypeVar
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, NoReturn, Optional, Sequence, Tuple, TypeVar
 
 from ._messages import fail
 
@@ -106,6 +106,11 @@ def html_table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     """A table for notebooks."""
     lines = [f"<th>{'</th><th>'.join(map(html_text, head))}</th>", *(f"<td>{'</td><td>'.join(map(html_text, row))}</td>" for row in rows)]
     return f"<table><tr>{'</tr><tr>'.join(lines)}</tr></table>"
+
+
+def with_unit(value: Optional[float], unit: str) -> str:
+    """A number for a person."""
+    return "" if value is None else f"{value:.4g}{'' if unit in ('', '1') else ' ' + unit}"
 
 
 def shortened(names: List[str], most: int = 6) -> str:

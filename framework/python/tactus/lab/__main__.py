@@ -10,6 +10,7 @@ import time
 from typing import List, Optional
 
 from .._messages import Error
+from .._views import with_unit
 from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load, mark,
                schema)
 from ._marks import PORT
@@ -80,7 +81,7 @@ def describe(data: SessionData, block: str, condition: str) -> str:
     if isinstance(fit, PowerLaw):
         return f"exponent {fit.exponent:.4g} (95 % {fit.exponent_interval.low:.4g} to {fit.exponent_interval.high:.4g})"
     ends = fit.threshold_interval
-    return f"threshold {fit.threshold:.4g}{f' {fit.unit}' if fit.unit != '1' else ''} (95 % {ends.low:.4g} to {ends.high:.4g}), width {fit.width:.4g}, {fit.function}"
+    return f"threshold {with_unit(fit.threshold, fit.unit)} (95 % {ends.low:.4g} to {ends.high:.4g}), width {fit.width:.4g}, {fit.function}"
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

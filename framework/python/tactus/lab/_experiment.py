@@ -16,6 +16,7 @@ import numpy as np
 from .. import _tactus
 from .._checks import Path
 from .._messages import Error, fail
+from .._views import with_unit
 from . import _journal, _tables
 from ._analysis import psychometric
 from ._marks import Receiver, TriggerLine
@@ -223,9 +224,9 @@ class Experiment:
                    if event["block"] == trial.block.name and event["kind"] == "main" and event["outcome"] is not None]
         last = {key: self._trials[-1][key] for key in ("number", "answer", "outcome")} if self._trials else {}
         self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": trial.block.name,
-                            "kind": trial.kind, "trial": trial.number, "done": len(self._trials), "left": self.plan.left(), "level": trial.level,
-                            "unit": trial.block.varies.unit, "last": last, "health": self.stage.health(), "history": history,
-                            "fit": self._running_fit(trial.block, history)})
+                            "kind": trial.kind, "trial": trial.number, "done": len(self._trials), "left": self.plan.left(),
+                            "level": with_unit(trial.level, trial.block.varies.unit), "last": last, "health": self.stage.health(),
+                            "history": history, "fit": self._running_fit(trial.block, history)})
 
     def _running_fit(self, block: Block, history: List[Tuple[float, float]]) -> str:
         data = np.array(history).reshape(-1, 2)
@@ -236,4 +237,4 @@ class Experiment:
         except Error:   # one level so far
             return ""
         low, high = fit.threshold_interval
-        return f"threshold {fit.threshold:.4g} {block.varies.unit} ({low:.4g} to {high:.4g}), all conditions together"
+        return f"threshold {with_unit(fit.threshold, block.varies.unit)} ({low:.4g} to {high:.4g}), all conditions together"

@@ -33,8 +33,8 @@ class Condition:
     graph: str = field(default="", metadata=note("a graph file, or the name of a preset; without it, that of the protocol"))
     set: Dict[str, Any] = field(default_factory=dict, metadata=note("values of parameters, as in a graph file: {\"drag.mu\": 0.3}"))
     controls: Dict[str, float] = field(default_factory=dict, metadata=note("values of controls, from 0 to 1"))
-    snapshot: str = field(default="", metadata=note("\"1\" to \"9\": a snapshot of the window, in the graph file; or a JSON file with such `set` and `controls`, "
-                                                    "relative to the protocol. Those given here come on top"))
+    snapshot: str = field(default="", metadata=note("\"1\" to \"9\": a snapshot of the window, in the graph file; or a JSON file with such "
+                                                    "`set` and `controls`, relative to the protocol. Those given here come on top"))
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,8 @@ class SessionData:
         units = {block.varies.unit for block in protocol.blocks}
         of_levels = {"level": units.pop()} if len(units) == 1 else {}   # blocks may vary different things
         self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], {**_TRIAL_UNITS, **of_levels}, about)
-        self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a", "code": _number(event.get("code")),
-                               "tick": _number(event["tick"]), "wall": event["wall"], "monotonic": event["monotonic"]}
+        self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a",
+                               "code": _number(event.get("code")), "tick": _number(event["tick"]), "wall": event["wall"], "monotonic": event["monotonic"]}
                               for event, onset in self._timed("mark")], _EVENT_UNITS, about)
 
     def _timed(self, kind: str) -> Iterator[Tuple[_journal.Event, float]]:

@@ -63,14 +63,14 @@ document.getElementById("stop").onclick = () => fetch("stop", {method: "POST"});
 addEventListener("keydown", e => { if (!e.repeat && e.key.length === 1 && e.key !== " ")   // the space bar presses a button
   fetch("mark", {method: "POST", body: JSON.stringify({name: "key", value: e.key})}).catch(() => {}); });
 function rows(table, facts) { table.replaceChildren(); for (const [k, v] of facts) {
-  const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = v; } }
+  const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = typeof v === "number" ? +v.toFixed(3) : v; } }
 function draw(s) {
   const r = s.report; document.getElementById("state").textContent = s.stopped ? "STOPPED" : s.over ? "over" : s.text;
   if (!r.name) return;
   const bar = document.getElementById("bar"); bar.max = r.done + r.left || 1; bar.value = r.done;
   rows(document.getElementById("facts"), [["experiment", `${r.name}, sub-${r.participant} ses-${r.session}`], ["block", `${r.block} (${r.kind})`],
-    ["trial", `${r.trial}; ${r.left} left at most`], ["level", `${r.level} ${r.unit}`],
-    ["last answer", JSON.stringify(r.last)], ["running fit", r.fit || "not yet"]]);
+    ["trial", `${r.trial}; ${r.left} left at most`], ["level", r.level], ["running fit", r.fit || "not yet"],
+    ["last answer", r.last.number ? `${r.last.answer ?? "none"}, outcome ${r.last.outcome}, trial ${r.last.number}` : ""]]);
   const h = r.health || {}; rows(document.getElementById("health"), [...Object.entries(h).filter(([k]) => k !== "devices"),
     ...(h.devices || []).map(d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
   const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0])), svg = document.getElementById("plot");
