@@ -195,12 +195,12 @@ def _recalled(graph: Graph, number: str) -> Graph:
         if number not in stored:
             fail("lab/value", "snapshot", f"the graph has no snapshot {number}", f"its snapshots: {', '.join(stored) or 'none'}")
         name = next((name for name, one in whole.get("graphs", {}).items() if one is part), "")
-        then = stored[number]["graphs"].get(name, {}) if name else stored[number]["nodes"]
+        then = stored[number].get("graphs", {}).get(name, {}) if name else stored[number].get("nodes", {})
         for id, node in part.get("nodes", {}).items():
             if then.get(id, {}).get("type") == node.get("type"):
                 node.update({key: then[id][key] for key in ("params", "overrides") if then[id].get(key) or key in node})
         for id, control in part.get("controls", {}).items():
-            control["value"] = stored[number]["controls"].get(id, control.get("value", 0.0))
+            control["value"] = stored[number].get("controls", {}).get(id, control.get("value", 0.0))
 
     with placed(f"snapshot {number}"):
         return edited(graph, recall)
