@@ -274,7 +274,7 @@ class Windows(Case):
         read, write = os.pipe()
         with os.fdopen(read) as source:
             terminal = lab.Terminal(source, io.StringIO())
-            trial = next(t for t in [lab.Plan(protocol()).step])
+            trial = lab.Plan(protocol()).step
             self.assertIsNone(terminal.ask(trial, 1.0, {"first": "1"}, 0.001, lambda: None))
             self.assertEqual(terminal.ask(trial, 1.0, {"first": "1"}, 0.0, lambda: "first"), "first")
             os.close(write)
