@@ -450,7 +450,7 @@ class Commands(Case):
 
     def test_an_experiment_runs_and_tells_its_threshold(self):
         Sessions.made.save(self.folder / "p.json")
-        ran = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off")
+        ran = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off", "--packed-log")
         self.assertEqual(ran.returncode, 0, ran.stderr)
         self.assertRegex(ran.stdout, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ")
         again = self.ran("experiment", "p.json", "--observer", "threshold=2,width=0.3", "--osc", "off")
