@@ -3,20 +3,22 @@
 
 #include "assets.hpp"
 #include "graph.hpp"
-#include "point_run.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>
 
-#include <tactus/check/hands.hpp>
-#include <tactus/check/trials/trials.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
+#include <tactus/kit/state_archive.hpp>
 #include <tactus/node/catalogue.hpp>
+#include <tactus/node/node_fault.hpp>
+#include <tactus/plan/flat/make_node.hpp>
+#include <tactus/plan/prepared_shelf.hpp>
+#include <tactus/plan/rules/examine.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <utility>
 
 namespace tactus::python
@@ -24,187 +26,247 @@ namespace tactus::python
 
 namespace
 {
-using Rows = PythonRun::Rows;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double most_ticks = 1e10;
 
-/// 2: passive, at least along the motion. 1: stable. 0: it swings, or may swing. Not a number: not known.
-double rankOf (check::Verdict verdict)
+/// A run that renders one point after another. The graph is compiled for the first one. For each other point, the run goes back to before its first
+/// tick, and the parameters that differ are set; a graph whose state cannot be saved is compiled again. Both give the same bits and messages.
+class Points final : RunListener
 {
-    switch (verdict)
+public:
+    using Rows = PythonRun::Rows;
+    using Values = std::vector<std::string>;   // as JSON
+    using FeedTable = std::optional<std::pair<std::vector<std::string>, Rows>>;
+
+    /// common: values that all points share, by parameter. names: what varies. seconds: of each render; 0: as long as the table, or the longest path of a
+    /// hand.
+    Points (const EditedGraph& g, double hz, std::vector<std::string> records, const std::map<std::string, std::string>& common, Values n,
+            const FeedTable& table, py::object own_assets, double s)
+        : graph (g.graph()), names (std::move (n)), seconds (s), reader (std::move (own_assets)), assets (reader.reader())
     {
-    case check::Verdict::passive:
-    case check::Verdict::passive_here:
-        return 2.0;
-    case check::Verdict::stable:
-        return 1.0;
-    case check::Verdict::unstable:
-    case check::Verdict::broken:
-        return 0.0;
-    default:
-        return unknown;
+        options = { .rate_hz = hz, .records = std::move (records), .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
+        for (const auto& [name, value] : common)
+            options.overrides.push_back ({ name, jsonOf (value) });
+        if (! table) return;
+        Table rows { .columns = table->first, .values = std::vector<double> (table->second.data(), table->second.data() + table->second.size()) };
+        auto made = Feed::make (std::move (rows), "feed", hz, graph.rate_hz);
+        if (! made) fail (std::move (made).error());
+        options.feeds = made->drives();
+        options.rate_hz = made->rate();
+        first_feed = std::move (*made);
     }
-}
 
-/// The worst verdict of the conditions `stiffness` and `coupling`, and their smallest known margin.
-void judge (const Job& job, const CompileOptions& options, Outcome& to)
-{
-    const check::Subject subject { job.graph, catalogue(), options };
-    std::vector<check::HandChoice> hands;
-    for (const auto& d : job.devices)
-        hands.push_back ({ d.role, d.description, d.folder });
-    auto recorded = check::recordMotion (subject, hands, job.graph.folder, job.seconds);
-    const bool is_broken = hasErrors (recorded.messages);
-    std::ranges::move (recorded.messages, std::back_inserter (to.messages));
-    if (is_broken) return;
-    const auto compiled = compile (job.graph, catalogue(), options);
-    std::vector<check::RoleDevice> devices;
-    for (const auto& role : recorded.motion.roles)
+    /// The records of some points, shape (points, ticks, columns); errors of points: number, id, place and text, and the numbers of a bad point are not
+    /// numbers; and warnings, one of each kind and place.
+    py::tuple render (const std::vector<Values>& points)
     {
-        const auto* mine = job.deviceOf (role.role);
-        const auto* description = mine != nullptr ? &mine->description : job.graph.device (role.role);
-        const auto folder = mine != nullptr ? mine->folder : std::filesystem::path (job.graph.folder);
-        check::RoleDevice device { .role = role.role };
-        if (const auto numbers = description != nullptr ? check::numbersOf (*description, folder) : std::nullopt)
+        Rows all ({ py::ssize_t (points.size()), py::ssize_t (0), py::ssize_t (0) });
+        py::list errors;
+        py::dict warnings;
+        for (std::size_t k = 0; k < points.size(); ++k)
         {
-            device.numbers = *numbers;
-            device.simulated = check::simulationOf (*description, folder);
+            Messages messages;
+            const auto at = optionsOf (points[k]);
+            withoutGil ([&] { begin (at, messages); });
+            if (tell (messages, k, errors, warnings)) continue;
+            const auto width = count * columns.size();
+            if (all.size() == 0)
+            {
+                all = Rows ({ points.size(), count, columns.size() });
+                std::fill_n (all.mutable_data(), all.size(), std::numeric_limits<double>::quiet_NaN());
+            }
+            if (static_cast<std::size_t> (all.size()) != points.size() * width) throw std::length_error ("a point has other columns than those before it");
+            row = all.mutable_data() + k * width;
+            withoutGil ([&] {
+                for (std::size_t i = 0; i < count; ++i)
+                    run->tick();
+            });
         }
-        devices.push_back (std::move (device));
-    }
-    const auto budget = check::affordableTicks (*compiled.plan);
-    const auto demand = check::measure (subject, recorded.motion, { .places = job.places, .ticks = budget });
-    const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = budget / 2 });
-    double rank = std::numeric_limits<double>::infinity(), margin = unknown;
-    for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
-    {
-        if (c.id != "stiffness" && c.id != "coupling") continue;
-        const double r = rankOf (c.verdict);
-        if (rank != 0.0 && (std::isnan (r) || r < rank)) rank = r;   // what swings is certain, whatever else is unknown
-        if (c.isKnown()) margin = std::isnan (margin) ? c.margin() : std::min (margin, c.margin());
-    }
-    to.numbers.push_back (std::isinf (rank) ? unknown : rank);
-    to.numbers.push_back (margin);
-}
-
-Outcome renderOne (const Job& job, PointRun& run, const std::vector<Json>& values)
-{
-    Outcome outcome;
-    auto options = job.options;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        options.overrides.push_back ({ job.names[i], values[i] });
-    const auto begin = std::chrono::steady_clock::now();
-    try
-    {
-        run.render (options, outcome);
-        if (job.places > 0 && ! hasErrors (outcome.messages)) judge (job, options, outcome);
-    }
-    catch (const std::invalid_argument& why)
-    {
-        outcome.messages.push_back (Message::error ("study/measure", "/measures", why.what(), "correct the measure"));
-    }
-    outcome.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now() - begin).count();
-    return outcome;
-}
-
-std::vector<Gauge::Options> gaugesOf (const py::list& described)
-{
-    std::vector<Gauge::Options> all;
-    for (const auto& each : described)
-    {
-        all.push_back ({ .kind = each["kind"].cast<std::string>(),
-                         .port = each["port"].cast<std::string>(),
-                         .position = each["position"].cast<std::string>(),
-                         .level = each["level"].cast<double>(),
-                         .hold_s = each["hold"].cast<double>(),
-                         .is_above = each["above"].cast<bool>() });
-        const auto reference = each["reference"].cast<Rows>();
-        all.back().reference.assign (reference.data(), reference.data() + reference.size());
-    }
-    return all;
-}
-
-py::dict renderPoints (const EditedGraph& graph, double rate_hz, std::vector<std::string> records, const std::map<std::string, std::string>& common,
-                       std::vector<std::string> names, const std::vector<std::vector<std::string>>& values,
-                       const std::map<std::string, std::string>& devices, const std::string& folder,
-                       const std::optional<std::pair<std::vector<std::string>, Rows>>& table, py::object own_assets, double seconds,
-                       const py::list& measures, bool keeps, std::size_t places)
-{
-    PythonAssets reader (std::move (own_assets));
-    capi::CallerAssets assets (reader.reader());
-    Job job;
-    job.graph = graph.graph();
-    job.options = { .rate_hz = rate_hz, .records = std::move (records), .assets = &assets };
-    job.names = std::move (names);
-    job.gauges = gaugesOf (measures);
-    job.seconds = seconds;
-    job.keeps = keeps;
-    job.places = places;
-    job.options.services.nearest_triangle = nearestByBoxes;
-    for (const auto& [name, value] : common)
-        job.options.overrides.push_back ({ name, jsonOf (value) });
-    for (const auto& [role, description] : devices)
-        job.devices.push_back ({ role, jsonOf (description), folder });
-    if (table)
-    {
-        Table rows;
-        rows.columns = table->first;
-        rows.values.assign (table->second.data(), table->second.data() + table->second.size());
-        auto feed = Feed::make (std::move (rows), "feed", rate_hz, job.graph.rate_hz);
-        if (! feed) fail (std::move (feed).error());
-        job.options.feeds = feed->drives();
-        job.options.rate_hz = feed->rate();
-        job.feed = std::move (*feed);
+        return py::make_tuple (all, errors, warnings);
     }
 
-    const auto width = job.gauges.size() + (places > 0 ? 2u : 0u);
-    Rows numbers ({ static_cast<py::ssize_t> (values.size()), static_cast<py::ssize_t> (width) });
-    Rows durations (static_cast<py::ssize_t> (values.size()));
-    std::fill_n (numbers.mutable_data(), numbers.size(), unknown);
-    py::list errors, kept;
-    std::map<std::string, std::string> warnings;   // one of each kind and place
-    PointRun run (job, values.size());
-    for (std::size_t k = 0; k < values.size(); ++k)
+    // Of the last point that could be rendered.
+    std::vector<std::string> columns {}, units {};
+    double rate_hz = 0.0;
+    std::size_t count = 0;   // ticks
+
+private:
+    void after (const Plan& plan, std::uint64_t, bool) noexcept override
     {
-        std::vector<Json> parsed;
-        for (const auto& text : values[k])
-            parsed.push_back (jsonOf (text));
-        Outcome outcome;
+        for (const auto& tap : plan.taps())
+            *row++ = *tap.value;
+    }
+
+    template <typename F>
+    void withoutGil (F&& f)
+    {
         {
             const py::gil_scoped_release without_gil;
-            outcome = renderOne (job, run, parsed);
+            f();
             reader.release();
         }
         reader.raiseFailure();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        durations.mutable_data()[k] = outcome.seconds;
-        bool is_broken = false;
-        for (const auto& m : outcome.messages)
+    }
+
+    /// True if there are errors, of which the first is told.
+    static bool tell (const Messages& messages, std::size_t point, py::list& errors, py::dict& warnings)
+    {
+        const auto first = std::ranges::find (messages, Message::Severity::error, &Message::severity);
+        if (first != messages.end()) errors.append (py::make_tuple (point, first->id, first->where, first->text));
+        for (const auto& m : messages)
+            if (const auto kind = py::str (m.id + ' ' + m.where); m.severity != Message::Severity::error && ! warnings.contains (kind)) warnings[kind] = m.text;
+        return first != messages.end();
+    }
+
+    CompileOptions optionsOf (const Values& point) const
+    {
+        auto at = options;
+        for (std::size_t i = 0; i < point.size(); ++i)
+            at.overrides.push_back ({ names[i], jsonOf (point[i]) });
+        return at;
+    }
+
+    void begin (const CompileOptions& at, Messages& messages)
+    {
+        if (! goBack (at, messages)) compile (at, messages);
+        if (hasErrors (messages)) return;
+        if (first_feed) *feed = *first_feed;
+        double length_s = seconds;
+        if (length_s <= 0.0 && ! feed)
+            for (const auto& [role, d] : run->devices())
+                length_s = std::max (length_s, d.device ? d.device->duration() : 0.0);
+        const double ticks = std::ceil (length_s * rate_hz - 1e-6);
+        count = ticks >= 1.0 && ticks <= most_ticks ? static_cast<std::size_t> (ticks) : 0;
+        if (feed) count = length_s <= 0.0 ? feed->ticks() : std::min (count, feed->ticks());
+        if (count > 0) return;
+        messages.push_back (Message::error ("run/no_length", "", "the length of the run is unknown, or more than 10^10 ticks", "give the duration in s"));
+    }
+
+    void compile (const CompileOptions& at, Messages& messages)
+    {
+        const auto open = [] (const std::string& role, const graph::Graph& g, const Plan&, Messages& found) {
+            auto made = makeDevice (describedByGraph (g.device (role), role, found), g.folder);
+            for (auto& m : made.messages)
+                m.where = "/devices/" + role + m.where;
+            std::ranges::move (made.messages, std::back_inserter (found));
+            return Run::RoleDevice { std::move (made.device), made.limits };
+        };
+        state.clear();
+        run.emplace (catalogue(), at, open, Run::Queries::within_tick);
+        messages = run->load (graph);
+        if (! hasErrors (messages)) run->openDevices (graph, messages);
+        if (hasErrors (messages)) return run.reset();
+        columns.clear();
+        units.clear();
+        for (const auto& tap : run->engine().newest().taps())
         {
-            if (m.severity != Message::Severity::error)
-                warnings.emplace (m.id + ' ' + m.where, m.text);
-            else if (! std::exchange (is_broken, true))
-                errors.append (py::make_tuple (k, m.id, m.where, m.text));
+            columns.push_back (tap.name);
+            units.push_back (tap.unit);
         }
-        if (! is_broken) std::ranges::copy (outcome.numbers, numbers.mutable_data() + k * width);
-        if (keeps)
+        rate_hz = run->rate();
+        if (first_feed) run->add (feed.emplace (*first_feed));
+        run->add (*this);
+        if (! goes_back) return;
+        if (auto saved = run->save (graph)) state = std::move (*saved);
+        goes_back = ! state.empty();
+    }
+
+    Setup setupAt (double hz) const
+    {
+        Setup setup { .rate_hz = hz, .services = options.services };
+        setup.services.prepared = &plan::preparedOfAll();
+        return setup;
+    }
+
+    /// Goes back to before the first tick, with the values of another point. False if the graph must be compiled for it.
+    bool goBack (const CompileOptions& at, Messages& messages)
+    {
+        if (! run || state.empty() || ! run->restore (state, graph)) return false;
+        try
         {
-            const auto count = run.columns.empty() || is_broken ? 0 : outcome.rows.size() / run.columns.size();
-            kept.append (Rows ({ static_cast<py::ssize_t> (count), static_cast<py::ssize_t> (run.columns.size()) }, outcome.rows.data()));
+            auto found = plan::examine (graph, catalogue(), setupAt (rate_hz), at.overrides, at.assets).flattened;
+            const auto& flat = found.flat;
+            const auto& before = run->engine().newest().flat();
+            if (flat.values.size() != before.values.size() || flat.nodes.size() != before.nodes.size()) return false;
+            messages = std::move (found.flat.messages);
+            if (hasErrors (messages)) return true;
+            for (std::size_t i = 0; i < flat.nodes.size(); ++i)
+            {
+                const auto first = flat.nodes[i].values, end = i + 1 < flat.nodes.size() ? flat.nodes[i + 1].values : flat.values.size();
+                const auto valuesOf = [&] (const plan::Flat& f) { return std::as_bytes (std::span (f.values).subspan (first, end - first)); };
+                if (! std::ranges::equal (valuesOf (flat), valuesOf (before)) && ! set (flat, i)) return goes_back = false;
+            }
+            return true;
+        }
+        catch (const NodeFault&)
+        {
+            return false;   // compile() reports it
         }
     }
-    py::dict all;
-    all["numbers"] = numbers;
-    all["seconds"] = durations;
-    all["errors"] = errors;
-    all["warnings"] = warnings;
-    all["rows"] = kept;
-    all["columns"] = run.columns;
-    all["units"] = run.units;
-    all["rate"] = run.rate_hz;
-    return all;
-}
+
+    /// Gives a node the values of its parameters, and the state that it would have begun with. False if that needs a new node.
+    bool set (const plan::Flat& flat, std::size_t i)
+    {
+        const auto& now = flat.nodes[i];
+        const auto& plan = run->engine().newest();
+        const auto& instance = plan.instances()[i];
+        const auto& type = *now.type;
+        if (type.bind || type.serialize == nullptr || ! instance.knobs) return false;
+        for (std::size_t p = 0, first = 0; p < type.params.size(); first += plan::Knobs::roomOf (type.params[p++]))
+        {
+            const auto values = flat.param (static_cast<int> (i), p);
+            for (std::size_t k = 0; k < values.size(); ++k)
+            {
+                auto& knob = instance.knobs->all[first + k];
+                knob.value = knob.to = values[k];
+                instance.write (first + k, values[k]);
+            }
+        }
+        if (type.update) type.update (instance.node.get());
+
+        const auto made = plan::makeNode (flat, static_cast<int> (i));
+        const auto* role = type.learn ? plan.findRole (now.role) : nullptr;
+        if (role != nullptr) type.learn (made.get(), DeviceState {}.layout.mechanics);   // as a plan does before it has devices
+        if (type.prepare) type.prepare (made.get(), setupAt (rate_hz * flat.speed (now.section)));
+        if (type.update) type.update (made.get());
+        if (role != nullptr) type.learn (made.get(), role->state->layout.mechanics);
+        std::vector<std::byte> bytes;
+        StateArchive saving { bytes };
+        type.serialize (made.get(), saving);
+        StateArchive restoring { std::span<const std::byte> (bytes) };
+        type.serialize (instance.node.get(), restoring);
+        return ! saving.isRefused() && ! restoring.isRefused() && restoring.isAtEnd();
+    }
+
+    graph::Graph graph;
+    CompileOptions options {};   // with the values that all points share
+    Values names;
+    double seconds;
+    PythonAssets reader;
+    capi::CallerAssets assets;
+    bool goes_back = true;   // worth a try
+    std::optional<Feed> first_feed {}, feed {};
+    std::vector<std::byte> state {};   // before the first tick; empty: none could be saved
+    double* row = nullptr;             // of the records, for the next tick
+    std::optional<Run> run {};         // declared last, so that it is destroyed first
+};
 }   // namespace
 
-void bindPoints (py::module_& module) { module.def ("render_points", &renderPoints); }
+void bindPoints (py::module_& module)
+{
+    module.def ("read_table", [] (const std::string& path) {
+        const auto table = readTable (std::filesystem::path (path));
+        if (! table) fail (table.error());
+        return std::make_pair (table->columns, Points::Rows ({ table->rows(), table->columns.size() }, table->values.data()));
+    });
+    py::class_<Points> (module, "Points")
+        .def (py::init<const EditedGraph&, double, std::vector<std::string>, const std::map<std::string, std::string>&, Points::Values,
+                       const Points::FeedTable&, py::object, double>())
+        .def ("render", &Points::render)
+        .def_readonly ("columns", &Points::columns)
+        .def_readonly ("units", &Points::units)
+        .def_readonly ("rate", &Points::rate_hz)
+        .def_readonly ("ticks", &Points::count);
+}
 
 }   // namespace tactus::python

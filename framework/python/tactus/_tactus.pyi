@@ -14,10 +14,17 @@ def read_log(log: str, from_s: float, until_s: float) -> Tuple[int, List[str], L
 def replay(log: str, graph: Optional[Graph], records: Sequence[str], sets: Dict[str, str],
            assets: Optional[Callable[[str, str], Optional[Dict[str, Any]]]], from_s: float,
            until_s: float) -> Tuple[int, List[str], List[str], NDArray[np.float64], str]: ...
-def render_points(graph: Graph, rate_hz: float, records: Sequence[str], common: Dict[str, str], names: Sequence[str], values: Sequence[Sequence[str]],
-                  devices: Dict[str, str], folder: str, table: Optional[Tuple[List[str], NDArray[np.float64]]],
-                  assets: Optional[Callable[[str, str], Optional[Dict[str, Any]]]], seconds: float, measures: List[Dict[str, Any]], keeps: bool,
-                  places: int) -> Dict[str, Any]: ...
+def read_table(path: str) -> Tuple[List[str], NDArray[np.float64]]: ...
+
+class Points:
+    columns: List[str]
+    units: List[str]
+    rate: float
+    ticks: int
+    def __init__(self, graph: Graph, rate_hz: float, records: Sequence[str], common: Dict[str, str], names: Sequence[str],
+                 table: Optional[Tuple[List[str], NDArray[np.float64]]], assets: Optional[Callable[[str, str], Optional[Dict[str, Any]]]],
+                 seconds: float) -> None: ...
+    def render(self, points: Sequence[Sequence[str]]) -> Tuple[NDArray[np.float64], List[Tuple[int, str, str, str]], Dict[str, str]]: ...
 
 class Graph:
     @staticmethod

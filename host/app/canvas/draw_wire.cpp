@@ -64,11 +64,7 @@ public:
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
             if (wire_id != 0) return unplug();
-            if (! canvas.getLocalBounds().contains (e.getPosition()))
-            {
-                if (canvas.onWireOutside) canvas.onWireOutside (start, e.getScreenPosition());
-                return;
-            }
+            if (canvas.onWireOutside && ! canvas.getLocalBounds().contains (e.getPosition())) return canvas.onWireOutside (start, e.getScreenPosition());
             canvas.commands().requestNode ({ at, start });
             return;
         }

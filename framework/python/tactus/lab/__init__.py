@@ -20,10 +20,9 @@ from ._functions import probability
 from ._marks import Receiver, mark
 from ._measures import Measure
 from ._observers import Observer
-from ._columns import Results
-from ._parts import load as load_results
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
+from ._results import Results
 from ._stages import Live, Moment, Silent
 from ._study import Map, Study
 from ._tables import SessionData, load
@@ -31,6 +30,8 @@ from ._trials import Plan, Text, Trial
 from ._web import Browser
 from ._windows import Aborted, Simulated, Terminal, Window
 from ._writers import Table, table_of
+
+load_results = Results
 
 __all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "Factor", "FromTable", "Grid", "HandAnswer", "Interval",
            "Latin", "Live", "Map", "Measure", "Moment", "Observer", "Plan", "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "Results",

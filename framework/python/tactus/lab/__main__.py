@@ -14,7 +14,6 @@ from .._views import with_unit
 from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load, mark,
                schema)
 from ._marks import PORT
-from ._parts import DiskError
 from ._schema import read
 
 
@@ -130,7 +129,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
             print(f"error: no experiment has answered at port {given.osc}\n    start one, or name its port with --osc", file=sys.stderr)
             return 1
         return 0
-    except (Error, DiskError) as why:
+    except Error as why:
         print(f"error: {why}", file=sys.stderr)
         return 1
     except ValueError as why:

@@ -89,16 +89,24 @@ def text_of(value: Any) -> str:
 class Design:
     """Points by their number. They are made when they are asked for, so a large grid or sequence takes no memory."""
 
-    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], numeric: Sequence[bool], repeats: bool):
-        """numeric: of each factor, whether all its values are numbers. repeats: some points may be equal."""
-        self.names, self.count, self.at, self.numeric, self.repeats = list(names), count, at, numeric, repeats
+    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], levels: Sequence[Sequence[str]], repeats: bool):
+        """levels: of each factor, the values that it may have; none for a range. repeats: some points may be equal."""
+        self.names, self.count, self.at, self.repeats = list(names), count, at, repeats
+        self._levels = {name: {text: json.loads(text) for text in texts} for name, texts in zip(names, levels)}
+
+    def values(self, name: str) -> List[Any]:
+        """The values that a factor may have; none for a range."""
+        return list(self._levels.get(name, {}).values())
 
     def columns(self, points: Sequence[Point]) -> Dict[str, Any]:
-        """The values of some points by factor: arrays of numbers, or lists of texts."""
+        """The values of some points by factor: arrays of numbers, or of texts."""
         found: Dict[str, Any] = {}
-        for name, numeric, texts in zip(self.names, self.numeric, zip(*points)):
-            known = {text: json.loads(text) for text in set(texts)}
-            found[name] = np.array([known[text] for text in texts], float) if numeric else [v if isinstance(v := known[t], str) else t for t in texts]
+        for name, texts in zip(self.names, zip(*points)):
+            known = self._levels[name]
+            if all(map(_is_number, known.values())):
+                found[name] = np.array([known[text] if known else float(text) for text in texts], float)
+            else:
+                found[name] = np.array([known[text] if isinstance(known[text], str) else text for text in texts], object)
         return found
 
 
@@ -114,22 +122,20 @@ def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
             fail("study/value", f"/factors/{i}", f"'{name}' varies twice", "name each factor once")
     if isinstance(kind, FromTable):
         return _table(kind, factors, folder)
-    levels = [_levels(factor, f"/factors/{i}", folder) for i, factor in enumerate(factors)]
-    numeric = [all(map(_is_number, each)) for each in levels]
+    levels = [[text_of(value) for value in _levels(factor, f"/factors/{i}", folder)] for i, factor in enumerate(factors)]
     if isinstance(kind, Grid):
         steps = [each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)] for each, factor in zip(levels, factors)]
-        texts = [[text_of(v) for v in each] for each in steps]
-        sizes = [len(each) for each in texts]
-        parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(texts)]
-        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), numeric,
-                      any(len(set(each)) < len(each) for each in texts))
+        sizes = [len(each) for each in steps]
+        parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(steps)]
+        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), levels,
+                      any(len(set(each)) < len(each) for each in steps))
     columns = _latin(kind, len(factors)) if isinstance(kind, Latin) else _sobol(len(factors))
 
     def at(index: int) -> Point:
-        return tuple(text_of(each[min(int(u * len(each)), len(each) - 1)] if each else _between(factor, u))
-                     for each, factor, u in zip(levels, factors, columns(index)))
+        return tuple([each[min(int(u * len(each)), len(each) - 1)] if each else _between(factor, u)
+                      for each, factor, u in zip(levels, factors, columns(index))])
 
-    return Design(names, kind.points, at, numeric, all(levels))
+    return Design(names, kind.points, at, levels, all(levels))
 
 
 def _levels(factor: Factor, where: str, folder: str) -> List[Any]:
@@ -147,15 +153,14 @@ def _levels(factor: Factor, where: str, folder: str) -> List[Any]:
             found += [os.path.relpath(file, folder or os.curdir) for file in files]
         return found
     if factor.low is None or factor.high is None or not factor.low < factor.high or (factor.log and factor.low <= 0.0):
-        fail("study/value", where, f"'{factor.vary}' has neither values nor a range" if factor.low is None else f"'{factor.vary}' has no range of values",
-             "give `values`, or `low` below `high`; both above 0 for `log`")
+        fail("study/value", where, f"'{factor.vary}' has neither values nor a range of values", "give `values`, or `low` below `high`; above 0 for `log`")
     return []
 
 
-def _between(factor: Factor, u: float) -> float:
+def _between(factor: Factor, u: float) -> str:
     """The value at a part u of the range. Rounded, so that it does not depend on how a computer computes a logarithm."""
     low, high = float(factor.low or 0.0), float(factor.high or 0.0)
-    return float(f"{math.exp(math.log(low) * (1.0 - u) + math.log(high) * u) if factor.log else low + (high - low) * u:.12g}")
+    return text_of(float(f"{math.exp(math.log(low) * (1.0 - u) + math.log(high) * u) if factor.log else low + (high - low) * u:.12g}"))
 
 
 def _latin(kind: Latin, width: int) -> Callable[[int], List[float]]:
@@ -196,24 +201,20 @@ def _sobol(width: int) -> Callable[[int], List[float]]:
 
 
 def _table(kind: FromTable, factors: Sequence[Factor], folder: str) -> Design:
-    path = os.path.join(folder, kind.path)
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            rows = [row for row in csv.reader(file) if row]
+        with open(os.path.join(folder, kind.path), encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
     except (OSError, ValueError, csv.Error) as why:
         fail("study/unreadable", "/design/path", f"the table '{kind.path}' cannot be read: {why}", "give a CSV file, relative to the study")
-    names = [factor.vary for factor in factors] or (rows[0] if rows else [])
-    missing = [name for name in names if not rows or name not in rows[0]]
-    if missing or not names or len(rows) < 2:
-        fail("study/value", "/design/path", f"the table '{kind.path}' has no column '{missing[0]}'" if missing else f"the table '{kind.path}' has no rows",
-             "give a header with the names of the factors, and a row for each point")
-    columns = [rows[0].index(name) for name in names]
-    for number, row in enumerate(rows[1:], 2):
-        if len(row) != len(rows[0]):
-            fail("study/value", f"{kind.path}:{number}", f"the row has {len(row)} values, and the header {len(rows[0])}", "correct the row")
-    points = [tuple(text_of(_cell(row[c])) for c in columns) for row in rows[1:]]
-    numeric = [all(_is_number(json.loads(text)) for text in texts) for texts in zip(*points)]
-    return Design(names, len(points), lambda index: points[index], numeric, len(set(points)) < len(points))
+    names = [factor.vary for factor in factors]
+    lacks = next((f"column '{name}'" for name in names if name not in rows[0]), "") if rows else "rows"
+    if lacks:
+        fail("study/value", "/design/path", f"the table '{kind.path}' has no {lacks}", "give a header with the names of the factors, and a row for each point")
+    for number, row in enumerate(rows, 2):
+        if None in row or None in row.values():
+            fail("study/value", f"{kind.path}:{number}", "the row has more or fewer values than the header", "correct the row")
+    points = [tuple(text_of(_cell(row[name])) for name in names) for row in rows]
+    return Design(names, len(points), lambda index: points[index], list(zip(*points)), len(set(points)) < len(points))
 
 
 def _cell(text: str) -> Any:

@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal
+from typing import Any, Callable, Dict, List, Literal, NamedTuple, Tuple
 
 import numpy as np
 
 from .._checks import Array
-from .._messages import fail
+from .._graph import Graph
+from .._messages import TactusWarning, fail
 from .._records import Records
+from .._reports import check
 from ._procedures import note
 
 Kind = Literal["peak", "max", "min", "mean", "rms", "last", "work", "given", "reach", "misfit", "band", "stable", "function"]
@@ -37,7 +41,6 @@ class Measure:
     column: str = field(default="", metadata=note("the column of the recording"))
     low: float = field(default=40.0, metadata=note("the lowest frequency, in Hz", low=0.0))
     high: float = field(default=400.0, metadata=note("the frequency at which the band ends, in Hz", above=0.0))
-    places: int = field(default=16, metadata=note("the number of places of the motion at which slopes are measured", low=4, high=1000))
     function: str = field(default="", metadata=note("the name of a function of (records, point), in the file that --functions gives"))
     outputs: List[str] = field(default_factory=list, metadata=note("names of the numbers that the function returns, if there are several"))
     unit: str = field(default="", metadata=note("the unit, for tables and the report"))
@@ -48,11 +51,6 @@ class Measure:
         if self.kind == "stable":
             return [self.name, f"{self.name}_margin"]
         return [f"{self.name}_{output}" for output in self.outputs] or [self.name]
-
-    @property
-    def needs_records(self) -> bool:
-        """True if the number is computed after the render; the others are computed in it."""
-        return self.kind in ("band", "function")
 
 
 def checked(measures: List[Measure]) -> None:
@@ -72,13 +70,62 @@ def checked(measures: List[Measure]) -> None:
         fail("study/value", "/measures", "there are two measures `stable`", "one is enough")
 
 
-def gauge(measure: Measure, recording: Dict[str, Array]) -> Dict[str, Any]:
-    """A measure as the C++ side computes it."""
-    if measure.kind == "misfit" and measure.column not in recording:
-        fail("study/no_column", f"/measures/{measure.name}", f"the recording has no column '{measure.column}'" if recording else "there is no recording",
-             f"its columns: {', '.join(recording)}" if recording else "add the factor `recording`")
-    return {**{name: getattr(measure, name) for name in ("kind", "port", "position", "level", "hold", "above")},
-            "reference": recording[measure.column] if measure.kind == "misfit" else np.zeros(0)}
+class Block(NamedTuple):
+    """Renders of some points that have equal columns and lengths."""
+
+    rows: Array   # shape (points, ticks, columns); not numbers where a point has an error
+    columns: List[str]
+    rate: float
+    recording: Dict[str, Array]
+
+    def components(self, port: str) -> List[Array]:
+        """The three components of a port, or its only one, each of shape (points, ticks)."""
+        found = [self.rows[:, :, self.columns.index(name)] for name in (port, f"{port}.x", f"{port}.y", f"{port}.z") if name in self.columns]
+        if not found:
+            fail("study/measure", port, f"no column of the run belongs to '{port}'", "name a port of the graph")
+        return found
+
+    def component(self, port: str) -> Array:
+        """The only component of a port."""
+        found = self.components(port)
+        if len(found) > 1:
+            fail("study/measure", port, f"'{port}' is a vector", f"name a component, such as {port}.z")
+        return found[0]
+
+
+# The bits of a number must not depend on how many points are in its block. So sums are made tick by tick, and numpy may choose the order of no other sum.
+def _sum(values: Array) -> Array:
+    return np.asarray(np.cumsum(values, axis=1)[:, -1])
+
+
+def _squares(m: Measure, block: Block) -> Array:
+    """Of the magnitude of the port."""
+    return np.asarray(sum(each * each for each in block.components(m.port)))
+
+
+def _work(m: Measure, block: Block) -> Array:
+    """Of the force on the position, so far."""
+    forces, places = block.components(m.port), block.components(m.position)
+    if len(forces) != len(places):
+        fail("study/measure", m.name, f"'{m.port}' and '{m.position}' have different shapes", "give a force and a position, both vectors or both components")
+    steps: Any = sum(force[:, :-1] * (place[:, 1:] - place[:, :-1]) for force, place in zip(forces, places))
+    return np.cumsum(np.concatenate([0.0 * forces[0][:, :1], steps], axis=1), axis=1)
+
+
+def _reach(m: Measure, block: Block) -> Array:
+    values = block.component(m.port)
+    ticks = max(1, math.ceil((m.hold - 1e-9) * block.rate) + 1)   # that it must stay there
+    count = np.cumsum(np.pad(values >= m.level if m.above else values <= m.level, ((0, 0), (1, ticks))), axis=1)
+    stays = count[:, ticks:] - count[:, :-ticks] == ticks
+    return np.where(stays.any(axis=1), stays.argmax(axis=1) / block.rate, np.nan)
+
+
+def _misfit(m: Measure, block: Block) -> Array:
+    if m.column not in block.recording:
+        fail("study/no_column", f"/measures/{m.name}", f"the recording has no column '{m.column}'" if block.recording else "there is no recording",
+             f"its columns: {', '.join(block.recording)}" if block.recording else "add the factor `recording`")
+    rest: Array = block.component(m.port) - block.recording[m.column][:block.rows.shape[1]]
+    return np.asarray(np.sqrt(_sum(rest * rest) / block.rows.shape[1]))
 
 
 def band(values: Array, rate: float, low: float, high: float) -> float:
@@ -90,14 +137,36 @@ def band(values: Array, rate: float, low: float, high: float) -> float:
     return float(np.sqrt((power.sum(axis=1) * weight)[(at >= low) & (at < high)].sum()) / len(columns))
 
 
-def afterwards(measure: Measure, records: Records, point: Dict[str, Any], functions: Dict[str, Any]) -> List[float]:
-    """The numbers of a measure that are computed from records."""
-    if measure.kind == "band":
-        if measure.port not in records:
-            fail("study/measure", f"/measures/{measure.name}", f"no column of the run belongs to '{measure.port}'", "name a port")
-        return [band(records[measure.port], records.rate_hz, measure.low, measure.high)]
+KINDS: Dict[str, Callable[[Measure, Block], Any]] = {
+    "peak": lambda m, block: np.sqrt(_squares(m, block).max(axis=1)),
+    "rms": lambda m, block: np.sqrt(_sum(_squares(m, block)) / block.rows.shape[1]),
+    "max": lambda m, block: block.component(m.port).max(axis=1),
+    "min": lambda m, block: block.component(m.port).min(axis=1),
+    "mean": lambda m, block: _sum(block.component(m.port)) / block.rows.shape[1],
+    "last": lambda m, block: block.component(m.port)[:, -1],
+    "work": lambda m, block: _work(m, block)[:, -1],
+    "given": lambda m, block: _work(m, block).max(axis=1),
+    "reach": _reach,
+    "misfit": _misfit,
+    "band": lambda m, block: [band(np.stack(each, axis=1), block.rate, m.low, m.high) for each in zip(*block.components(m.port))],
+}
+RANKS = {"passive": 2.0, "passive_here": 2.0, "stable": 1.0, "unstable": 0.0, "broken": 0.0}
+
+
+def stable(graph: Graph, values: Dict[str, Any], rate: float, duration: float) -> Tuple[float, float]:
+    """The worst verdict of the conditions `stiffness` and `coupling`, and their smallest known margin."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TactusWarning)   # the render has told them
+        judged = [c for c in check(graph, set=values, rate=rate, duration=duration or None).conditions if c.id in ("stiffness", "coupling")]
+    ranks = [RANKS.get(c.verdict, np.nan) for c in judged] or [np.nan]
+    margins = [np.nan if c.margin is None else c.margin for c in judged] or [np.nan]
+    return 0.0 if 0.0 in ranks else float(np.min(ranks)), float(np.fmin.reduce(margins))   # what swings is certain, whatever else is unknown
+
+
+def returned(measure: Measure, records: Records, point: Dict[str, Any], functions: Dict[str, Any]) -> List[float]:
+    """The numbers that a function of the user returns."""
     given = functions[measure.function](records, point)
-    numbers = [float(given)] if not measure.outputs else [float(each) for each in given]
+    numbers = [float(each) for each in given] if measure.outputs else [float(given)]
     if len(numbers) != len(measure.columns):
         fail("study/function", measure.function, f"the function has returned {len(numbers)} numbers, and {len(measure.columns)} have names",
              "return as many numbers as `outputs` names")

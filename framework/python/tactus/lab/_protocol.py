@@ -139,22 +139,21 @@ class Protocol:
             graph = _recalled(graph, condition.snapshot)
         for name, value in self.values_of(condition)[0].items():
             with placed(f"condition {condition.name}: {name}"):
-                _set(graph, name, value)
+                set_param(graph, name, value)
         return graph
 
     def values_of(self, condition: Condition) -> Tuple[Dict[str, Any], Dict[str, float]]:
         """The values of parameters and of controls of a condition."""
         values, controls = {}, {}
         if condition.snapshot and not condition.snapshot.isdigit():
-            held = _load(os.path.join(self.folder, condition.snapshot))
+            held = _schema.json_in(os.path.join(self.folder, condition.snapshot))
             kept = _schema.read(Condition, {"name": condition.name, **held}, condition.snapshot)
             values, controls = dict(kept.set), dict(kept.controls)
         return {**values, **condition.set}, {**controls, **condition.controls}
 
     def text(self) -> str:
         """The protocol as the text of a file."""
-        return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
-                          indent=2, ensure_ascii=False) + "\n"
+        return _schema.text(self)
 
     def save(self, path: Path) -> None:
         """Writes the file. If it names files by relative paths, they are found from its folder, as `folder` says."""
@@ -171,11 +170,9 @@ class Protocol:
     @staticmethod
     def load(path: Path) -> "Protocol":
         """Reads and checks a file. Errors name the place in it as a JSON pointer."""
-        data = _load(os.fspath(path))
-        if isinstance(data, dict):
-            data["folder"] = os.path.join(os.path.dirname(os.path.abspath(path)), str(data.get("folder", "")))
+        protocol = _schema.load(Protocol, path)
         with placed(os.fspath(path)):
-            return checked(_schema.read(Protocol, data))
+            return checked(protocol)
 
 
 def edited(graph: Graph, change: Callable[[Dict[str, Any], Dict[str, Any]], None]) -> Graph:
@@ -206,17 +203,10 @@ def _recalled(graph: Graph, number: str) -> Graph:
         return edited(graph, recall)
 
 
-def _set(graph: Graph, name: str, value: Any) -> None:
+def set_param(graph: Graph, name: str, value: Any) -> None:
     node, _, param = name.rpartition(".")
     patch, _, inner = node.rpartition("/")
     graph.set_param(inner, param, value, patch=patch)
-
-
-def _load(path: str) -> Any:
-    try:
-        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as why:
-        fail("lab/unreadable", path, f"the file cannot be read: {why}", "give a JSON file")
 
 
 def checked(protocol: Protocol) -> Protocol:
@@ -264,7 +254,7 @@ def _check_targets(protocol: Protocol) -> None:
                         fail("lab/value", f"/blocks/{i}", f"the control {name} would be {value:g}", "give levels from 0 to 1")
                 elif "." in name:
                     with placed(f"/blocks/{i}: {name}"):
-                        _set(graph, name, value)
+                        set_param(graph, name, value)
                 else:
                     fail("lab/value", f"/blocks/{i}", f"the graph of '{condition.name}' has no control '{name}'",
                          f"its controls: {', '.join(graph.controls) or 'none'}; a parameter is written NODE.PARAMETER")

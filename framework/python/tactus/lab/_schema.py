@@ -5,12 +5,15 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import json
 import math
+import os
+import pathlib
 import typing
 from typing import Any, Dict, Literal, Mapping, Type, TypeVar, Union
 
 from .._checks import shown
-from .._messages import fail
+from .._messages import fail, placed
 
 T = TypeVar("T")
 
@@ -31,6 +34,29 @@ def write(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: write(each) for key, each in value.items()}
     return value
+
+
+def json_in(path: Union[str, "os.PathLike[str]"]) -> Any:
+    """The JSON in a file."""
+    try:
+        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as why:
+        fail("lab/unreadable", os.fspath(path), f"the file cannot be read: {why}", "give a JSON file")
+
+
+def load(kind: Type[T], path: Union[str, "os.PathLike[str]"]) -> T:
+    """The dataclass in a JSON file. Its field `folder` becomes that of the file, or one relative to it. Errors name the place in it as a JSON pointer."""
+    data = json_in(path)
+    if isinstance(data, dict):
+        data["folder"] = os.path.join(os.path.dirname(os.path.abspath(path)), str(data.get("folder", "")))
+    with placed(os.fspath(path)):
+        return read(kind, data)
+
+
+def text(value: Any) -> str:
+    """A dataclass as the text of a file."""
+    return json.dumps({"format": value.format, "version": value.version, **{k: v for k, v in write(value).items() if k != "folder"}},
+                      indent=2, ensure_ascii=False) + "\n"
 
 
 def schema(kind: Any, about: Mapping[str, Any] = {}) -> Dict[str, Any]:

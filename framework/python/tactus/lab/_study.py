@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import glob
 import hashlib
 import json
 import math
@@ -27,7 +26,7 @@ from ._measures import Measure
 from ._procedures import note
 
 if TYPE_CHECKING:
-    from ._columns import Results
+    from ._results import Results
 
 Functions = Mapping[str, Callable[..., Any]]
 Path = Union[str, "os.PathLike[str]"]
@@ -69,20 +68,11 @@ class Study:
     @staticmethod
     def load(path: Path) -> "Study":
         """Reads and checks a file. Errors name the place in it as a JSON pointer."""
-        try:
-            with open(path, encoding="utf-8") as file:
-                data = json.load(file)
-        except (OSError, ValueError, RecursionError) as why:
-            fail("study/unreadable", os.fspath(path), f"the file cannot be read: {why}", "give a JSON file")
-        if isinstance(data, dict):
-            data.setdefault("folder", os.path.dirname(os.path.abspath(path)))
-        with placed(os.fspath(path)):
-            return _schema.read(Study, data)
+        return _schema.load(Study, path)
 
     def text(self) -> str:
         """The study as the text of a file."""
-        return json.dumps({"format": self.format, "version": self.version, **{k: v for k, v in _schema.write(self).items() if k != "folder"}},
-                          indent=2, ensure_ascii=False) + "\n"
+        return _schema.text(self)
 
     @property
     def columns(self) -> List[str]:
@@ -108,11 +98,11 @@ class Study:
         graph: instead of the one that the study names. assets: as for Graph.render; for workers, a dict.
         resume: go on in a folder that has results. mixed: also with those of other versions of Tactus or other computers; they are marked."""
         from ._drive import drive   # noqa: PLC0415: they need this module
-        from ._parts import load, merge   # noqa: PLC0415
+        from ._results import merge   # noqa: PLC0415
 
         prepared = self.prepare(functions, "", graph, assets)
         drive(prepared, out, (lambda: executor) if executor is not None else None, workers, resume=resume, mixed=mixed)
-        return load(merge(prepared, out, mixed=mixed).path)
+        return merge(prepared, out, mixed)
 
 
 def schema() -> Dict[str, Any]:
@@ -153,7 +143,8 @@ class Prepared:
         self.devices = {role: simulated(role, given, f"/devices/{role}") for role, given in study.devices.items()}
         self._check_names()
         self.files = self._files()
-        self.recordings = self._recordings()
+        # Recordings are not sent: workers read them, and compare their hashes.
+        self.recordings = {name: digest_of(os.path.join(study.folder, name)) for name in self.design.values("recording")}
         self.context = self._context()
 
     def _check_names(self) -> None:
@@ -193,27 +184,21 @@ class Prepared:
         common = {name: _design.text_of(value) for name, value in self.study.set.items()}
         for fast in (self.fast, self.fast[:0]):   # with nothing, the graph reads all its files even if the point has errors
             names, records = [self.names[i] for i in fast], [*self.records, *self.study.feed] if fast else []
-            tried = _tactus.render_points(self.graph._graph, 0.0, records, common, names, [[first[i] for i in fast]], {}, "", None, find, 1e-9, [], False, 0)
-            for _, name, where, text in tried["errors"]:
+            tried = _tactus.Points(self.graph._graph, 0.0, records, common, names, None, find, 1e-9)
+            rows, errors, _ = tried.render([[first[i] for i in fast]])
+            for _, name, where, text in errors:
                 if "unknown" in name and fast:   # at each point; other errors may be those of single points
                     fail(name, where, text, "correct the name in the study")
-        named = [v for factor in self.study.factors if factor.vary != "recording" for v in factor.values]
+            for m in self.study.measures if fast and not errors else ():
+                if m.kind != "misfit":   # it needs a recording
+                    _measures.KINDS.get(m.kind, lambda *_: None)(m, _measures.Block(rows, tried.columns, tried.rate, {}))
+        named = [value for name in self.names if name != "recording" for value in self.design.values(name)]
         for value in [*named, *self.devices.values(), *self.described.values()]:
             hand = value.get("hand") if isinstance(value, dict) else None
             for text in (value, *(each.get("path") for each in (value, hand) if isinstance(each, dict))):
                 if isinstance(text, str) and text:
                     asked += [os.path.join(folder, text) for folder in (self.graph._graph.folder(), self.study.folder)]
         return {os.path.abspath(path): pathlib.Path(path).read_bytes() for path in asked if os.path.isfile(path)}
-
-    def _recordings(self) -> Dict[str, str]:
-        """The hash of each recording. Recordings are not sent: workers read them, and compare."""
-        if "recording" not in self.names:
-            return {}
-        at = self.names.index("recording")
-        names = {json.loads(self.design.at(i)[at]) for i in range(self.design.count)} if isinstance(self.study.design, FromTable) else {
-            os.path.relpath(path, self.study.folder or os.curdir) for factor in self.study.factors if factor.vary == "recording"
-            for pattern in factor.values for path in glob.glob(os.path.join(self.study.folder, str(pattern)), recursive=True)}
-        return {name: digest_of(os.path.join(self.study.folder, name)) for name in names}
 
     def _context(self) -> bytes:
         """The hash of everything that the results of a point depend on, except its values, the version and the computer."""

@@ -12,18 +12,20 @@ import multiprocessing.connection
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import threading
 from concurrent.futures import ProcessPoolExecutor
-from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from .._graph import Graph
 from .._messages import fail
 from . import _study_report
 from ._design import values_of
-from ._drive import drive, missing, slurm_script
-from ._parts import Folder, merge
+from ._drive import drive, missing
+from ._protocol import set_param
+from ._results import Held, merge
 from ._study import Prepared, Study
 from ._worker import Worker
 from ._writers import Table, table_of
@@ -31,7 +33,8 @@ from ._writers import Table, table_of
 
 def add(commands: Any) -> None:
     """Adds the command."""
-    study = commands.add_parser("study", help="render a graph at many points, on one computer or a cluster", description="Renders a graph at many points.")
+    study = commands.add_parser("study", help="render a graph at many points, on one computer or a cluster", description="Renders a graph at many points.",
+                                epilog="Example: tactus study wall.json --executor slurm --workers 100. See docs/studies.md.")
     study.add_argument("file", help="the study file")
     study.add_argument("--out", default="", help="the folder of results; default: the name of the study")
     study.add_argument("--executor", default="local", choices=["serial", "local", "dask", "mpi", "slurm"], help="what runs the renders; default: local")
@@ -53,13 +56,15 @@ def run(given: argparse.Namespace) -> int:
     """Runs the command."""
     if given.workers < 1:
         raise ValueError(f"--workers: {given.workers} is not a number of processes; give 1 or more")
-    study = Study.load(given.file)
+    shard = re.fullmatch(r"(\d{1,9})/(\d{1,9})", given.shard or "0/1")
+    if not shard or not int(shard[1]) < int(shard[2]):
+        raise ValueError(f"--shard: '{given.shard}' is not a shard; write I/N, such as 0/8 for the first of eight")
     try:
         source = pathlib.Path(given.functions).read_text(encoding="utf-8") if given.functions else ""
     except (OSError, ValueError) as why:
         raise ValueError(f"--functions: {given.functions} cannot be read: {why}") from None
-    prepared = study.prepare(source=source)
-    out = pathlib.Path(given.out or study.name)
+    prepared = Study.load(given.file).prepare(source=source)
+    out = pathlib.Path(given.out or prepared.study.name)
     if given.status:
         return _status(prepared, out, given.mixed)
     if given.point >= 0:
@@ -67,154 +72,27 @@ def run(given: argparse.Namespace) -> int:
     if given.executor == "slurm" and not given.merge and not given.shard:
         return _slurm(prepared, out, given)
     if not given.merge:
-        shard = _shard(given.shard)
-        with _executor(given.executor if not given.shard else "serial", given.workers, given.dask) as (make, workers):
+        with _executor("serial" if given.shard else given.executor, given.workers, given.dask) as (make, workers):
             if workers == 0:
                 return 0   # a worker of MPI, whose work is over
-            progress = drive(prepared, out, make, workers, shard, given.resume or bool(given.shard), given.mixed, sys.stderr)
+            progress = drive(prepared, out, make, workers, (int(shard[1]), int(shard[2])), given.resume or bool(given.shard), given.mixed, sys.stderr)
         if given.shard:
             print(f"shard {given.shard}: {progress.line()}")
             return 0
     results = merge(prepared, out, given.mixed, given.partial)
-    if given.to:
+    for each in given.to:
         names = [name for name in results if name != "key" and not name.startswith("trace:")]
-        table = Table({name: results[name] for name in names}, {entry["name"]: entry["unit"] for entry in results.about["columns"] if entry["unit"]})
-        for each in given.to:
-            table.write(out / f"results.{each}")
+        Table({name: results[name] for name in names}, prepared.study.units).write(out / f"results.{each}")
     words = ["tactus", "study", os.path.basename(given.file), *(["--functions", os.path.basename(given.functions)] if given.functions else [])]
     _study_report.write(prepared, results, out / "report.html", words)
-    bad = sum(map(bool, results["error"]))
-    print(f"{out}/results.tcol: {results.rows} points, {bad} with errors; report: {out}/report.html")
+    print(f"{results.path}: {results.rows} points, {(results['error'] != '').sum()} with errors; report: {out}/report.html")
     return 0
 
-
-def _shard(text: str) -> Tuple[int, int]:
-    if not text:
-        return 0, 1
-    found = re.fullmatch(r"(\d{1,9})/(\d{1,9})", text)
-    if not found or not int(found[1]) < int(found[2]):
-        raise ValueError(f"--shard: '{text}' is not a shard; write I/N, such as 0/8 for the first of eight")
-    return int(found[1]), int(found[2])
-
-
-# ---------------------------------------------------------------------------- Executors
-
-# A local cluster of dask looks at itself less often. With its defaults (each 10 to 500 ms), that is most of what it costs.
-QUIET = {"distributed.worker.profile.enabled": False, "distributed.scheduler.active-memory-manager.start": False, "distributed.admin.tick.interval": "1s",
-         "distributed.admin.system-monitor.interval": "5s", "distributed.worker.memory.monitor-interval": "1s"}
-
-
-def end_with_parent() -> None:
-    """A worker ends when the process that started it ends, also if that is killed."""
-    def end(sentinel: int) -> None:
-        multiprocessing.connection.wait([sentinel])
-        os._exit(1)
-
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=end, args=(parent.sentinel,), daemon=True).start()
-
-
-@contextlib.contextmanager
-def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[Callable[[], Any]], int]]:
-    """A function that gives an executor, or None for this process, and the number of its workers. 0: this process has served others."""
-    if kind == "serial" or kind == "local" and workers == 1:
-        yield None, 1
-    elif kind == "local":
-        yield from _local(workers)
-    elif kind == "dask":
-        distributed, config = (_imported(name, "python3-distributed") for name in ("distributed", "dask.config"))
-        made: Dict[str, Any] = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
-        with config.set(QUIET), distributed.Client(**made) as client:
-            yield client.get_executor, max(1, sum(client.ncores().values()))
-    else:
-        yield from _mpi()
-
-
-def _local(workers: int) -> Iterator[Tuple[Callable[[], Any], int]]:
-    pools: List[ProcessPoolExecutor] = []
-
-    def make() -> ProcessPoolExecutor:
-        end()
-        pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
-        return pools[-1]
-
-    def end() -> None:
-        for child in multiprocessing.active_children():   # a pool that is broken may wait for them
-            child.kill()
-
-    try:
-        yield make, workers
-        for pool in pools:
-            pool.shutdown(wait=False, cancel_futures=True)
-        for child in multiprocessing.active_children():
-            child.join(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
-    finally:
-        end()
-
-
-def _mpi() -> Iterator[Tuple[Optional[Callable[[], Any]], int]]:
-    MPI, futures = (_imported(name, "python3-mpi4py") for name in ("mpi4py.MPI", "mpi4py.futures"))
-    size = MPI.COMM_WORLD.Get_size()
-    if size == 1:
-        yield None, 1
-        return
-    with futures.MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
-        try:
-            yield lambda: executor, size - 1 if executor else 0
-        except BaseException as why:
-            print(f"error: {why}", file=sys.stderr, flush=True)
-            MPI.COMM_WORLD.Abort(1)   # the other processes would wait forever
-            raise
-
-
-def _imported(module: str, debian: str) -> Any:
-    try:
-        return importlib.import_module(module)
-    except ImportError as why:
-        fail("study/no_package", module, f"the package {module.partition('.')[0]} cannot be imported: {why}", f"install it; on Debian, {debian}")
-
-
-def _slurm(prepared: Prepared, out: pathlib.Path, given: argparse.Namespace) -> int:
-    shards = min(given.workers, prepared.design.count)
-    whole = str(out.resolve())
-    words = [sys.executable, "-m", "tactus.lab", "study", os.path.abspath(given.file), "--out", whole, *(["--mixed"] if given.mixed else []),
-             *(["--functions", os.path.abspath(given.functions)] if given.functions else [])]
-    script = slurm_script(words, whole, prepared.study.name, shards)
-    print(script, end="", flush=True)
-    if given.dry_run:
-        return 0
-    folder = Folder(prepared, out, given.mixed, begin=True)
-    if len(folder.results().keys) and not given.resume:
-        fail("study/exists", str(out), "the folder has results", "go on with --resume, or choose another folder with --out")
-    job = _sbatch(out / "slurm.sh", script)
-    merging = _sbatch(out / "slurm_merge.sh", slurm_script([*words, "--merge", "--partial"], whole, prepared.study.name), f"--dependency=afterany:{job}")
-    print(f"submitted: job {job} with {shards} shards, and job {merging}, which merges their results; progress: --status")
-    return 0
-
-
-def _sbatch(path: pathlib.Path, script: str, *options: str) -> str:
-    path.write_text(script, encoding="utf-8")
-    try:
-        done = subprocess.run(["sbatch", "--parsable", *options, str(path)], capture_output=True, text=True, check=False)
-    except OSError as why:
-        fail("study/no_slurm", "sbatch", f"the job cannot be submitted: {why.strerror}", "submit it on a computer with Slurm, or print it: --dry-run")
-    if done.returncode != 0:
-        fail("study/no_slurm", "sbatch", f"Slurm refuses the job: {done.stderr.strip()}",
-             "correct what Slurm says; what was printed can be edited and submitted")
-    return done.stdout.strip().split(";")[0]
-
-
-# ---------------------------------------------------------------------------- Looking
 
 def _status(prepared: Prepared, out: pathlib.Path, mixed: bool) -> int:
-    folder = Folder(prepared, out, mixed, begin=False)
-    held = folder.results()
-    todo, bad = missing(prepared, held, range(prepared.design.count))
-    done = prepared.design.count - len(todo)
-    others = len(held.keys) - done
-    print(f"{out}: {done} of {prepared.design.count} points, {bad} with errors" + (f"; {others} results of other points" if others > 0 else ""))
-    print(f"Tactus {folder.about['tactus']}, computer {folder.about['computer']}")
+    count = prepared.design.count
+    todo, bad, held = missing(prepared, out, mixed, set(), range(count))
+    print(f"{out}: {count - len(todo)} of {count} points, {bad} with errors; the folder has {held} results")
     return 0
 
 
@@ -224,7 +102,7 @@ def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
         raise ValueError(f"--point: there is no point {number}; they are 0 to {prepared.design.count - 1}")
     point = prepared.design.at(number)
     worker = Worker(prepared, is_far=False)
-    graph, devices, records = worker.one(point)
+    graph, records = worker.one(point)
     out.mkdir(parents=True, exist_ok=True)
     table_of(records).write(out / f"point-{number}.csv")
     data = json.loads(graph.text)
@@ -234,12 +112,109 @@ def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
     data["rate_hz"] = records.rate_hz
     made = Graph.parse(json.dumps(data), worker.folders["graph"])
     for name, value in values.items():
-        node, _, param = name.rpartition(".")
-        patch, _, inner = node.rpartition("/")
-        made.set_param(inner, param, value, patch)
-    for role, text in devices.items():
-        made.set_device(role, json.loads(text))
+        set_param(made, name, value)
     made.save(out / f"point-{number}.json")
     print(f"{out}/point-{number}.csv: {len(records['t'])} ticks of {json.dumps(values_of(prepared.names, point))}")
     print(f"open it in the window: tactus-host {out}/point-{number}.json")
     return 0
+
+
+# ---------------------------------------------------------------------------- Executors
+
+# A local cluster of dask looks at itself less often. With its defaults (each 10 to 500 ms), that is most of what it costs.
+QUIET = {"distributed.worker.profile.enabled": False, "distributed.scheduler.active-memory-manager.start": False, "distributed.admin.tick.interval": "1s",
+         "distributed.admin.system-monitor.interval": "5s", "distributed.worker.memory.monitor-interval": "1s"}
+
+
+@contextlib.contextmanager
+def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[Callable[[], Any]], int]]:
+    """A function that gives an executor, or None for this process, and the number of its workers. 0: this process has served others."""
+    if kind == "serial" or kind == "local" and workers == 1:
+        yield None, 1
+    elif kind == "local":
+        pools: List[ProcessPoolExecutor] = []
+        try:
+            yield lambda: _pool(workers, pools), workers
+            pools[-1].shutdown(wait=False, cancel_futures=True) if pools else None
+            _end_children(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
+        finally:
+            _end_children(0.0)
+    elif kind == "dask":
+        distributed, config = (_imported(name, "python3-distributed") for name in ("distributed", "dask.config"))
+        made: Any = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
+        with config.set(QUIET), distributed.Client(**made) as client:
+            yield client.get_executor, max(1, sum(client.ncores().values()))
+    else:
+        MPI, futures = (_imported(name, "python3-mpi4py") for name in ("mpi4py.MPI", "mpi4py.futures"))
+        with futures.MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
+            yield lambda: executor, max(1, MPI.COMM_WORLD.Get_size() - 1) if executor else 0
+
+
+def _pool(workers: int, pools: List[ProcessPoolExecutor]) -> ProcessPoolExecutor:
+    _end_children(0.0)   # a pool that is broken may wait for them
+    pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
+    return pools[-1]
+
+
+def _end_children(patience: float) -> None:
+    for child in multiprocessing.active_children():
+        child.join(patience)
+        child.kill()
+
+
+def end_with_parent() -> None:
+    """A worker ends when the process that started it ends, also if that is killed."""
+    def end() -> None:
+        multiprocessing.connection.wait([parent.sentinel] if parent else [])
+        os._exit(1)
+
+    parent = multiprocessing.parent_process()
+    threading.Thread(target=end, daemon=True).start()
+
+
+def _imported(module: str, debian: str) -> Any:
+    try:
+        return importlib.import_module(module)
+    except ImportError as why:
+        fail("study/no_package", module, f"the package {module.partition('.')[0]} cannot be imported: {why}", f"install it; on Debian, {debian}")
+
+
+SCRIPT = """#!/bin/sh
+#SBATCH --job-name=tactus-{name}
+#SBATCH --array=0-{last}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task=1
+#SBATCH --output={out}/slurm-%A_%a.log
+#SBATCH --open-mode=append
+#SBATCH --requeue
+exec {words} --shard "$SLURM_ARRAY_TASK_ID/{shards}"
+"""
+
+
+def _slurm(prepared: Prepared, out: pathlib.Path, given: argparse.Namespace) -> int:
+    """Prints a job array that renders the shards of the study, and submits it, and a job that merges."""
+    shards, whole = min(given.workers, prepared.design.count), str(out.resolve())
+    words = shlex.join([sys.executable, "-m", "tactus.lab", "study", os.path.abspath(given.file), "--out", whole, *(["--mixed"] if given.mixed else []),
+                        *(["--functions", os.path.abspath(given.functions)] if given.functions else [])])
+    script = SCRIPT.format(name=prepared.study.name, last=shards - 1, out=shlex.quote(whole), words=words, shards=shards)
+    print(script, end="", flush=True)
+    if given.dry_run:
+        return 0
+    (out / "parts").mkdir(parents=True, exist_ok=True)
+    if Held(prepared, out, given.mixed, set()).count and not given.resume:
+        fail("study/exists", str(out), "the folder has results", "go on with --resume, or choose another folder with --out")
+    job = _sbatch(script)
+    merging = _sbatch("", f"--dependency=afterany:{job}", f"--output={whole}/slurm-%j.log", f"--wrap={words} --merge --partial")
+    print(f"submitted: job {job} with {shards} shards, and job {merging}, which merges their results; progress: --status")
+    return 0
+
+
+def _sbatch(script: str, *options: str) -> str:
+    try:
+        done = subprocess.run(["sbatch", "--parsable", *options], input=script, capture_output=True, text=True, check=False)
+    except OSError as why:
+        fail("study/no_slurm", "sbatch", f"the job cannot be submitted: {why.strerror}", "submit it on a computer with Slurm, or print it: --dry-run")
+    if done.returncode != 0:
+        fail("study/no_slurm", "sbatch", f"Slurm refuses the job: {done.stderr.strip()}",
+             "correct what Slurm says; what was printed can be edited and submitted")
+    return done.stdout.strip().split(";")[0]

@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: MIT
+"""The results of a study in a folder. Each process adds chunks to a file of its own, a part; a merge makes one table of them. docs/studies.md describes it.
+
+A part is a sequence of lines: a CRC-32 in hexadecimal digits, and JSON. The first line is about the process, each other one is a chunk. A line that was cut
+off by a crash is left out when it is read."""
+
+from __future__ import annotations
+
+import base64
+import functools
+import json
+import os
+import pathlib
+import shutil
+import socket
+import tempfile
+import uuid
+import zipfile
+import zlib
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, IO, Any, BinaryIO, Callable, Dict, Iterator, List, Mapping, NoReturn, Set, Tuple, Union
+
+import numpy as np
+
+from .._messages import fail
+
+if TYPE_CHECKING:
+    from ._study import Prepared
+
+BLOCK = 4096   # points of a large study that are in memory at a time
+Path = Union[str, "os.PathLike[str]"]
+Stamp = Tuple[str, str]   # the version of Tactus, and the mark of the computer
+PLACE = np.dtype([("chunk", "<i4"), ("row", "<i4"), ("bad", "?")])
+_load: Any = np.load   # numpy has no types for these
+_header: Any = np.lib.format.write_array_header_1_0
+
+
+def disk(folder: pathlib.Path, why: OSError, kept: str) -> NoReturn:
+    """Raises an Error about results that cannot be written."""
+    fail("study/disk", str(folder), f"the results cannot be written: {why.strerror}; {kept}", "make room, and go on with --resume")
+
+
+def row_type(columns: int) -> Any:
+    """The type of the rows of a chunk. ticks: of the traces of the point."""
+    return np.dtype([("key", "S16"), ("seconds", "<f8"), ("ticks", "<i8"), ("numbers", "<f8", (columns,))])
+
+
+@dataclass
+class Chunk:
+    """What is kept of some points."""
+
+    rows: Any   # one of row_type() for each point
+    stamp: Stamp
+    worker: str   # host and process
+    problems: Dict[int, Tuple[str, str, str]] = field(default_factory=dict)   # by row: id, place and text
+    kept: List[str] = field(default_factory=list)   # the columns of traces
+    traces: Any = field(default_factory=lambda: np.zeros((0, 0)))   # tick by tick, point after point
+    warnings: Dict[str, str] = field(default_factory=dict)   # one of each kind and place
+
+    def to_json(self) -> Any:
+        """What is written of it."""
+        packed = {name: base64.b64encode(array.tobytes()).decode() for name, array in (("rows", self.rows), ("traces", self.traces))}
+        return {**packed, "worker": self.worker, "problems": sorted(self.problems.items()), "kept": self.kept}
+
+    @staticmethod
+    def of_json(data: Any, stamp: Stamp, columns: int) -> "Chunk":
+        """A chunk that was written."""
+        rows = np.frombuffer(base64.b64decode(data["rows"]), row_type(columns))
+        traces = np.frombuffer(base64.b64decode(data["traces"])).reshape(-1, max(1, len(data["kept"])))
+        return Chunk(rows, stamp, data["worker"], {row: (name, where, text) for row, (name, where, text) in data["problems"]}, data["kept"], traces)
+
+    def result(self, row: int) -> Tuple[Any, ...]:
+        """The values that must be the same in two results of one point."""
+        return self.rows["numbers"][row].tobytes(), self.problems.get(row), self.trace(row).tobytes()
+
+    def trace(self, row: int) -> Any:
+        """The traces of a point, shape (ticks, columns)."""
+        end = int(self.rows["ticks"][:row + 1].sum())
+        return self.traces[end - int(self.rows["ticks"][row]):end]
+
+
+class Part:
+    """A part that this process adds to."""
+
+    def __init__(self, folder: pathlib.Path, context: bytes, stamp: Stamp):
+        self._folder, self.points = folder, 0
+        host = "".join(c if c.isalnum() else "_" for c in socket.gethostname())[:40]
+        try:
+            self._file: BinaryIO = open(folder / f"{host}-{os.getpid()}-{uuid.uuid4().hex}.part", "xb", buffering=0)
+        except OSError as why:
+            disk(folder, why, "no point of this process is on the disk")
+        self._add({"study": context.hex(), "tactus": stamp[0], "computer": stamp[1]})
+
+    def add(self, chunk: Chunk) -> None:
+        """Adds a chunk; returns once it is on the disk."""
+        self._add(chunk.to_json())
+        self.points += len(chunk.rows)
+
+    def _add(self, content: Any) -> None:
+        body = json.dumps(content).encode() + b"\n"
+        line = memoryview(b"%08x " % zlib.crc32(body) + body)
+        try:
+            while line:
+                line = line[self._file.write(line):]
+            os.fsync(self._file.fileno())
+        except OSError as why:
+            disk(self._folder, why, f"{self.points} points of this process are on the disk")
+
+    def close(self) -> None:
+        """Closes the part."""
+        self._file.close()
+
+
+def lines(path: pathlib.Path) -> Iterator[Tuple[int, Any]]:
+    """Where the whole lines of a part begin, and what they hold."""
+    at = 0
+    with open(path, "rb") as file:
+        for line in file:
+            if line.endswith(b"\n") and line[:9] == b"%08x " % zlib.crc32(line[9:]):
+                yield at, json.loads(line[9:])
+            at += len(line)
+
+
+def accept(folder: pathlib.Path, stamps: Set[Stamp], mixed: bool) -> None:
+    """Refuses results of several versions, or of computers that compute differently."""
+    if len(stamps) > 1 and not mixed:
+        fail("study/other_version", str(folder), f"results from {' and '.join(f'Tactus {v} on {c}' for v, c in sorted(stamps))} may differ in their last bits",
+             "use what the study began with, choose another folder, or take and mark such results with --mixed")
+
+
+class Held:
+    """The results in a folder. Of each result, its address and its place are in memory (25 bytes), sorted by address; its values are read when they are
+    asked for."""
+
+    def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set[Stamp]):
+        """stamps: of the process that will add to them."""
+        self._columns = len(prepared.study.columns)
+        self.kept: List[str] = []   # the columns of traces
+        if not (folder / "parts").is_dir():
+            fail("study/no_results", str(folder), "the folder has no results", "run the study first, or name its --out")
+        headers = [(first[1], path) for path in sorted((folder / "parts").glob("*.part")) for first in [next(lines(path), None)] if first and first[0] == 0]
+        if any(header["study"] != prepared.context.hex() for header, _ in headers):
+            fail("study/other", str(folder), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
+                 "choose another folder with --out")
+        parts = sorted(((header["tactus"], header["computer"]), path) for header, path in headers)   # results of equal computers follow each other
+        self.stamps = {stamp for stamp, _ in parts}
+        accept(folder, self.stamps | stamps, mixed)
+        self._chunks: List[Tuple[Stamp, pathlib.Path, int]] = []
+        keys, places = [np.array([b"\xff" * 16])], [np.zeros(1, PLACE)]   # a last address, so that each search finds one
+        for stamp, path, at, data in ((stamp, path, at, data) for stamp, path in parts for at, data in lines(path) if at > 0):
+            chunk = Chunk.of_json(data, stamp, self._columns)
+            place = np.zeros(len(chunk.rows), PLACE)
+            place["chunk"], place["row"] = len(self._chunks), np.arange(len(place))
+            place["bad"][list(chunk.problems)] = True
+            self._chunks.append((stamp, path, at))
+            keys.append(chunk.rows["key"])
+            places.append(place)
+            self.kept = self.kept or chunk.kept
+        all_keys = np.concatenate(keys)
+        order = np.argsort(all_keys, kind="stable")
+        self.keys, self.places = all_keys[order], np.concatenate(places)[order]
+        self.chunk = functools.lru_cache(4)(self._read)   # points that follow each other are often in one chunk
+
+    def _read(self, number: int) -> Chunk:
+        stamp, path, at = self._chunks[number]
+        with open(path, "rb") as file:
+            file.seek(at + 9)
+            return Chunk.of_json(json.loads(file.readline()), stamp, self._columns)
+
+    @property
+    def count(self) -> int:
+        """The number of results."""
+        return len(self.keys) - 1
+
+    def find(self, keys: Any) -> Tuple[Any, Any]:
+        """By key: whether there is a result, and its place; of several, the first one."""
+        at = np.searchsorted(self.keys, keys)
+        return self.keys[at] == keys, self.places[at]
+
+    def check_equal(self, folder: pathlib.Path) -> None:
+        """Refuses two results of one point, on equal computers, that differ."""
+        for k in np.flatnonzero(self.keys[1:] == self.keys[:-1]).tolist():
+            (a, row_a), (b, row_b) = ((self.chunk(int(place["chunk"])), int(place["row"])) for place in self.places[k:k + 2])
+            if a.stamp == b.stamp and a.result(row_a) != b.result(row_b):
+                fail("study/differs", str(folder), f"a point was rendered twice, and its results differ (key {self.keys[k].hex()})",
+                     "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
+
+    def rows(self, keys: Any) -> Tuple[Any, Dict[str, Any], Any]:
+        """The results of some points: rows, columns of texts by name, and traces, tick by tick."""
+        (known, places), rows = self.find(keys), np.zeros(len(keys), row_type(self._columns))
+        rows["numbers"], rows["seconds"] = np.nan, np.nan
+        texts = {name: np.full(len(keys), "", object) for name in ("error", "error_place", "origin", "worker", "part")}
+        texts["error"][~known] = "study/missing: the point has no result yet"
+        traces = [np.zeros((0, len(self.kept)))] * len(keys)
+        for number in np.unique(places["chunk"][known]).tolist():
+            chunk, mine = self.chunk(number), np.flatnonzero((places["chunk"] == number) & known)
+            row = places["row"][mine]
+            rows[mine] = chunk.rows[row]
+            for name, text in (("origin", " on ".join(chunk.stamp)), ("worker", chunk.worker), ("part", self._chunks[number][1].name)):
+                texts[name][mine] = text
+            for i, k in zip(mine.tolist(), row.tolist()) if chunk.problems or chunk.kept else ():
+                name, texts["error_place"][i], text = chunk.problems.get(k, ("", "", ""))
+                texts["error"][i] = f"{name}: {text}" if name else ""
+                traces[i] = chunk.trace(k) if rows["ticks"][i] else traces[i]
+        return rows, texts, np.concatenate(traces)
+
+
+# ---------------------------------------------------------------------------- The table
+
+class Writer:
+    """Writes columns of one length into an .npz, some rows at a time, so that few of them are in memory. Of texts, it writes numbers, and each text once."""
+
+    def __init__(self, folder: pathlib.Path):
+        self._folder = folder
+        self._columns: Dict[str, Tuple[Any, IO[bytes]]] = {}   # an empty array like it, and its bytes in a file that vanishes
+        self._texts: Dict[str, Dict[str, int]] = {}
+
+    def add(self, columns: Mapping[str, Any]) -> None:
+        """Adds rows."""
+        for name, values in columns.items():
+            if values.dtype == object:
+                known = self._texts.setdefault(name, {})
+                values = np.array([known.setdefault(text, len(known)) for text in values], "<i4")
+            if name not in self._columns:
+                self._columns[name] = values[:0], tempfile.TemporaryFile(dir=self._folder)
+            self._columns[name][1].write(values.tobytes())
+
+    def close(self, name: str, about: Mapping[str, Any]) -> None:
+        """Makes the file."""
+        replace(self._folder / name, lambda out: self._write(out, {**about, "texts": {name: list(known) for name, known in self._texts.items()}}))
+
+    def _write(self, out: BinaryIO, about: Mapping[str, Any]) -> None:
+        with zipfile.ZipFile(out, "w") as made:   # the dates of all members are 1980, so the bytes do not depend on the day
+            made.writestr(zipfile.ZipInfo("about.json"), json.dumps(about, sort_keys=True))
+            for name, (like, file) in self._columns.items():
+                with made.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as member:
+                    shape = (file.tell() // max(1, like.dtype.itemsize * int(np.prod(like.shape[1:]))), *like.shape[1:])
+                    _header(member, {"descr": like.dtype.str, "fortran_order": False, "shape": shape})
+                    file.seek(0)
+                    shutil.copyfileobj(file, member)
+
+
+def replace(path: pathlib.Path, put: Callable[[BinaryIO], Any]) -> None:
+    """Writes a file that takes the place of an old one when it is complete and on the disk."""
+    part = path.with_name(f"{path.name}.{os.getpid()}.new")
+    try:
+        with open(part, "wb") as file:
+            put(file)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = False) -> "Results":
+    """Makes results.npz, sorted by point, and times.npz. partial: also if points are missing; they have the error study/missing."""
+    folder, study, count, missing = pathlib.Path(out), prepared.study, prepared.design.count, 0
+    held = Held(prepared, folder, mixed, set())
+    held.check_equal(folder)
+    results, times = Writer(folder), Writer(folder)
+    try:
+        for first in range(0, count, BLOCK):
+            points = [prepared.design.at(i) for i in range(first, min(first + BLOCK, count))]
+            keys = prepared.keys(points)
+            rows, texts, traces = held.rows(keys)
+            missing += int((texts["origin"] == "").sum())
+            times.add({"seconds": rows["seconds"], "worker": texts["worker"], "part": texts["part"]})
+            results.add({"key": keys.view("|u1").reshape(-1, 16), **prepared.design.columns(points),
+                         **{name: rows["numbers"][:, i] for i, name in enumerate(study.columns)},
+                         **{name: texts[name] for name in ("error", "error_place", "origin")}, **({"ticks": rows["ticks"]} if held.kept else {}),
+                         **{f"trace:{name}": traces[:, i] for i, name in enumerate(held.kept)}})
+        if missing and not partial:
+            fail("study/missing", str(folder), f"{missing} of {count} points have no results yet",
+                 "go on with --resume, or merge what is there with --partial")
+        times.close("times.npz", {"format": "tactus-study-times", "rows": count, "units": {"seconds": "s"}})
+        results.close("results.npz", {"format": "tactus-study-results", "version": 2, "name": study.name, "study": prepared.context.hex(), "rows": count,
+                                      "factors": prepared.names, "measures": study.columns, "units": study.units})
+    except OSError as why:
+        disk(folder, why, "none is lost")
+    return Results(folder)
+
+
+class Results(Mapping[str, Any]):
+    """The merged results of a study: columns by name, one row for each point. Texts are an array of str, traces a list of arrays. A column is read when it is
+    first asked for. about: the header of the file."""
+
+    def __init__(self, path: Path):
+        """path: the folder of a study, or the file."""
+        given = pathlib.Path(path)
+        self.path = given / "results.npz" if given.is_dir() else given
+        self._read: Dict[str, Any] = {}
+        try:
+            self._file = _load(self.path)
+            self.about: Dict[str, Any] = json.loads(self._file["about.json"])
+            self._names = [name for name in self._file.files if name != "about.json"]
+        except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as why:
+            fail("study/unreadable", str(self.path), f"the results cannot be read: {why}", "merge the study again")
+
+    @property
+    def rows(self) -> int:
+        """The number of points."""
+        return int(self.about["rows"])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._read:
+            values = self._file[name]
+            if name in self.about["texts"]:
+                values = np.array(self.about["texts"][name], object)[values]
+            self._read[name] = np.split(values, np.cumsum(self["ticks"])[:-1]) if name.startswith("trace:") else values
+        return self._read[name]
