@@ -266,7 +266,7 @@ void bindPoints (py::module_& module)
         .def_readonly ("columns", &Points::columns)
         .def_readonly ("units", &Points::units)
         .def_readonly ("rate", &Points::rate_hz)
-        .def_readonly ("ticks", &Points::count);
+        .def_property_readonly ("width", [] (const Points& points) { return points.count * points.columns.size(); });
 }
 
 }   // namespace tactus::python

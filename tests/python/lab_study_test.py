@@ -28,7 +28,7 @@ import tactus
 from support import GRAPHS, PROGRAM, ROOT, TestCase
 import waiting
 from tactus import _tactus, lab
-from tactus.lab import _design, _drive, _measures, _results, _study_report, _worker
+from tactus.lab import _design, _drive, _points, _results, _study_report
 
 WALL = ROOT / "docs/figures/stiffness_limit.json"
 EXAMPLES = ROOT / "docs/examples/studies"
@@ -110,7 +110,7 @@ class Measures(Quiet):
             work = np.cumsum((force[:-1] * np.diff(r["hand.position"], axis=0)).sum(axis=1))
             held = [k for k in range(len(z) - 10) if (z[k:k + 11] >= -0.004).all()]
             for name, value in {"peak": size.max(), "max": force[:, 2].max(), "min": force[:, 2].min(), "last": force[-1, 2], "below": np.nan,
-                                "reach": held[0] / 1000.0 if held else np.nan, "band": _measures.band(force, 1000.0, 20.0, 200.0),
+                                "reach": held[0] / 1000.0 if held else np.nan, "band": _points.band(force, 1000.0, 20.0, 200.0),
                                 "mean": force[:, 2].mean(), "rms": np.sqrt((size**2).mean()), "work": work[-1], "given": max(0.0, work.max())}.items():
                 exact = name not in ("mean", "rms", "work", "given")
                 self.assertTrue(np.isclose(results[name][i], value, 0.0 if exact else 1e-9, 0.0 if exact else 1e-9, equal_nan=True), name)
@@ -120,7 +120,7 @@ class Measures(Quiet):
         sine = 3.0 * np.sin(2 * np.pi * 50.0 * t) + 2.0 * np.sin(2 * np.pi * 300.0 * t) + 7.0
         for values, low, high, rms in ((sine, 40.0, 60.0, 3.0 / np.sqrt(2.0)), (np.stack([sine, sine, 0 * sine], axis=1), 0.0, 501.0, np.sqrt(13.0)),
                                        (np.arange(1000) % 2, 0.0, 501.0, 0.5)):   # the last: all of it at half the rate
-            self.assertAlmostEqual(_measures.band(values, 1000.0, low, high), rms, places=9)
+            self.assertAlmostEqual(_points.band(values, 1000.0, low, high), rms, places=9)
 
     def test_settings_devices_rates_seeds_and_records(self):
         (self.folder / "still.csv").write_text("t,x,y,z\n0,0,0,0\n1,0,0,0\n")
@@ -229,7 +229,7 @@ class Results(Quiet):
         study = wall(keep=["motor.force.z"], measures=[lab.Measure(kind, kind, port=port, position="hand.position") for kind, port in kinds],
                      factors=[lab.Factor("wall.stiffness", values=[1000, 2000, -1, 4000]), lab.Factor("wall.damping", values=[0, 1, 2])])
         here = self.bytes_of(study, "here")
-        with mock.patch.object(_worker, "ROOM", 1):
+        with mock.patch.object(_points, "ROOM", 1):
             self.assertEqual(self.bytes_of(study, "one by one"), here)
         with concurrent.futures.ThreadPoolExecutor(2) as threads:
             self.assertEqual(self.bytes_of(study, "threads", threads, 2), here)
@@ -251,28 +251,27 @@ class Results(Quiet):
                           factors=[lab.Factor(next(iter(text["controls"])), values=[0.2, 0.9])])
         here = study.run(self.folder / "here", assets={name: picture})
         prepared = study.prepare(assets={name: picture})
-        chunk = _worker.Worker(pickle.loads(pickle.dumps(prepared)), is_far=True).render(points(prepared.design))
-        self.assertEqual(chunk.problems, {})
+        chunk = _points.Worker(pickle.loads(pickle.dumps(prepared)), is_far=True).render(points(prepared.design))
+        self.assertEqual(chunk.error, ["", ""])
         self.same_bits(chunk.rows["numbers"][:, 0], here["peak"])
         self.assertNotEqual(study.prepare(assets={name: picture * 0.5}).context, prepared.context)
 
     def test_nothing_is_rendered_twice(self):
         small = wall(factors=[lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("wall.damping", values=[0])])
         large = dataclasses.replace(small, factors=[lab.Factor("wall.stiffness", values=[3000, 2000, 1000]), lab.Factor("wall.damping", values=[0, 1])])
+        equal = dataclasses.replace(large, design=lab.Latin(points=50))   # 6 different points
         small.run(self.folder / "out")
-        self.fails("study/exists", large.run, self.folder / "out")
+        for other, id, options in ((large, "study/exists", {}), (dataclasses.replace(small, duration=0.06), "study/other", {"resume": True})):
+            self.fails(id, other.run, self.folder / "out", **options)
         progress = _drive.drive(large.prepare(), self.folder / "out", resume=True)
         self.assertEqual((progress.total, progress.fresh, self.held(large).count), (6, 4, 6))   # the key of a result does not depend on the design
         self.same_bits(_results.merge(large.prepare(), self.folder / "out")["peak"], large.run(self.folder / "fresh")["peak"])
-        self.fails("study/other", dataclasses.replace(small, duration=0.06).run, self.folder / "out", resume=True)
-
-    def test_equal_points_are_rendered_once(self):
-        study = wall(design=lab.Latin(points=50), factors=[lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("wall.damping", values=[0, 1.0])])
         with mock.patch.object(_drive, "BLOCK", 7):
-            results = study.run(self.folder / "out")
-            self.assertEqual((self.held(study).count, results.rows), (4, 50))
-            self.assertEqual(_drive.drive(study.prepare(), self.folder / "out", resume=True).fresh, 0)
-        self.assertEqual(len(set(zip(results["wall.stiffness"], results["wall.damping"], results["peak"]))), 4)
+            self.assertEqual(_drive.drive(equal.prepare(), self.folder / "out", resume=True).fresh, 0)
+            shutil.rmtree(self.folder / "out")
+            results = equal.run(self.folder / "out")
+        self.assertEqual((self.held(equal).count, results.rows), (6, 50))
+        self.assertEqual(len(set(zip(results["wall.stiffness"], results["wall.damping"], results["peak"]))), 6)
 
     def test_memory_does_not_grow_with_the_points(self):
         def peak(count):
@@ -313,24 +312,24 @@ class Results(Quiet):
         part, prepared = next((out / "parts").iterdir()), study.prepare()
 
         def add(stamp, change=0.0):
-            chunk = _worker.Worker(prepared, False).render([prepared.design.at(0)])
+            chunk = _points.Worker(prepared, False).render([prepared.design.at(0)])
             chunk.rows["numbers"] += change
-            with contextlib.closing(_results.Part(out / "parts", prepared.context, stamp)) as added:
-                added.add(chunk)
+            with contextlib.closing(_results.part(out, prepared.context, stamp)) as added:
+                added.add(chunk.to_json())
 
-        add(_worker.stamp())
+        add(_points.stamp())
         _results.merge(prepared, out)   # the same result twice is one row
         add(("0.1.0", "other-1"), 1e-9)
         self.assertIn("0.1.0", self.fails("study/other_version", _results.merge, prepared, out).text)
         _results.merge(prepared, out, mixed=True)   # on another computer, it may differ
-        add(_worker.stamp(), 1e-9)
+        add(_points.stamp(), 1e-9)
         self.fails("study/differs", _results.merge, prepared, out, mixed=True)
         for own in (out / "parts").iterdir():
             if '"other-1"' not in own.read_text().splitlines()[0]:
                 own.unlink()
         self.fails("study/other_version", study.run, out, resume=True)
         results = study.run(out, resume=True, mixed=True)
-        self.assertEqual(list(results["origin"]), ["0.1.0 on other-1"] + [" on ".join(_worker.stamp())] * 29)
+        self.assertEqual(list(results["origin"]), ["0.1.0 on other-1"] + [" on ".join(_points.stamp())] * 29)
         self.assertFalse(part.exists())
 
     def test_the_reader_of_the_page_reads_all(self):
@@ -493,8 +492,7 @@ class Command(Killed):
         self.write(wall(measures=[lab.Measure("f", "function", function="f")]))
         self.assertIn("--functions", self.ran(status=1))
         (self.folder / "f.py").write_text("def f(records, point):\n    return point['wall.stiffness'] if point['wall.damping'] else 1 / 0\n")
-        said = self.ran("--functions", "f.py", "--workers", "2", "--to", "csv")
-        self.assertIn("6 with errors", said)
+        self.assertIn("6 with errors", self.ran("--functions", "f.py", "--workers", "2", "--to", "csv"))
         self.ran("--functions", "f.py", "--executor", "serial", out="whole")
         self.same()
         results = lab.load_results(self.folder / "out")
@@ -506,13 +504,10 @@ class Command(Killed):
         self.assertEqual(len((self.folder / "out/results.csv").read_text().splitlines()), 31)
 
     def test_one_point_and_wrong_uses(self):
-        factors = [lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("device:tool/mass", values=[0.2])]
-        self.write(wall(set={"wall.damping": 1}, factors=factors))
+        self.write(wall(set={"wall.damping": 1}, factors=[lab.Factor("wall.stiffness", values=[1000, 2000]), lab.Factor("device:tool/mass", values=[0.2])]))
         self.assertIn("tactus-host", self.ran("--point", "1"))
         rows = np.loadtxt(self.folder / "out/point-1.csv", delimiter=",", skiprows=1)
-        there = tactus.Graph(self.folder / "out/point-1.json").render(duration=0.05)
-        self.assertEqual(len(rows), 50)
-        self.same_bits(rows[:, 3], there["motor.force"][:, 2])
+        self.same_bits(rows[:, 3], tactus.Graph(self.folder / "out/point-1.json").render(duration=0.05)["motor.force"][:, 2])
         for words in (["--point", "2"], ["--shard", "2/2"], ["--workers", "0"], ["--executor", "none"]):
             self.ran(*words, status=2)
         self.ran("--status", out="none", status=1)
@@ -520,8 +515,7 @@ class Command(Killed):
         if PROGRAM:
             done = subprocess.run([PROGRAM, "study", "s.json", "--out", "cli", "--executor", "serial"], capture_output=True, text=True, cwd=self.folder,
                                   env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"})
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("2 points, 0 with errors", done.stdout)
+            self.assertIn("2 points, 0 with errors", done.stdout, done.stderr)
 
 
 class Examples(Quiet):
@@ -550,17 +544,14 @@ class Examples(Quiet):
 
     def test_the_keys(self):
         r = self.results("keys")
-        for name, low, median, high in (("bottom", 0.689, 0.7216, 0.801), ("peak", 0.791, 1.480, 2.651)):
-            for a, b in zip((low, median, high), (r[name].min(), np.median(r[name]), r[name].max())):
-                self.assertLess(abs(b / a - 1.0), 0.01, name)
+        for name, known in (("bottom", (0.689, 0.7216, 0.801)), ("peak", (0.791, 1.480, 2.651))):
+            self.assertTrue(np.allclose((r[name].min(), np.median(r[name]), r[name].max()), known, 0.01, 0.0), name)
 
     def test_the_fit(self):
         done = subprocess.run([sys.executable, "-B", str(EXAMPLES / "fit.py"), str(self.folder)], capture_output=True, text=True, check=True)
         self.assertEqual(re.findall(r"(\w+)\.csv: mu ([\d.]+)", done.stdout), [("felt", "0.35"), ("ice", "0.10"), ("oak", "0.25"), ("rubber", "0.80")])
         for rest in re.findall(r"rest ([\d.]+)", done.stdout):
             self.assertLess(abs(float(rest) - 0.02), 0.002)   # the noise of the recordings
-        source = (EXAMPLES / "fit.py").read_text(encoding="utf-8")
-        self.assertLessEqual(len(source.splitlines()), 60)
 
 
 if __name__ == "__main__":

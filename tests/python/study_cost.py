@@ -24,20 +24,19 @@ int main (int count, char** words)
     tactus_messages* messages = tactus_messages_create();
     tactus_graph* graph = tactus_graph_load (words[1], messages);
     const char* ports[] = { "motor.force", "hand.position" };
+    char a[64], b[64];
+    const char* sets[] = { a, b };
+    tactus_run_options options = TACTUS_RUN_OPTIONS;
+    options.rate_hz = 1000.0;
+    options.records = ports;
+    options.sets = sets;
+    options.record_count = options.set_count = 2;
     const int n = atoi (words[2]);
     double sum = 0.0;
     for (int i = 0; i < n; ++i)
     {
-        char a[64], b[64];
-        const char* sets[] = { a, b };
         snprintf (a, sizeof a, "wall.stiffness=%.17g", 500.0 + 7500.0 * (i / 100) / (n / 100));
         snprintf (b, sizeof b, "wall.damping=%.17g", 20.0 * (i % 100) / 99.0);
-        tactus_run_options options = TACTUS_RUN_OPTIONS;
-        options.rate_hz = 1000.0;
-        options.records = ports;
-        options.record_count = 2;
-        options.sets = sets;
-        options.set_count = 2;
         tactus_run* run = tactus_run_create (graph, &options, messages);
         if (tactus_run_open (run, messages) != TACTUS_OK) return 1;
         double peak = 0.0, work = 0.0, given = 0.0, r[6], before[6];
@@ -45,13 +44,10 @@ int main (int count, char** words)
         {
             tactus_run_tick (run);
             tactus_run_get_records (run, r);
-            const double size = sqrt (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-            if (size > peak) peak = size;
-            for (int j = 0; k > 0 && j < 3; ++j)
-                work += before[j] * (r[3 + j] - before[3 + j]);
-            for (int j = 0; j < 6; ++j)
-                before[j] = r[j];
-            if (work > given) given = work;
+            peak = fmax (peak, sqrt (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]));
+            for (int j = 0; j < 6; before[j] = r[j], ++j)
+                if (k > 0 && j < 3) work += before[j] * (r[3 + j] - before[3 + j]);
+            given = fmax (given, work);
         }
         sum += peak + given;
         tactus_run_free (run);
@@ -73,13 +69,6 @@ def spent(words, **environment):
     return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
-def study_of(count, duration):
-    return lab.Study(name="cost", graph=str(GRAPH), duration=duration, rate=1000.0,
-                     factors=[lab.Factor("wall.stiffness", low=500.0, high=8000.0, count=count // 100),
-                              lab.Factor("wall.damping", low=0.0, high=20.0, count=100)],
-                     measures=[lab.Measure("peak", "peak", port="motor.force"), lab.Measure("given", "given", port="motor.force", position="hand.position")])
-
-
 def main(build, count=10000, rounds=5):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -88,7 +77,10 @@ def main(build, count=10000, rounds=5):
 
         def study(points, duration, executor="serial"):
             file = folder / f"{points}-{duration}.json"
-            file.write_text(study_of(points, duration).text())
+            file.write_text(lab.Study(
+                name="cost", graph=str(GRAPH), duration=duration, rate=1000.0,
+                factors=[lab.Factor("wall.stiffness", low=500.0, high=8000.0, count=points // 100), lab.Factor("wall.damping", low=0.0, high=20.0, count=100)],
+                measures=[lab.Measure(kind, kind, port="motor.force", position="hand.position") for kind in ("peak", "given")]).text())
             return spent([sys.executable, "-m", "tactus.lab", "study", file, "--out", folder / f"out{next(numbers)}", "--executor", executor, "--workers", 2],
                          **compiled)
 

@@ -20,7 +20,7 @@ class Points:
     columns: List[str]
     units: List[str]
     rate: float
-    ticks: int
+    width: int
     def __init__(self, graph: Graph, rate_hz: float, records: Sequence[str], common: Dict[str, str], names: Sequence[str],
                  table: Optional[Tuple[List[str], NDArray[np.float64]]], assets: Optional[Callable[[str, str], Optional[Dict[str, Any]]]],
                  seconds: float) -> None: ...

@@ -18,7 +18,7 @@ from ._experiment import Experiment
 from ._design import Factor, FromTable, Grid, Latin, Sobol
 from ._functions import probability
 from ._marks import Receiver, mark
-from ._measures import Measure
+from ._points import Measure
 from ._observers import Observer
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import functools
 import glob
@@ -89,9 +90,9 @@ def text_of(value: Any) -> str:
 class Design:
     """Points by their number. They are made when they are asked for, so a large grid or sequence takes no memory."""
 
-    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], levels: Sequence[Sequence[str]], repeats: bool):
-        """levels: of each factor, the values that it may have; none for a range. repeats: some points may be equal."""
-        self.names, self.count, self.at, self.repeats = list(names), count, at, repeats
+    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], levels: Sequence[Sequence[str]]):
+        """levels: of each factor, the values that it may have; none for a range."""
+        self.names, self.count, self.at, self.repeats = list(names), count, at, all(levels)   # repeats: some points may be equal
         self._levels = {name: {text: json.loads(text) for text in texts} for name, texts in zip(names, levels)}
 
     def values(self, name: str) -> List[Any]:
@@ -121,21 +122,21 @@ def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
         if name in names[:i]:
             fail("study/value", f"/factors/{i}", f"'{name}' varies twice", "name each factor once")
     if isinstance(kind, FromTable):
-        return _table(kind, factors, folder)
+        cells = _table(kind, names, folder)
+        return Design(names, len(cells[0]), lambda index: tuple([column[index] for column in cells]), cells)
     levels = [[text_of(value) for value in _levels(factor, f"/factors/{i}", folder)] for i, factor in enumerate(factors)]
     if isinstance(kind, Grid):
         steps = [each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)] for each, factor in zip(levels, factors)]
         sizes = [len(each) for each in steps]
         parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(steps)]
-        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), levels,
-                      any(len(set(each)) < len(each) for each in steps))
+        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), levels)
     columns = _latin(kind, len(factors)) if isinstance(kind, Latin) else _sobol(len(factors))
 
     def at(index: int) -> Point:
         return tuple([each[min(int(u * len(each)), len(each) - 1)] if each else _between(factor, u)
                       for each, factor, u in zip(levels, factors, columns(index))])
 
-    return Design(names, kind.points, at, levels, all(levels))
+    return Design(names, kind.points, at, levels)
 
 
 def _levels(factor: Factor, where: str, folder: str) -> List[Any]:
@@ -200,29 +201,25 @@ def _sobol(width: int) -> Callable[[int], List[float]]:
     return at
 
 
-def _table(kind: FromTable, factors: Sequence[Factor], folder: str) -> Design:
+def _table(kind: FromTable, names: Sequence[str], folder: str) -> List[List[str]]:
     try:
         with open(os.path.join(folder, kind.path), encoding="utf-8-sig", newline="") as file:
             rows = list(csv.DictReader(file))
     except (OSError, ValueError, csv.Error) as why:
         fail("study/unreadable", "/design/path", f"the table '{kind.path}' cannot be read: {why}", "give a CSV file, relative to the study")
-    names = [factor.vary for factor in factors]
     lacks = next((f"column '{name}'" for name in names if name not in rows[0]), "") if rows else "rows"
     if lacks:
         fail("study/value", "/design/path", f"the table '{kind.path}' has no {lacks}", "give a header with the names of the factors, and a row for each point")
     for number, row in enumerate(rows, 2):
         if None in row or None in row.values():
             fail("study/value", f"{kind.path}:{number}", "the row has more or fewer values than the header", "correct the row")
-    points = [tuple(text_of(_cell(row[name])) for name in names) for row in rows]
-    return Design(names, len(points), lambda index: points[index], list(zip(*points)), len(set(points)) < len(points))
+    return [[_cell(row[name]) for row in rows] for name in names]
 
 
-def _cell(text: str) -> Any:
-    try:
-        value = json.loads(text)
-    except ValueError:
-        return text
-    return text if isinstance(value, float) and not math.isfinite(value) else value
+def _cell(text: str) -> str:
+    with contextlib.suppress(ValueError):
+        return text_of(json.loads(text, parse_constant=str))
+    return text_of(text)
 
 
 def values_of(names: Sequence[str], point: Point) -> Dict[str, Any]:

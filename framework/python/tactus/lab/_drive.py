@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional,
 
 import numpy as np
 
-from .._messages import fail
+from .._messages import Error, fail
 from ._design import Point
-from ._results import BLOCK, Chunk, Held, Part, Path, Stamp, accept, disk
-from ._worker import Worker, stamp, work
+from ._journal import Journal, lock
+from ._results import BLOCK, Chunk, Held, Path, Stamp, accept, disk, part
+from ._points import Worker, stamp, work
 
 if TYPE_CHECKING:
     from ._study import Prepared
@@ -27,11 +28,6 @@ if TYPE_CHECKING:
 SECONDS = 1.0   # of a chunk
 PATIENCE = 5.0   # seconds without a result until a driver asks whether the executor still works
 TRIES = 3   # of executors that break, one after another, without a result in between
-
-try:
-    import fcntl
-except ImportError:   # Windows
-    fcntl = None   # type: ignore[assignment]
 
 
 class Progress:
@@ -67,23 +63,29 @@ def drive(prepared: "Prepared", out: Path, make: Optional[Callable[[], Any]] = N
 
     make: gives an executor; it is called again if that one breaks. None: this process. shard: (i, n): only each n-th point, from the i-th on."""
     folder, wanted, tries = pathlib.Path(out), range(shard[0], prepared.design.count, shard[1]), 0
-    with _locked(folder, is_shared=shard != (0, 1)):
+    try:
+        (folder / "parts").mkdir(parents=True, exist_ok=True)
+        file = open(folder / "lock", "ab")
+    except OSError as why:
+        disk(folder, why, "the study has not begun")
+    with file, contextlib.closing(_Driver(prepared, folder, mixed, workers)) as driver:
+        if not lock(file, is_shared=shard != (0, 1)):   # two processes do not render the same points; shards are different points
+            fail("study/busy", str(folder), "another process is working on this study", "wait until it ends, or end it")
         todo, bad, count = missing(prepared, folder, mixed, {stamp()}, wanted)
         if count and not resume and shard == (0, 1):
             fail("study/exists", str(folder), f"the folder has the results of {count} points", "go on with --resume, or choose another folder with --out")
-        progress = Progress(len(wanted), len(wanted) - len(todo), bad, report)
-        with contextlib.closing(_Driver(prepared, folder, mixed, progress, workers)) as driver:
-            while len(todo):
-                done = progress.done
-                try:
-                    driver.run(todo, make() if make else None)
-                    break
-                except BrokenExecutor as why:
-                    tries = 1 if progress.done > done else tries + 1
-                    if tries >= TRIES:
-                        fail("study/workers", str(folder), f"workers were killed {TRIES} times without a result in between: {why}",
-                             "look whether memory is short or a plugin crashes; then go on with --resume")
-                    todo, _, _ = missing(prepared, folder, mixed, {stamp()}, wanted)
+        progress = driver.progress = Progress(len(wanted), len(wanted) - len(todo), bad, report)
+        while len(todo):
+            done = progress.done
+            try:
+                driver.run(todo, make() if make else None)
+                break
+            except BrokenExecutor as why:
+                tries = 1 if progress.done > done else tries + 1
+                if tries >= TRIES:
+                    fail("study/workers", str(folder), f"workers have ended {TRIES} times without a result in between: {why}",
+                         "look whether memory is short or a plugin crashes; then go on with --resume")
+                todo, _, _ = missing(prepared, folder, mixed, {stamp()}, wanted)
         return progress
 
 
@@ -106,32 +108,16 @@ def missing(prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set
     return todo, bad, held.count
 
 
-@contextlib.contextmanager
-def _locked(folder: pathlib.Path, is_shared: bool) -> Iterator[None]:
-    """Makes the folder. Two processes do not render the same points; shards are different points."""
-    try:
-        (folder / "parts").mkdir(parents=True, exist_ok=True)
-        lock = open(folder / "lock", "ab")
-    except OSError as why:
-        disk(folder, why, "the study has not begun")
-    with lock:
-        try:
-            if fcntl is not None:
-                fcntl.flock(lock, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
-        except OSError:
-            fail("study/busy", str(folder), "another process is working on this study", "wait until it ends, or end it")
-        yield
-
-
 class _Driver:
-    def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, progress: Progress, workers: int):
-        self.prepared, self.folder, self.mixed, self.progress, self.workers = prepared, folder, mixed, progress, workers
-        self.parts: Dict[Stamp, Part] = {}
+    def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, workers: int):
+        self.prepared, self.folder, self.mixed, self.workers = prepared, folder, mixed, workers
+        self.progress = Progress(0, 0, 0, None)
+        self.parts: Dict[Stamp, Journal] = {}
         self.told: Set[str] = set()
 
     def close(self) -> None:
-        for part in self.parts.values():
-            part.close()
+        for each in self.parts.values():
+            each.close()
 
     def run(self, todo: Sequence[int], executor: Any) -> None:
         """Renders points on an executor until none is left, or until it breaks. None: in this process."""
@@ -174,23 +160,24 @@ class _Driver:
         return done
 
     def _keep(self, made: Chunk) -> None:
-        if made.stamp not in self.parts:
-            accept(self.folder, {stamp(), made.stamp}, self.mixed)
-            self.parts[made.stamp] = Part(self.folder / "parts", self.prepared.context, made.stamp)
-        self.parts[made.stamp].add(made)
+        try:
+            if made.stamp not in self.parts:
+                accept(self.folder, {stamp(), made.stamp}, self.mixed)
+                self.parts[made.stamp] = part(self.folder, self.prepared.context, made.stamp)
+            self.parts[made.stamp].add(made.to_json())
+        except OSError as why:
+            disk(self.folder, why, f"{self.progress.fresh} points of this process are on the disk")
         for kind, text in made.warnings.items():
             if kind not in self.told and len(self.told) < 20:
                 self.told.add(kind)
                 print(f"warning: {text}", file=sys.stderr)
-        self.progress.add(len(made.rows), len(made.problems), float(made.rows["seconds"].sum()))
+        self.progress.add(len(made.rows), sum(map(bool, made.error)), float(made.rows["seconds"].sum()))
 
 
 def _result(future: "Future[Optional[Chunk]]") -> Optional[Chunk]:
     try:
         return future.result()
-    except concurrent.futures.CancelledError as why:
-        raise BrokenExecutor("the executor has cancelled a chunk") from why
-    except Exception as why:
-        if type(why).__name__ in ("KilledWorker", "CommClosedError", "FutureCancelledError"):   # of dask.distributed
-            raise BrokenExecutor(f"{type(why).__name__}: {why}") from why
+    except (Error, MemoryError):
         raise
+    except Exception as why:   # it was killed or cancelled; each executor has its own exceptions for that
+        raise BrokenExecutor(f"{type(why).__name__}: {why}") from why

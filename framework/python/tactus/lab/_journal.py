@@ -44,8 +44,18 @@ def read(path: pathlib.Path) -> List[Event]:
     return events
 
 
+def lock(file: BinaryIO, is_shared: bool = False) -> bool:
+    """Keeps other processes away from a file until it is closed, or those that do not share it. False if one of them keeps it. Not on Windows."""
+    try:
+        if fcntl is not None:
+            fcntl.flock(file, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
 class Journal:
-    """A journal to which events are added, by one process at a time. Windows does not enforce this."""
+    """A journal to which events are added, by one process at a time."""
 
     def __init__(self, path: pathlib.Path, header: Optional[Event]):
         """header: the first line of a new file; None to go on with one."""
@@ -54,12 +64,9 @@ class Journal:
             self._file: BinaryIO = open(path, "xb" if header is not None else "ab", buffering=0)
         except FileExistsError:
             fail("lab/exists", str(path), "the session already exists", "resume it (--resume), or choose another session")
-        if fcntl is not None:
-            try:
-                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                self._file.close()
-                fail("lab/busy", str(path), "another process is running this session", "wait until it ends, or end it")
+        if not lock(self._file):
+            self._file.close()
+            fail("lab/busy", str(path), "another process is running this session", "wait until it ends, or end it")
         if header is None:
             with open(path, "rb") as file:
                 whole = file.read()[-1:] == b"\n"

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The results of a study in a folder. Each process adds chunks to a file of its own, a part; a merge makes one table of them. docs/studies.md describes it.
-
-A part is a sequence of lines: a CRC-32 in hexadecimal digits, and JSON. The first line is about the process, each other one is a chunk. A line that was cut
-off by a crash is left out when it is read."""
+"""The results of a study in a folder. Each process adds chunks to a journal of its own, a part; a merge makes one table of them. docs/studies.md describes
+it."""
 
 from __future__ import annotations
 
 import base64
+import contextlib
 import functools
 import json
 import os
@@ -23,6 +22,7 @@ from typing import TYPE_CHECKING, IO, Any, BinaryIO, Callable, Dict, Iterator, L
 import numpy as np
 
 from .._messages import fail
+from ._journal import Journal
 
 if TYPE_CHECKING:
     from ._study import Prepared
@@ -52,72 +52,51 @@ class Chunk:
     rows: Any   # one of row_type() for each point
     stamp: Stamp
     worker: str   # host and process
-    problems: Dict[int, Tuple[str, str, str]] = field(default_factory=dict)   # by row: id, place and text
+    error: List[str]   # by row: id and text; or nothing
+    error_place: List[str]
     kept: List[str] = field(default_factory=list)   # the columns of traces
-    traces: Any = field(default_factory=lambda: np.zeros((0, 0)))   # tick by tick, point after point
+    traces: List[Any] = field(default_factory=list)   # by row: shape (ticks, columns); or none at all
     warnings: Dict[str, str] = field(default_factory=dict)   # one of each kind and place
 
     def to_json(self) -> Any:
         """What is written of it."""
-        packed = {name: base64.b64encode(array.tobytes()).decode() for name, array in (("rows", self.rows), ("traces", self.traces))}
-        return {**packed, "worker": self.worker, "problems": sorted(self.problems.items()), "kept": self.kept}
+        packed = {name: base64.b64encode(b"".join(each.tobytes() for each in arrays)).decode() for name, arrays in
+                  (("rows", [self.rows]), ("traces", self.traces))}
+        data = {**packed, "worker": self.worker, "error": self.error, "error_place": self.error_place, "kept": self.kept}
+        return {**data, "check": check(data)}
 
     @staticmethod
     def of_json(data: Any, stamp: Stamp, columns: int) -> "Chunk":
         """A chunk that was written."""
-        rows = np.frombuffer(base64.b64decode(data["rows"]), row_type(columns))
-        traces = np.frombuffer(base64.b64decode(data["traces"])).reshape(-1, max(1, len(data["kept"])))
-        return Chunk(rows, stamp, data["worker"], {row: (name, where, text) for row, (name, where, text) in data["problems"]}, data["kept"], traces)
+        rows, kept = np.frombuffer(base64.b64decode(data["rows"]), row_type(columns)), data["kept"]
+        traces = np.split(np.frombuffer(base64.b64decode(data["traces"])).reshape(-1, len(kept)), np.cumsum(rows["ticks"])[:-1]) if kept else []
+        return Chunk(rows, stamp, data["worker"], data["error"], data["error_place"], kept, traces)
 
     def result(self, row: int) -> Tuple[Any, ...]:
         """The values that must be the same in two results of one point."""
-        return self.rows["numbers"][row].tobytes(), self.problems.get(row), self.trace(row).tobytes()
-
-    def trace(self, row: int) -> Any:
-        """The traces of a point, shape (ticks, columns)."""
-        end = int(self.rows["ticks"][:row + 1].sum())
-        return self.traces[end - int(self.rows["ticks"][row]):end]
+        return self.rows["numbers"][row].tobytes(), self.error[row], self.traces[row].tobytes() if self.traces else b""
 
 
-class Part:
+def part(folder: pathlib.Path, context: bytes, stamp: Stamp) -> Journal:
     """A part that this process adds to."""
+    header = {"study": context.hex(), "tactus": stamp[0], "computer": stamp[1]}
+    return Journal(folder / "parts" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex}.part", {**header, "check": check(header)})
 
-    def __init__(self, folder: pathlib.Path, context: bytes, stamp: Stamp):
-        self._folder, self.points = folder, 0
-        host = "".join(c if c.isalnum() else "_" for c in socket.gethostname())[:40]
-        try:
-            self._file: BinaryIO = open(folder / f"{host}-{os.getpid()}-{uuid.uuid4().hex}.part", "xb", buffering=0)
-        except OSError as why:
-            disk(folder, why, "no point of this process is on the disk")
-        self._add({"study": context.hex(), "tactus": stamp[0], "computer": stamp[1]})
 
-    def add(self, chunk: Chunk) -> None:
-        """Adds a chunk; returns once it is on the disk."""
-        self._add(chunk.to_json())
-        self.points += len(chunk.rows)
-
-    def _add(self, content: Any) -> None:
-        body = json.dumps(content).encode() + b"\n"
-        line = memoryview(b"%08x " % zlib.crc32(body) + body)
-        try:
-            while line:
-                line = line[self._file.write(line):]
-            os.fsync(self._file.fileno())
-        except OSError as why:
-            disk(self._folder, why, f"{self.points} points of this process are on the disk")
-
-    def close(self) -> None:
-        """Closes the part."""
-        self._file.close()
+def check(data: Mapping[str, Any]) -> int:
+    """The CRC-32 of what a line holds."""
+    return zlib.crc32(json.dumps([each for each in sorted(data.items()) if each[0] not in ("check", "format", "version")]).encode())
 
 
 def lines(path: pathlib.Path) -> Iterator[Tuple[int, Any]]:
-    """Where the whole lines of a part begin, and what they hold."""
+    """Where the lines of a part begin, and what they hold. What a crash has cut off or damaged is left out."""
     at = 0
     with open(path, "rb") as file:
         for line in file:
-            if line.endswith(b"\n") and line[:9] == b"%08x " % zlib.crc32(line[9:]):
-                yield at, json.loads(line[9:])
+            with contextlib.suppress(ValueError):
+                data = json.loads(line)
+                if data.get("check") == check(data):
+                    yield at, data
             at += len(line)
 
 
@@ -142,7 +121,7 @@ class Held:
         if any(header["study"] != prepared.context.hex() for header, _ in headers):
             fail("study/other", str(folder), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
                  "choose another folder with --out")
-        parts = sorted(((header["tactus"], header["computer"]), path) for header, path in headers)   # results of equal computers follow each other
+        parts = sorted(((header["tactus"], header["computer"]), path) for header, path in headers)   # the results of equal computers follow each other
         self.stamps = {stamp for stamp, _ in parts}
         accept(folder, self.stamps | stamps, mixed)
         self._chunks: List[Tuple[Stamp, pathlib.Path, int]] = []
@@ -151,7 +130,7 @@ class Held:
             chunk = Chunk.of_json(data, stamp, self._columns)
             place = np.zeros(len(chunk.rows), PLACE)
             place["chunk"], place["row"] = len(self._chunks), np.arange(len(place))
-            place["bad"][list(chunk.problems)] = True
+            place["bad"] = list(map(bool, chunk.error))
             self._chunks.append((stamp, path, at))
             keys.append(chunk.rows["key"])
             places.append(place)
@@ -164,7 +143,7 @@ class Held:
     def _read(self, number: int) -> Chunk:
         stamp, path, at = self._chunks[number]
         with open(path, "rb") as file:
-            file.seek(at + 9)
+            file.seek(at)
             return Chunk.of_json(json.loads(file.readline()), stamp, self._columns)
 
     @property
@@ -196,12 +175,11 @@ class Held:
             chunk, mine = self.chunk(number), np.flatnonzero((places["chunk"] == number) & known)
             row = places["row"][mine]
             rows[mine] = chunk.rows[row]
-            for name, text in (("origin", " on ".join(chunk.stamp)), ("worker", chunk.worker), ("part", self._chunks[number][1].name)):
+            for name, text in (("origin", " on ".join(chunk.stamp)), ("worker", chunk.worker), ("part", self._chunks[number][1].name),
+                               ("error", np.array(chunk.error, object)[row]), ("error_place", np.array(chunk.error_place, object)[row])):
                 texts[name][mine] = text
-            for i, k in zip(mine.tolist(), row.tolist()) if chunk.problems or chunk.kept else ():
-                name, texts["error_place"][i], text = chunk.problems.get(k, ("", "", ""))
-                texts["error"][i] = f"{name}: {text}" if name else ""
-                traces[i] = chunk.trace(k) if rows["ticks"][i] else traces[i]
+            for i, k in zip(mine, row) if chunk.traces else ():
+                traces[i] = chunk.traces[k]
         return rows, texts, np.concatenate(traces)
 
 
@@ -281,37 +259,31 @@ def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = 
     return Results(folder)
 
 
-class Results(Mapping[str, Any]):
-    """The merged results of a study: columns by name, one row for each point. Texts are an array of str, traces a list of arrays. A column is read when it is
-    first asked for. about: the header of the file."""
+class Results(Dict[str, Any]):
+    """The merged results of a study: columns by name, one row for each point. Texts are an array of str. Records, "trace:PORT", are a list of arrays, which
+    are read when they are asked for, as is "key". about: the header of the file."""
 
     def __init__(self, path: Path):
         """path: the folder of a study, or the file."""
+        super().__init__()
         given = pathlib.Path(path)
         self.path = given / "results.npz" if given.is_dir() else given
-        self._read: Dict[str, Any] = {}
         try:
             self._file = _load(self.path)
             self.about: Dict[str, Any] = json.loads(self._file["about.json"])
-            self._names = [name for name in self._file.files if name != "about.json"]
+            texts = self.about["texts"]
+            for name in self._file.files[1:]:   # the first one is the header
+                if name != "key" and not name.startswith("trace:"):
+                    self[name] = np.array(texts[name], object)[self._file[name]] if name in texts else self._file[name]
         except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as why:
             fail("study/unreadable", str(self.path), f"the results cannot be read: {why}", "merge the study again")
+
+    def __missing__(self, name: str) -> Any:
+        values = self._file[name]
+        self[name] = np.split(values, np.cumsum(self["ticks"])[:-1]) if name.startswith("trace:") else values
+        return self[name]
 
     @property
     def rows(self) -> int:
         """The number of points."""
         return int(self.about["rows"])
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
-
-    def __getitem__(self, name: str) -> Any:
-        if name not in self._read:
-            values = self._file[name]
-            if name in self.about["texts"]:
-                values = np.array(self.about["texts"][name], object)[values]
-            self._read[name] = np.split(values, np.cumsum(self["ticks"])[:-1]) if name.startswith("trace:") else values
-        return self._read[name]

@@ -5,31 +5,27 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 import pathlib
 import pickle
-import platform
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from .. import _tactus
 from .._assets import Assets, reader
 from .._graph import Graph
-from .._messages import fail, placed
+from .._messages import fail
 from .._presets import graph_file
-from . import _design, _measures, _schema
+from . import _design, _points, _schema
 from ._design import Design, Factor, FromTable, Grid, Latin, Sobol
-from ._measures import Measure
+from ._drive import drive
+from ._points import Measure, digest_of, simulated
 from ._procedures import note
-
-if TYPE_CHECKING:
-    from ._results import Results
+from ._results import Path, Results, merge
 
 Functions = Mapping[str, Callable[..., Any]]
-Path = Union[str, "os.PathLike[str]"]
 
 
 @dataclass(frozen=True)
@@ -84,12 +80,12 @@ class Study:
         """The units of the columns that have one."""
         return {**{factor.vary: factor.unit for factor in self.factors}, **{measure.columns[0]: measure.unit for measure in self.measures}}
 
-    def prepare(self, functions: Optional[Functions] = None, source: str = "", graph: Optional[Graph] = None, assets: Optional[Assets] = None) -> "Prepared":
+    def prepare(self, functions: Optional[Functions] = None, graph: Optional[Graph] = None, assets: Optional[Assets] = None) -> "Prepared":
         """The study with its graph and files, ready for workers. `run` says what the arguments are."""
-        return Prepared(self, dict(functions or {}), source, graph, assets)
+        return Prepared(self, functions or {}, graph, assets)
 
     def run(self, out: Path, executor: Any = None, workers: int = 1, functions: Optional[Functions] = None, graph: Optional[Graph] = None,
-            assets: Optional[Assets] = None, resume: bool = False, mixed: bool = False) -> "Results":
+            assets: Optional[Assets] = None, resume: bool = False, mixed: bool = False) -> Results:
         """Renders all points, and merges their results in the folder `out`.
 
         executor: None: this process. Or any executor of concurrent.futures, that of dask.distributed, or that of mpi4py.futures.
@@ -97,10 +93,7 @@ class Study:
         functions: the functions in Python that measures name. They get the Records and a dict with the values of the point.
         graph: instead of the one that the study names. assets: as for Graph.render; for workers, a dict.
         resume: go on in a folder that has results. mixed: also with those of other versions of Tactus or other computers; they are marked."""
-        from ._drive import drive   # noqa: PLC0415: they need this module
-        from ._results import merge   # noqa: PLC0415
-
-        prepared = self.prepare(functions, "", graph, assets)
+        prepared = self.prepare(functions, graph, assets)
         drive(prepared, out, (lambda: executor) if executor is not None else None, workers, resume=resume, mixed=mixed)
         return merge(prepared, out, mixed)
 
@@ -110,25 +103,14 @@ def schema() -> Dict[str, Any]:
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Study of tactus.lab", **_schema.schema(Study)}
 
 
-def bits() -> str:
-    """A mark of how this computer computes: the hash of what its mathematical functions give. Equal marks make equal results likely; different marks
-    mean that the last bits of results may differ."""
-    x = np.linspace(0.01, 3.0, 1024)
-    parts = [np.exp(x), np.sin(x * 7.0), np.cos(x * 9.0), np.log(x), np.tanh(x), np.power(x, 1.7), np.arctan2(x, 1.3), np.fft.rfft(x), x.sum(), (x * x).mean()]
-    functions: List[Callable[[float], float]] = [math.exp, math.sin, math.cos, math.log, math.tanh, math.sqrt, math.expm1]
-    plain = [f(v) for v in x.tolist() for f in functions]
-    made = hashlib.blake2b(b"".join(np.ascontiguousarray(part).tobytes() for part in [*parts, np.array(plain)]), digest_size=6)
-    return f"{platform.machine()}-{made.hexdigest()}"
-
-
 class Prepared:
     """A study with everything that a worker needs. It is pickled once, and sent once to each worker."""
 
-    def __init__(self, study: Study, functions: Dict[str, Any], source: str, graph: Optional[Graph], assets: Optional[Assets]):
-        self.study, self.functions, self.source = study, functions, source
+    def __init__(self, study: Study, functions: Functions, graph: Optional[Graph], assets: Optional[Assets]):
+        self.study, self.functions = study, functions
         if not study.name.isalnum() or not study.name.isascii():
             fail("study/value", "/name", f"'{study.name}' has other characters than letters and digits", "choose a name for files, such as 'wall'")
-        _measures.checked(study.measures)
+        _points.checked(study.measures)
         beside = os.path.join(study.folder, study.graph)
         self.file = "" if graph is not None else beside if os.path.isfile(beside) else graph_file(study.graph)
         self.graph = graph if graph is not None else Graph(self.file)
@@ -155,19 +137,19 @@ class Prepared:
         if "recording" in names and not study.feed:
             fail("study/missing", "/feed", "recordings drive no port", "add `feed`: {\"drag.position.x\": \"x\"}")
         for measure in study.measures:
-            if measure.kind == "function" and measure.function not in self.functions and not self.source:
+            if measure.kind == "function" and not callable(self.functions.get(measure.function)):
                 fail("study/no_function", f"/measures/{measure.name}", f"there is no function '{measure.function}'",
                      "give the file with it: --functions FILE.py; a study does not choose code that runs here")
         for i, name in enumerate(names):
             kind, _, rest = name.partition(":")
             if kind == "setting" and "." not in rest or kind not in ("setting", "device") and ":" in name or kind == "device" and not rest:
                 fail("study/value", f"/factors/{i}/vary", f"'{name}' is not a factor", "write NODE.PARAM, a control, setting:NODE.SETTING or device:ROLE/KEY")
-        for each in study.maps:
-            for name, known in ((each.of, study.columns), (each.x, names), (each.y, names)):
-                if name not in known:
-                    fail("study/value", "/maps", f"a map names '{name}', which is not there", f"one of {', '.join(known)}")
-        if study.worst and study.worst.lstrip("-") not in study.columns:
-            fail("study/value", "/worst", f"there is no column '{study.worst.lstrip('-')}'", f"one of {', '.join(study.columns)}")
+        used = [("/worst", study.worst.lstrip("-"), ["", *study.columns])]
+        for i, each in enumerate(study.maps):
+            used += [(f"/maps/{i}/of", each.of, study.columns), (f"/maps/{i}/x", each.x, names), (f"/maps/{i}/y", each.y, names)]
+        for where, name, known in used:
+            if name not in known:
+                fail("study/value", where, f"there is no column '{name}'", f"one of {', '.join(known)}")
 
     def _files(self) -> Dict[str, bytes]:
         """The files that the graph reads, and those that factors and devices name, by absolute path."""
@@ -191,7 +173,7 @@ class Prepared:
                     fail(name, where, text, "correct the name in the study")
             for m in self.study.measures if fast and not errors else ():
                 if m.kind != "misfit":   # it needs a recording
-                    _measures.KINDS.get(m.kind, lambda *_: None)(m, _measures.Block(rows, tried.columns, tried.rate, {}))
+                    _points.KINDS.get(m.kind, lambda *_: None)(m, _points.Block(rows, tried.columns, tried.rate, {}))
         named = [value for name in self.names if name != "recording" for value in self.design.values(name)]
         for value in [*named, *self.devices.values(), *self.described.values()]:
             hand = value.get("hand") if isinstance(value, dict) else None
@@ -203,14 +185,14 @@ class Prepared:
     def _context(self) -> bytes:
         """The hash of everything that the results of a point depend on, except its values, the version and the computer."""
         s = self.study
-        code = {name: f"{getattr(f, '__module__', '')}.{getattr(f, '__qualname__', '')}:" + _code_of(f) for name, f in self.functions.items()}
+        code = [getattr(self.functions, "text", ""), *(_code_of(self.functions[m.function]) for m in s.measures if m.kind == "function")]
         base = os.path.dirname(self.file)
         files = {os.path.relpath(path, base or os.curdir) if not self.file or os.path.isabs(path) else path: hashlib.sha256(data).hexdigest()
                  for path, data in self.files.items()}
         held = pickle.dumps(self.assets, 4) if self.assets is not None and not callable(self.assets) else b""
         subgraphs = {path: Graph._of(file).text for path, file in self.graph._graph.files().items()}
         parts = ["tactus-study 1", self.graph.text, subgraphs, files, s.set, self.devices, s.duration, s.rate, s.feed, s.keep, self.names,
-                 [{k: v for k, v in _schema.write(m).items() if k != "unit"} for m in s.measures], code, self.source, hashlib.sha256(held).hexdigest()]
+                 [{k: v for k, v in _schema.write(m).items() if k != "unit"} for m in s.measures], code, hashlib.sha256(held).hexdigest()]
         return hashlib.blake2b(_design.text_of(parts).encode(), digest_size=16).digest()
 
     def key(self, point: Tuple[str, ...]) -> bytes:
@@ -224,33 +206,21 @@ class Prepared:
         return np.array([self.key(point) for point in points], "S16")
 
     def __getstate__(self) -> Dict[str, Any]:
-        state = {key: value for key, value in self.__dict__.items() if key != "design"}   # a worker gets points
-        if self.source:
-            state["functions"] = {}
-        return state
+        return {key: value for key, value in self.__dict__.items() if key != "design"}   # a worker gets points
+
+
+class Source(Dict[str, Any]):
+    """The functions of a Python file. A worker gets its text."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.text = text
+        exec(compile(text, "functions.py", "exec"), self)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Source, (self.text,)
 
 
 def _code_of(function: Any) -> str:
-    code = getattr(function, "__code__", None)
-    if code is None:
-        return ""
-    return hashlib.sha256(code.co_code + repr([c for c in code.co_consts if not hasattr(c, "co_code")]).encode()).hexdigest()
-
-
-def digest_of(path: str) -> str:
-    """The hash of a file."""
-    try:
-        return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
-    except OSError as why:
-        fail("study/no_recording", path, f"the file cannot be read: {why.strerror}", "check its name and permissions")
-
-
-def simulated(role: str, given: Any, where: str) -> Dict[str, Any]:
-    """The description of a simulated device. A study from a stranger never chooses a real one."""
-    if isinstance(given, str):
-        driver, _, path = given.partition(":")
-        given = {"driver": driver, "path": path} if driver in ("gesture", "trace") and path else {"driver": given}
-    if not isinstance(given, dict) or given.get("driver") not in ("sim", "gesture", "trace") or given == {"driver": "sim"}:
-        fail("study/device", where, f"'{given if not isinstance(given, dict) else given.get('driver')}' is not a simulated device for the role '{role}'",
-             "give gesture:NAME, trace:FILE.csv, or a description such as {\"driver\": \"sim\", \"mass\": \"50 g\"}")
-    return dict(given)
+    code, name = getattr(function, "__code__", None), f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', '')}"
+    return f"{name} {code.co_code.hex()} {[c for c in code.co_consts if not hasattr(c, 'co_code')]}" if code else name

@@ -26,8 +26,8 @@ from ._design import values_of
 from ._drive import drive, missing
 from ._protocol import set_param
 from ._results import Held, merge
-from ._study import Prepared, Study
-from ._worker import Worker
+from ._study import Prepared, Source, Study
+from ._points import Worker
 from ._writers import Table, table_of
 
 
@@ -60,10 +60,10 @@ def run(given: argparse.Namespace) -> int:
     if not shard or not int(shard[1]) < int(shard[2]):
         raise ValueError(f"--shard: '{given.shard}' is not a shard; write I/N, such as 0/8 for the first of eight")
     try:
-        source = pathlib.Path(given.functions).read_text(encoding="utf-8") if given.functions else ""
-    except (OSError, ValueError) as why:
+        functions = Source(pathlib.Path(given.functions).read_text(encoding="utf-8")) if given.functions else None
+    except (OSError, ValueError, SyntaxError) as why:
         raise ValueError(f"--functions: {given.functions} cannot be read: {why}") from None
-    prepared = Study.load(given.file).prepare(source=source)
+    prepared = Study.load(given.file).prepare(functions)
     out = pathlib.Path(given.out or prepared.study.name)
     if given.status:
         return _status(prepared, out, given.mixed)
@@ -81,8 +81,7 @@ def run(given: argparse.Namespace) -> int:
             return 0
     results = merge(prepared, out, given.mixed, given.partial)
     for each in given.to:
-        names = [name for name in results if name != "key" and not name.startswith("trace:")]
-        Table({name: results[name] for name in names}, prepared.study.units).write(out / f"results.{each}")
+        Table(results, prepared.study.units).write(out / f"results.{each}")
     words = ["tactus", "study", os.path.basename(given.file), *(["--functions", os.path.basename(given.functions)] if given.functions else [])]
     _study_report.write(prepared, results, out / "report.html", words)
     print(f"{results.path}: {results.rows} points, {(results['error'] != '').sum()} with errors; report: {out}/report.html")

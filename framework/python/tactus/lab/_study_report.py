@@ -156,8 +156,9 @@ def _parallel(results: Results, column: str, names: List[str]) -> str:
     values = results[column][rows]
     lines = [f'<polyline fill="none" stroke="rgb({r},{g},{b})" stroke-opacity="0.6" points="{" ".join(line)}"/>'
              for (r, g, b), line in zip(_colour((values - values.min()) / (np.ptp(values) or 1.0)), zip(*places))]
+    said = f"{len(rows)} of {results.rows} points, coloured by {column}. A line that leaves an axis below it has no number there."
     return (f'<h2>All factors</h2><svg viewBox="0 0 1020 {top + h + 24}" width="1020" role="img" aria-label="Parallel coordinates">'
-            f"{''.join(lines + parts)}</svg><p>{len(rows)} of {results.rows} points, coloured by {escape(column)}. A line that leaves an axis below it has no number there.</p>")
+            f"{''.join(lines + parts)}</svg><p>{escape(said)}</p>")
 
 
 def _table(title: str, prepared: Prepared, results: Results, rows: Any, words: Sequence[str]) -> str:
