@@ -124,12 +124,11 @@ def _squares(m: Measure, block: Block) -> Array:
 
 
 def _work(m: Measure, block: Block) -> Array:
-    """Of the force on the position, so far."""
+    """Of the force on the position, from the second tick on."""
     forces, places = block.components(m.port), block.components(m.position)
     if len(forces) != len(places):
         fail("study/measure", m.name, f"'{m.port}' and '{m.position}' have different shapes", "give a force and a position, both vectors or both components")
-    steps: Any = sum(force[:, :-1] * (place[:, 1:] - place[:, :-1]) for force, place in zip(forces, places))
-    return np.cumsum(np.concatenate([0.0 * forces[0][:, :1], steps], axis=1), axis=1)
+    return np.cumsum(sum(force[:, :-1] * (place[:, 1:] - place[:, :-1]) for force, place in zip(forces, places)), axis=1)
 
 
 def _reach(m: Measure, block: Block) -> Array:
@@ -164,8 +163,8 @@ KINDS: Dict[str, Callable[[Measure, Block], Any]] = {
     "min": lambda m, block: block.component(m.port).min(axis=1),
     "mean": lambda m, block: _sum(block.component(m.port)) / block.rows.shape[1],
     "last": lambda m, block: block.component(m.port)[:, -1],
-    "work": lambda m, block: _work(m, block)[:, -1],
-    "given": lambda m, block: _work(m, block).max(axis=1),
+    "work": lambda m, block: _work(m, block)[:, -1:].sum(axis=1),
+    "given": lambda m, block: _work(m, block).max(axis=1, initial=0.0),
     "reach": _reach,
     "misfit": _misfit,
     "band": lambda m, block: [band(np.stack(each, axis=1), block.rate, m.low, m.high) for each in zip(*block.components(m.port))],

@@ -5,8 +5,10 @@ it."""
 from __future__ import annotations
 
 import base64
+import collections
 import contextlib
 import functools
+import itertools
 import json
 import os
 import pathlib
@@ -197,8 +199,8 @@ class Writer:
         """Adds rows."""
         for name, values in columns.items():
             if values.dtype == object:
-                known = self._texts.setdefault(name, {})
-                values = np.array([known.setdefault(text, len(known)) for text in values], "<i4")
+                known = self._texts.setdefault(name, collections.defaultdict(itertools.count().__next__))
+                values = np.array(list(map(known.__getitem__, values)), "<i4")
             if name not in self._columns:
                 self._columns[name] = values[:0], tempfile.TemporaryFile(dir=self._folder)
             self._columns[name][1].write(values.tobytes())
