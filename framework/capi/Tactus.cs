@@ -92,6 +92,25 @@ namespace Tactus
         public double Z { get { fixed (double* f = Force) return f[2]; } }
     }
 
+    /// <summary>Where a tool is on the ticks of a step (docs/steps.md), and the effort that Take returns after a step.</summary>
+    public enum Between { Hold = 0, Linear = 1, ByVelocity = 2 }
+    public enum StepEffort { LastTick = 0, Mean = 1 }
+
+    /// <summary>Why a guard withholds an effort. The last four are latched: they end with Rearm(), or with a state from before.</summary>
+    public enum Stop { None = 0, NotFinite = 1, Stale = 2, Starved = 3, Released = 4, Halted = 5, Speed = 6, Impulse = 7, Energy = 8, Emergency = 9 }
+
+    /// <summary>The guard of a role after the latest tick: tactus_guard.</summary>
+    [StructLayout (LayoutKind.Sequential)]
+    public struct Guard
+    {
+        public uint Size;
+        public Stop Stop;                       // now
+        public int IsLatched, IsClipping;
+        public Stop Latest;                     // also if it has ended
+        public double Value, Limit, Window;     // of the latest stop: SI, SI, s
+        public ulong Stops;
+    }
+
     public enum Phase { Idle = 0, Running = 1, Halting = 2, Over = 3 }
 
     /// <summary>tactus_status</summary>
@@ -239,13 +258,15 @@ namespace Tactus
             using (var m = new MessageList()) m.Check (Native.tactus_run_device (handle, Native.Utf8 (role), Native.Utf8 (device), m.Pointer));
         }
 
-        /// <summary>Your own device: you push readings and take efforts. `guard` is JSON with its limits: {"max_force": "3 N"}.</summary>
-        public void PushedDevice (string role, string guard = null)
+        /// <summary>Your own device: you push readings and take efforts. `guard` is JSON with its limits: {"max_force": "3 N"}. `between` and
+        /// `stepEffort` are the rules of Step(). `simulated`: no person holds it, so that the run can be saved.</summary>
+        public void PushedDevice (string role, string guard = null, Between between = Between.Hold, StepEffort stepEffort = StepEffort.LastTick,
+                                  bool simulated = false)
         {
             using (var m = new MessageList())
             using (var text = new Texts (guard == null ? null : new[] { guard }))
             {
-                var options = new Native.DeviceOptions { guard = text.First };
+                var options = new Native.DeviceOptions { guard = text.First, between = between, step_effort = stepEffort, simulated = simulated ? 1 : 0 };
                 options.size = (uint)Marshal.SizeOf (options);
                 m.Check (Native.tactus_run_pushed_device (handle, Native.Utf8 (role), ref options, m.Pointer));
             }
@@ -259,6 +280,14 @@ namespace Tactus
         /// <summary>The reading that the next ticks use. Allocates nothing. [any thread, one at a time for each role]</summary>
         public void Push (string role, ref Reading reading) { Native.Check (Native.tactus_run_push (handle, Name (role), ref reading)); }
 
+        /// <summary>The same with the velocity, in m/s and rad/s, for Between.ByVelocity: arrays of three, or null for the second.</summary>
+        public void PushMoving (string role, ref Reading reading, double[] velocity, double[] angularVelocity = null)
+        {
+            if (velocity == null || velocity.Length != 3 || (angularVelocity != null && angularVelocity.Length != 3))
+                throw new ArgumentException ("a velocity has three numbers");
+            Native.Check (Native.tactus_run_push_moving (handle, Name (role), ref reading, velocity, angularVelocity));
+        }
+
         /// <summary>The effort of the latest tick. Allocates nothing. [any thread]</summary>
         public void Take (string role, ref Effort effort)
         {
@@ -271,6 +300,40 @@ namespace Tactus
 
         /// <summary>Runs one tick, this many seconds after the last one: for a loop that can be late.</summary>
         public void TickAfter (double passed) { Native.Check (Native.tactus_run_tick_after (handle, passed)); }
+
+        /// <summary>Runs the ticks that are due this many seconds after the last step, at most 1: for a physics with steps longer than a tick.</summary>
+        public void Step (double seconds) { Native.Check (Native.tactus_run_step_for (handle, seconds)); }
+
+        /// <summary>The state of the run between two ticks (docs/states.md).</summary>
+        public byte[] Save()
+        {
+            using (var m = new MessageList())
+            {
+                UIntPtr size;
+                m.Check (Native.tactus_run_save (handle, null, UIntPtr.Zero, out size, m.Pointer));
+                var state = new byte[(int)size];
+                m.Check (Native.tactus_run_save (handle, state, size, out size, m.Pointer));
+                return state;
+            }
+        }
+
+        /// <summary>Goes back, or on, to a state of a run of the same graph. One that does not fit is refused, and changes nothing.</summary>
+        public void Restore (byte[] state)
+        {
+            using (var m = new MessageList()) m.Check (Native.tactus_run_restore (handle, state, (UIntPtr)state.Length, m.Pointer));
+        }
+
+        /// <summary>Why there is no force. Allocates nothing. [any thread]</summary>
+        public Guard GuardOf (string role)
+        {
+            var guard = new Guard();
+            unsafe { guard.Size = (uint)sizeof (Guard); }
+            Native.Check (Native.tactus_run_guard (handle, Name (role), ref guard));
+            return guard;
+        }
+
+        /// <summary>The latest stop of a role in words. [any thread]</summary>
+        public string GuardText (string role) { return Native.Taken (Native.tactus_run_guard_text (handle, Name (role))); }
 
         /// <summary>Runs many ticks, and returns their records, row after row.</summary>
         public double[] Steps (int ticks, double[] feeds = null)
@@ -507,6 +570,9 @@ namespace Tactus
             public int signal_inputs, signal_outputs;
             public IntPtr guard;
             public double brake;
+            public Between between;
+            public StepEffort step_effort;
+            public int simulated;
         }
 
         [StructLayout (LayoutKind.Sequential)]
@@ -559,9 +625,18 @@ namespace Tactus
         public static extern int tactus_run_pushed_device (RunHandle run, byte[] role, ref DeviceOptions options, IntPtr messages);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_open (RunHandle run, IntPtr messages);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_push (RunHandle run, byte[] role, ref Reading reading);
+        [DllImport (library, CallingConvention = c)]
+        public static extern int tactus_run_push_moving (RunHandle run, byte[] role, ref Reading reading, double[] velocity, double[] angular_velocity);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_take (RunHandle run, byte[] role, ref Effort effort);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_tick (RunHandle run);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_tick_after (RunHandle run, double passed_s);
+        [DllImport (library, CallingConvention = c)] public static extern int tactus_run_step_for (RunHandle run, double dt_s);
+        [DllImport (library, CallingConvention = c)]
+        public static extern int tactus_run_save (RunHandle run, [Out] byte[] bytes, UIntPtr room, out UIntPtr size, IntPtr messages);
+        [DllImport (library, CallingConvention = c)]
+        public static extern int tactus_run_restore (RunHandle run, byte[] bytes, UIntPtr size, IntPtr messages);
+        [DllImport (library, CallingConvention = c)] public static extern int tactus_run_guard (RunHandle run, byte[] role, ref Guard guard);
+        [DllImport (library, CallingConvention = c)] public static extern IntPtr tactus_run_guard_text (RunHandle run, byte[] role);
         [DllImport (library, CallingConvention = c)]
         public static extern int tactus_run_steps (RunHandle run, UIntPtr ticks, double[] feeds, [Out] double[] records);
         [DllImport (library, CallingConvention = c)] public static extern int tactus_run_start (RunHandle run, ref StartOptions options, IntPtr messages);

@@ -48,6 +48,44 @@ static class Test
         }
     }
 
+    /// The force on a tool that moves, for each step; then whether a saved half has the same bits again, and what the guard says.
+    static void Step (string graph_file, int steps)
+    {
+        using (var graph = Graph.Load (graph_file))
+        using (var run = new Run (graph))
+        {
+            var role = run.Roles[0];
+            run.PushedDevice (role, "{\"max_impulse\": \"1 N*s\", \"impulse_window\": \"10 s\"}", Between.ByVelocity, StepEffort.Mean, true);
+            run.Open();
+            var effort = Effort.None();
+            var velocity = new[] { 0.01, 0.0, -0.05 };
+            Func<int, int, string[]> part = (first, last) => {
+                var forces = new string[last - first];
+                for (int k = first; k < last; ++k)
+                {
+                    var reading = Reading.At (0.00003 * k, 0.0, 0.002 - 0.0001 * k);
+                    run.PushMoving (role, ref reading, velocity);
+                    run.Step (0.0017);
+                    run.Take (role, ref effort);
+                    forces[k - first] = Bits (effort.X) + " " + Bits (effort.Y) + " " + Bits (effort.Z);
+                }
+                return forces;
+            };
+            foreach (var line in part (0, steps / 2)) Console.WriteLine (line);
+            var state = run.Save();
+            var half = part (steps / 2, steps);
+            foreach (var line in half) Console.WriteLine (line);
+            run.Restore (state);
+            Console.WriteLine (string.Join (",", part (steps / 2, steps)) == string.Join (",", half));
+            state[state.Length - 1] ^= 1;
+            try { run.Restore (state); }
+            catch (TactusException e) { Console.WriteLine (e.Messages[0].Id); }
+            Console.WriteLine (run.GuardOf (role).Stop + " " + run.GuardOf (role).Limit + " " + run.GuardText (role).Contains ("impulse"));
+            for (int k = 0; k < 1000 && run.GuardOf (role).IsLatched == 0; ++k) part (steps - 1, steps);
+            Console.WriteLine (run.GuardOf (role).Stop + " " + run.GuardOf (role).Limit.ToString ("R") + " " + run.GuardText (role).Contains ("impulse"));
+        }
+    }
+
     /// How often the garbage collector runs while a loop plays: the smallest object per call would fill its nursery of 4 MB.
     static void Collections (string graph_file)
     {
@@ -127,6 +165,7 @@ static class Test
         case "version": Console.WriteLine (Library.Version + " " + Library.NodesJson().Contains ("friction.elasto_plastic")); break;
         case "render": Render (words[1], int.Parse (words[2])); break;
         case "push": Push (words[1], int.Parse (words[2]), int.Parse (words[3])); break;
+        case "step": Step (words[1], int.Parse (words[2])); break;
         case "collections": Collections (words[1]); break;
         case "errors": Errors (words[1]); break;
         case "play": Play (words[1]); break;

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Checks Tactus.cs: csharp_test.py LIBRARY TACTUS SOURCES. LIBRARY is libtactus.so, TACTUS the program, SOURCES the repository.
 
-Compiles the file, a test and the example for Unity with mcs, and runs them with mono: rendered presets have the bits of `tactus render`, pushed readings the
-efforts that the same library gives to Python's ctypes, errors become exceptions, a loop allocates nothing, and a run that is not stopped ends with its object. Exit status 77 without
-mono."""
+Compiles the file, a test and the example for Unity with mcs, and runs them with mono: rendered presets have the bits of `tactus render`; pushed readings the
+efforts that the same library gives to Python's ctypes, also by steps longer than a tick; a saved half of a run has the same bits again; the guard says why it
+stops; errors become exceptions, a loop allocates nothing, and a run that is not stopped ends with its object. Exit status 77 without mono."""
 
 import csv
 import ctypes
@@ -19,6 +19,7 @@ import tempfile
 CHANNELS = 32
 PRESETS = ["dry_wood", "liver", "granite_wall", "potato_cut"]
 RENDERED, TICKS, SILENT = 4000, 700, 500   # ticks: of a preset, with a pushed tool, and of these with readings
+STEPS = 60
 
 
 class Reading(ctypes.Structure):
@@ -35,7 +36,8 @@ class Effort(ctypes.Structure):
 
 class DeviceOptions(ctypes.Structure):
     _fields_ = [("size", ctypes.c_uint32)] + [(n, ctypes.c_size_t) for n in ("axes", "na", "efforts", "ne", "buttons", "nb")] + [
-        ("signal_inputs", ctypes.c_int32), ("signal_outputs", ctypes.c_int32), ("guard", ctypes.c_char_p), ("brake", ctypes.c_double)]
+        ("signal_inputs", ctypes.c_int32), ("signal_outputs", ctypes.c_int32), ("guard", ctypes.c_char_p), ("brake", ctypes.c_double),
+        ("between", ctypes.c_int), ("step_effort", ctypes.c_int), ("simulated", ctypes.c_int)]
 
 
 class RunOptions(ctypes.Structure):
@@ -54,31 +56,43 @@ def rendered(tactus, graph, folder):
     return [rows[0][1:]] + [[bits(float(v)) for v in row[1:]] for row in rows[1:]]
 
 
-def pushed(library, graph):
-    """The efforts for the readings of Test.Push."""
+def pushed(library, graph, options, ticks, tick_once):
+    """The efforts that ctypes gets. `tick_once` pushes and ticks."""
     lib = ctypes.CDLL(library)
     for name in ("tactus_graph_load", "tactus_run_create"):
         getattr(lib, name).restype = ctypes.c_void_p
     lib.tactus_run_role.restype = ctypes.c_char_p
     loaded = ctypes.c_void_p(lib.tactus_graph_load(str(graph).encode(), None))
-    options = RunOptions(ctypes.sizeof(RunOptions))
-    run = ctypes.c_void_p(lib.tactus_run_create(loaded, ctypes.byref(options), None))
+    run = ctypes.c_void_p(lib.tactus_run_create(loaded, ctypes.byref(RunOptions(ctypes.sizeof(RunOptions))), None))
     role = lib.tactus_run_role(run, ctypes.c_size_t(0))
-    device = DeviceOptions(ctypes.sizeof(DeviceOptions), guard=b'{"max_force": "2 N"}')
+    device = DeviceOptions(ctypes.sizeof(DeviceOptions), **options)
     assert lib.tactus_run_pushed_device(run, role, ctypes.byref(device), None) == 0
     assert lib.tactus_run_open(run, None) == 0
     effort = Effort(ctypes.sizeof(Effort))
     lines = []
-    for tick in range(TICKS):
-        reading = Reading(ctypes.sizeof(Reading), 1, (ctypes.c_double * 3)(0.0, 0.0, 0.03 - 0.0001 * tick))
-        if tick < SILENT:
-            assert lib.tactus_run_push(run, role, ctypes.byref(reading)) == 0
-        assert lib.tactus_run_tick(run) == 0
+    for k in range(ticks):
+        tick_once(lib, run, role, k)
         assert lib.tactus_run_take(run, role, ctypes.byref(effort)) == 0
         lines.append([bits(f) for f in effort.force])
     lib.tactus_run_free(run)
     lib.tactus_graph_free(loaded)
     return lines
+
+
+def push(lib, run, role, tick):
+    """As Test.Push."""
+    reading = Reading(ctypes.sizeof(Reading), 1, (ctypes.c_double * 3)(0.0, 0.0, 0.03 - 0.0001 * tick))
+    if tick < SILENT:
+        assert lib.tactus_run_push(run, role, ctypes.byref(reading)) == 0
+    assert lib.tactus_run_tick(run) == 0
+
+
+def step(lib, run, role, k):
+    """As Test.Step."""
+    three = ctypes.c_double * 3
+    reading = Reading(ctypes.sizeof(Reading), 1, three(0.00003 * k, 0.0, 0.002 - 0.0001 * k))
+    assert lib.tactus_run_push_moving(run, role, ctypes.byref(reading), three(0.01, 0.0, -0.05), None) == 0
+    assert lib.tactus_run_step_for(run, ctypes.c_double(0.0017)) == 0
 
 
 def main():
@@ -112,9 +126,15 @@ def main():
             assert len({tuple(row) for row in found}) > 100, f"{preset} renders the same on all ticks"
 
         found = [line.split(" ") for line in lines("test.exe", "push", str(graphs / "granite_wall.json"), str(TICKS), str(SILENT))]
-        assert found == pushed(library, graphs / "granite_wall.json")
+        assert found == pushed(library, graphs / "granite_wall.json", {"guard": b'{"max_force": "2 N"}'}, TICKS, push)
         none = [bits(0.0)] * 3
         assert found[SILENT - 1] != none and found[-1] == none, "the tool is pushed, and no longer when its readings have stopped"
+
+        found = lines("test.exe", "step", str(graphs / "dry_wood.json"), str(STEPS))
+        rules = {"guard": b'{"max_impulse": "1 N*s", "impulse_window": "10 s"}', "between": 2, "step_effort": 1, "simulated": 1}
+        assert [line.split(" ") for line in found[:STEPS]] == pushed(library, graphs / "dry_wood.json", rules, STEPS, step)
+        assert len(set(found[:STEPS])) > STEPS // 2
+        assert found[STEPS:] == ["True", "state/damaged", "None 0 False", "Impulse 1 True"], found[STEPS:]
 
         assert lines("test.exe", "errors", str(folder)) == [
             "file/unreadable True", "file/syntax 1", "1000", "True True True False", "node/unknown_type", "True", "True", "disposed"]
