@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import tactus
@@ -150,7 +151,13 @@ print({{s['plugin'] for s in __import__('json').loads(tactus._tactus.nodes_json(
         header = self.folder / "growing.hpp"
         text = (ROOT / "tests/plugins/objects/live_node.hpp").read_text(encoding="utf-8").replace('"live.growing"', '"mine.growing"')
         header.write_text(text, encoding="utf-8")
-        self.assertEqual(tactus.compile_node(header), "mine.growing")
+        real = os.environ.get("CXX") or "c++"
+        compiler = self.folder / pathlib.Path(real).name   # says at which priority it runs
+        compiler.write_text(f'#!/bin/sh\nnice >> "{self.folder}/priorities"\nexec {shutil.which(real)} "$@"\n', encoding="utf-8")
+        compiler.chmod(0o700)
+        with unittest.mock.patch.dict(os.environ, CXX=str(compiler)):
+            self.assertEqual(tactus.compile_node(header), "mine.growing")
+        self.assertEqual((self.folder / "priorities").read_text(encoding="utf-8"), f"{os.nice(0)}\n")
         graph = growing("mine.growing")
         old = tactus.Engine(graph, record=["grow.force"], devices={"stylus": "gesture:circle"})
         self.same_bits(forces(graph), expected())
@@ -166,6 +173,7 @@ print({{s['plugin'] for s in __import__('json').loads(tactus._tactus.nodes_json(
         header.write_text(text.replace("ticks += 1.0;", "ticks += one;"), encoding="utf-8")
         why = self.fails("live/compile", tactus.compile_node, header)
         self.assertIn("one", why.text)
+        self.assertIn("what is loaded stays as it is", why.remedy)
         header.write_text("int x;\n", encoding="utf-8")
         self.fails("live/no_node", tactus.compile_node, header)
         self.fails("live/no_header", tactus.compile_node, self.folder / "nothing.hpp")

@@ -37,9 +37,9 @@ def load_plugins(path: Optional[Path] = None) -> List[str]:
 def compile_node(header: Path) -> str:
     """Compiles the header of a node in C++, which ends with a line TACTUS_NODE (docs/plugins.md), and loads it. Returns the id of the node.
 
-    It replaces a node of the same id, such as an earlier version of itself, for graphs that are compiled from now on. It needs a C++ compiler and the
-    development files of Tactus, and takes some ten seconds of a processor: longer on a busy machine, because the compiler has a low priority. The compiled
-    file exists until the program ends."""
+    It replaces a node of the same id, such as an earlier version of itself, for graphs that are compiled from now on. If it fails, graphs still get the
+    version that was loaded last. It needs a C++ compiler and the development files of Tactus, and takes some seconds of a processor. The compiled file
+    exists until the program ends."""
     from ._library import Messages, live
 
     global _folder, _compiled

@@ -19,7 +19,7 @@ namespace tactus::host
 
 #if defined(_WIN32)
 
-std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>&, const std::filesystem::path&, unsigned)
+std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>&, const std::filesystem::path&, unsigned, Priority)
 {
     return nullptr;
 }
@@ -44,7 +44,7 @@ std::vector<char*> inEnglish()
 }   // namespace
 
 std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>& command, const std::filesystem::path& says,
-                                                             [[maybe_unused]] unsigned cpu_seconds)
+                                                             [[maybe_unused]] unsigned cpu_seconds, Priority priority)
 {
     auto copies = command;
     std::vector<char*> words;
@@ -79,7 +79,7 @@ std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<s
     ::prlimit (child, RLIMIT_CPU, &most, nullptr);
 #endif
     constexpr int low_priority = 10;
-    ::setpriority (PRIO_PGRP, static_cast<id_t> (child), low_priority);
+    if (priority == Priority::low) ::setpriority (PRIO_PGRP, static_cast<id_t> (child), low_priority);
     return std::unique_ptr<BackgroundProgram> (new BackgroundProgram (child));
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t most_errors = 20;      // later errors usually follow from
 
 Message errorIn (const std::string& place, std::string text)
 {
-    return Message::error ("live/compile", place, std::move (text), "correct the C++ code and save it; the previous version keeps running");
+    return Message::error ("live/compile", place, std::move (text), correct_and_save);
 }
 
 /// An error at the file, line and column that a line of the compiler names.

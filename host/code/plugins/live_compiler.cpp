@@ -115,7 +115,7 @@ Result<> LiveCompiler::start (const LiveSource& s)
 {
     if (auto trusted = s.trusted(); ! trusted) return trusted;
     if (auto missing = needFolder (s); ! missing) return missing;
-    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
+    const bool is_prepared = work == Work::once || s.isC() || precompiled_by == compilerOf (s);
     if (! precompiles || ! is_prepared) program.reset();
     if (! is_prepared)
         if (auto refused = prepareFor (s); ! refused) return refused;
@@ -135,7 +135,8 @@ Result<> LiveCompiler::compile()
 
 Result<> LiveCompiler::run (const std::vector<std::string>& command)
 {
-    program = BackgroundProgram::start (command, folder / "says");
+    const auto priority = work == Work::once ? BackgroundProgram::Priority::usual : BackgroundProgram::Priority::low;
+    program = BackgroundProgram::start (command, folder / "says", BackgroundProgram::usual_cpu_seconds, priority);
     if (program) return {};
     return Message::error ("live/no_compiler", source.file.string(),
                            "the compiler " + quote (command.front()) + " cannot be started, so edits of the C++ code have no effect",

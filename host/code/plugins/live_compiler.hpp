@@ -22,7 +22,14 @@ namespace tactus::host
 class LiveCompiler
 {
 public:
-    LiveCompiler() = default;
+    /// Edits follow: low priority beside the run, and a precompiled header. One compilation, for which somebody waits: neither.
+    enum class Work
+    {
+        edits,
+        once
+    };
+
+    explicit LiveCompiler (Work w = Work::edits) : work (w) {}
     ~LiveCompiler();
     LiveCompiler (const LiveCompiler&) = delete;
     LiveCompiler& operator= (const LiveCompiler&) = delete;
@@ -55,6 +62,7 @@ private:
     std::vector<std::filesystem::path> filesRead() const;
     std::filesystem::path commonHeader() const { return folder / "common.hpp"; }
 
+    const Work work;
     std::filesystem::path folder;   // empty until something is compiled
     LiveSource source;
     std::unique_ptr<BackgroundProgram> program;

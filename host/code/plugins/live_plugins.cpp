@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "live_plugins.hpp"
+#include "compiler_output.hpp"
 #include "declarations.hpp"
 
 #include <tactus/file/text_file.hpp>
@@ -131,11 +132,13 @@ Messages compileHeader (const fs::path& header, const fs::path& plugin)
 {
     const auto source = liveHeader (header);
     if (! source) return { source.error() };
-    LiveCompiler compiler;
+    LiveCompiler compiler { LiveCompiler::Work::once };
     if (auto refused = compiler.start (*source); ! refused) return { std::move (refused).error() };
     auto output = compiler.finished();
     for (; ! output; output = compiler.finished())
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
+    for (auto& m : output->messages)
+        m.remedy = "correct the C++ code and compile it again; what is loaded stays as it is";
     if (! output->messages.empty()) return std::move (output->messages);
     std::error_code failed;
     fs::copy_file (output->plugin, plugin, fs::copy_options::overwrite_existing, failed);
@@ -151,7 +154,7 @@ LivePlugins::RebuiltPlugin loadLive (const fs::path& plugin, const fs::path& cod
     {
         news.messages.push_back (std::move (library).error());
         news.messages.back().where = code.string();
-        news.messages.back().remedy = "correct the C++ code and save it; the previous version keeps running";
+        news.messages.back().remedy = correct_and_save;
         return news;
     }
     news.types = (*library)->types (news.messages, layout);

@@ -105,8 +105,8 @@ TACTUS_API tactus_result tactus_plugins_load (const char* path, tactus_messages*
 TACTUS_API tactus_result tactus_plugins_replace (const char* plugin, tactus_messages*);
 
 /** Compiles a header that ends with a line TACTUS_NODE into the file `plugin`, as the option --live of `tactus play` does, but does not load it. Waits
- *  for the compiler, some ten seconds. It needs a C++20 compiler and the development files of Tactus: ids live/compile, live/no_compiler,
- *  live/no_headers, live/no_node, live/foreign. [main thread] */
+ *  for the compiler, which takes some seconds at the priority of this program. It needs a C++20 compiler and the development files of Tactus: ids
+ *  live/compile, live/no_compiler, live/no_headers, live/no_node, live/foreign. [main thread] */
 TACTUS_API tactus_result tactus_plugins_compile (const char* header, const char* plugin, tactus_messages*);
 
 /* ---------------------------------------------------------------------------- What the command line finds out, as JSON */
