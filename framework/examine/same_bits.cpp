@@ -178,7 +178,7 @@ std::string stateFault (const NodeType& type, unsigned seed)
     type.serialize (one.node.get(), archive);
     if (archive.isRefused()) return archive.refusal();
     if (const auto why = clone.restore (bytes); ! why.empty()) return "its own state is refused: " + why;
-    for (int k = 0; k < 50; ++k)
+    for (int k = 0; k < 200; ++k)
     {
         tickBoth (true);
         if (! sameBits (saved.outs(), restored.outs())) return say ("tick ", k + 1, " after a state was restored gives other bits than the saved instance");

@@ -17,7 +17,7 @@ import unittest.mock
 
 import numpy as np
 import tactus
-from support import ROOT, TestCase
+from support import ROOT, TestCase, parts, with_checksum
 from tactus import _library
 
 OBJECTS = pathlib.Path(os.environ.get("TACTUS_BUILD") or "/nowhere") / "tests/plugins/objects"
@@ -46,6 +46,15 @@ def forces(graph):
 
 def expected(slope=1.0):
     return slope * 1e-3 * np.arange(1.0, 11.0)
+
+
+def counting():
+    """An engine with a node in C++ and one in C, from plugins, and one that is compiled in."""
+    graph = growing("live.growing")
+    graph.add_node("swing", "signal.lfo")
+    graph.add_node("count", "c.twice")
+    graph.connect("swing.out", "count.in")
+    return tactus.Engine(graph, devices={"stylus": "gesture:circle"})
 
 
 def elsewhere(code, **variables):
@@ -89,7 +98,7 @@ class Plugins(TestCase):
         plugin.chmod(0o666)
         self.fails("plugin/foreign", tactus.load_plugins, plugin)
         self.fails("plugin/foreign", tactus.load_plugins, self.folder)
-        self.assertNotIn("c.twice", tactus.nodes())
+        self.assertNotIn(str(plugin), [sheet.get("plugin") for sheet in tactus.nodes().values()])
         self.fails("plugin/no_folder", tactus.load_plugins, self.folder / "nothing")
         two = self.fails("plugin/two_ids", tactus.load_plugins, OBJECTS / "five_nodes.tactus")
         self.assertEqual(len(two.messages), 5)
@@ -136,6 +145,51 @@ print({{s['plugin'] for s in __import__('json').loads(tactus._tactus.nodes_json(
         status, said = elsewhere(code)
         self.assertEqual(status, 1)
         self.assertIn("plugin/quarantined", said)
+
+    def test_a_run_with_nodes_in_c_and_cpp_goes_on_where_it_was_saved(self):
+        tactus.load_plugins(OBJECTS / "saves.tactus")
+        tactus.load_plugins(OBJECTS / "live_node.tactus")
+        run, other = counting(), counting()
+        run.step(n=100)
+        other.step(n=33)
+        state = run.save()
+        self.assertEqual(run.save(), state)   # saving changes nothing
+        run.step(n=50)
+        after = run.save()
+        for again in (other, run):
+            again.restore(state)
+            self.assertEqual(again.save(), state)
+            again.step(n=50)
+            self.assertEqual(again.save(), after)
+
+        head, payload = parts(state)   # a plugin can refuse the bytes, and its reason is told
+        length, reasons = (8).to_bytes(8, "little"), []
+        for place in (at for at in range(len(payload)) if payload[at:at + 8] == length):
+            forged = payload[:place] + (7).to_bytes(8, "little") + payload[place + 8:]
+            reasons.append(self.fails("state/graph", run.restore, with_checksum(head, forged)).text)
+            self.assertEqual(run.save(), after)
+        self.assertIn("the node 'count' does not take its state: 'another size'", "\n".join(reasons))
+
+        kept, here = self.folder / "state", f"sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})\nimport plugins_test"
+        kept.write_bytes(state)
+        for plugin, more, function, expected in (("in_c", b"", "save()", "state/refused the node 'count' has a state that cannot be saved"),
+                                                 ("saves", b"", f"restore(open({str(kept)!r}, 'rb').read())", "done"),
+                                                 ("saves", b"more", f"restore(open({str(kept)!r}, 'rb').read())", "state/graph the state does not fit")):
+            with self.subTest(plugin=plugin, more=more):
+                copy = self.install(plugin, "copy" + more.decode())   # not over a file that is loaded
+                copy.write_bytes(copy.read_bytes() + more)
+                said = elsewhere(f"""
+import sys
+{here}
+tactus.load_plugins({str(copy)!r})
+tactus.load_plugins(plugins_test.OBJECTS / "live_node.tactus")
+try:
+    plugins_test.counting().{function}
+    print("done")
+except tactus.Error as why: print(why.id, why.text)
+""")[1]
+                self.assertIn(expected, said)
+                self.assertEqual("another build" in said, bool(more), said)
 
     def test_the_c_functions_refuse_null(self):
         library = _library.live()

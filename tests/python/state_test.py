@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The state of a run: saved at any tick and restored in the same run or in another one, it goes on with the same bits. Two runs are compared by the bytes of
-their states, which contain every output, every value under way, and what the guards have counted."""
+their states, which contain every output, every value under way, and what the guards have counted. tests/every_node_test.cpp examines each type of node
+alone, and tests/python/plugins_test.py has nodes from plugins."""
 
 import json
+import tempfile
 import unittest
 from collections import deque
 
 import numpy as np
 import tactus
-from support import GRAPHS, ROOT, TestCase, drag, quiet
+from support import GRAPHS, ROOT, TestCase, drag, parts, quiet, with_checksum
 from tactus import _own
 
 PRESETS = sorted(GRAPHS.glob("*.json"))
@@ -23,24 +25,6 @@ def picture(kind, path):
 
 def engine(graph, **options):
     return quiet(tactus.Engine, tactus.Graph(str(graph)) if not isinstance(graph, tactus.Graph) else graph, assets=picture, **options)
-
-
-def fnv1a(data):
-    """contentHash, written apart from it."""
-    value = 0xcbf29ce484222325
-    for byte in data:
-        value = (value ^ byte) * 0x100000001b3 % 2**64
-    return b"%016x" % value
-
-
-def parts(state):
-    """The lines with the head, and the bytes behind the checksum."""
-    head = state.index(b"\n", state.index(b"\n") + 1) + 1
-    return state[:head], state[head + 16:]
-
-
-def with_checksum(head, payload):
-    return head + fnv1a(payload) + payload
 
 
 class EveryPreset(TestCase):
@@ -75,58 +59,6 @@ class EveryPreset(TestCase):
                     one.step(n=100)
                 self.assertEqual(run.save(), fresh.save())
         self.assertGreaterEqual(total, SAVES)
-
-
-class EveryNode(TestCase):
-    """Each type alone, with random inputs. A part that a node leaves out of its state shows when a run with another past restores it."""
-    SIZES = {"m": 2e-3, "rad": 0.5, "N": 2.0, "m/s": 0.5}
-
-    @staticmethod
-    def inputs_of(sheet):
-        """By name, the width and the row of each input; two entries of each list."""
-        for row in sheet["inputs"]:
-            for name in [f"n.{row['id']}[0]", f"n.{row['id']}[1]"] if row.get("array") else ["n." + row["id"]]:
-                yield name, len(row.get("components", "x")), row
-
-    def rows(self, sheet, random, n):
-        walk = {}
-        for name, width, row in self.inputs_of(sheet):
-            values = np.cumsum(self.SIZES.get(row["unit"], 1.0) / 10 * random.normal(size=(n, width)), axis=0)
-            if row.get("quantity") == "hit":
-                values = np.abs(values) * (random.random((n, 1)) < 0.1)
-            walk[name] = values[:, 0] if width == 1 else values
-        return walk or None
-
-    def make(self, kind, sheet):
-        graph = tactus.Graph(name="one", rate=2000)
-        if kind.startswith("device."):
-            graph.add_node("n", kind, role="tool")
-            graph.set_device("tool", {"driver": "sim", "hand": {"stiffness": 300.0, "damping": 2.0, "path": "circle"}})
-        else:
-            graph.add_node("n", kind)
-        return engine(graph, feed={name: np.zeros(3) if width == 3 else 0.0 for name, width, _ in self.inputs_of(sheet)})
-
-    def test_each_type_goes_on_where_it_was_saved(self):
-        left_out = {}
-        for kind, sheet in tactus.nodes().items():
-            with self.subTest(type=kind):
-                random = np.random.default_rng(5)
-                try:
-                    run, other = self.make(kind, sheet), self.make(kind, sheet)
-                except tactus.Error as why:   # it needs settings, which presets have
-                    left_out[kind] = str(why)
-                    continue
-                for one, n in ((run, 150), (other, 90)):
-                    one.step(self.rows(sheet, random, n), n=n)
-                state = run.save()
-                other.restore(state)
-                self.assertEqual(other.save(), state)
-                for _ in range(3):
-                    rows = self.rows(sheet, random, 100)
-                    for one in (run, other):
-                        one.step(rows, n=100)
-                    self.assertEqual(run.save(), other.save())
-        self.assertLess(len(left_out), 4, left_out)
 
 
 class Count(tactus.Node):
@@ -373,6 +305,20 @@ class Uses(TestCase):
                 self.same_bits(play(clone, path[30:]), expected)
                 run.restore(state)
                 self.same_bits(play(run, path[30:]), expected)
+
+    def test_a_trace_and_a_gesture_go_on_where_they_were(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as trace:
+            trace.write("t,x,y,z\n" + "".join(f"{k / 100},{k % 7 / 1e4},0,{-k % 5 / 1e4}\n" for k in range(200)))
+            trace.flush()
+            for device in (f"trace:{trace.name}", "gesture:circle"):
+                with self.subTest(device=device):
+                    run, clone = (engine(GRAPHS / "dry_wood.json", devices={"stylus": device}) for _ in range(2))
+                    run.step(n=500)
+                    state = run.save()
+                    run.step(n=300)
+                    clone.restore(state)
+                    clone.step(n=300)
+                    self.assertEqual(clone.save(), run.save())
 
     def test_what_was_set_before_the_state_is_in_it(self):
         run, other = engine(drag(), feed={"drag.position": np.zeros(3)}), engine(drag(), feed={"drag.position": np.zeros(3)})

@@ -62,6 +62,24 @@ def pixels(path):
     return np.array(png_to_pgm.pixels(path), np.uint8)
 
 
+def fnv1a(data):
+    """contentHash, written apart from it."""
+    value = 0xcbf29ce484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001b3 % 2**64
+    return b"%016x" % value
+
+
+def parts(state):
+    """Of a state of a run: the lines with the head, and the bytes behind the checksum."""
+    head = b"".join(state.splitlines(keepends=True)[:4])
+    return head, state[len(head) + 16:]
+
+
+def with_checksum(head, payload):
+    return head + fnv1a(payload) + payload
+
+
 class TestCase(unittest.TestCase):
     @functools.cached_property
     def folder(self):
