@@ -8,14 +8,13 @@
 #include <tactus/kit/state_archive.hpp>
 #include <tactus/text/quote.hpp>
 
-#include <cstring>
+#include <array>
 
 namespace tactus
 {
 
 namespace
 {
-constexpr std::string_view magic = "tactus state\n", version = TACTUS_LIBRARY_VERSION;
 constexpr std::uint32_t state_format = 2;   // of what this file writes
 
 std::string_view textOf (std::span<const std::byte> bytes) noexcept { return { reinterpret_cast<const char*> (bytes.data()), bytes.size() }; }
@@ -24,13 +23,6 @@ void append (std::vector<std::byte>& to, std::string_view text)
 {
     const auto* bytes = reinterpret_cast<const std::byte*> (text.data());
     to.insert (to.end(), bytes, bytes + text.size());
-}
-
-/// The first line of a state: everything that must be the same where it is restored.
-std::string headOf (std::string_view graph_hash, double rate_hz, std::string_view devices_hash)
-{
-    return std::string (magic) + std::to_string (state_format) + " " + std::string (version) + " " + std::to_string (math::revision) + " "
-           + std::string (graph_hash) + " " + std::to_string (rate_hz) + " " + std::string (devices_hash) + "\n";
 }
 
 /// The hash of the axes, buttons, signals and brakes of the roles. Limits may differ, because a state does not undo them.
@@ -56,31 +48,24 @@ constexpr const char* state_remedy = "leave it out of runs that are saved, or le
 
 Message refused (std::string id, std::string why, std::string remedy) { return Message::error (std::move (id), "", std::move (why), std::move (remedy)); }
 
-/// Why a state with another head does not fit.
-Message otherHead (std::string_view state, std::string_view expected)
+/// How a state begins: a line for each thing that must be the same where it is restored, and what is wrong if it is not.
+struct HeadLine
 {
-    if (! state.starts_with (magic))
-        return refused ("state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged");
-    const auto wordOf = [] (std::string_view head, int n) {
-        head.remove_prefix (magic.size());
-        for (; n > 0 && head.find (' ') != std::string_view::npos; --n)
-            head.remove_prefix (head.find (' ') + 1);
-        return head.substr (0, head.find_first_of (" \n"));
-    };
-    if (wordOf (state, 0) != wordOf (expected, 0) && wordOf (state, 1) == wordOf (expected, 1))
-        return refused ("state/format", "the state was saved by another build of this version of Tactus, whose states have another form",
-                        "save it again with this build");
-    for (int n = 0; n < 3; ++n)
-        if (wordOf (state, n) != wordOf (expected, n))
-            return refused ("state/format",
-                            "the state was saved by another version of Tactus, " + quote (wordOf (state, 1).substr (0, 20)) + "; this is " + quote (version),
-                            "save it again with this version: a state is not a file format that outlives a version");
-    for (int n = 3; n < 5; ++n)
-        if (wordOf (state, n) != wordOf (expected, n))
-            return refused ("state/graph", "the state is that of another graph, or of this one at another rate",
-                            "restore it into a run of the graph that it was saved from");
-    return refused ("state/graph", "the state is that of a run with other devices: their axes, efforts, buttons, signals or brakes differ",
-                    "restore it into a run with the same devices");
+    std::string text;
+    const char *id, *why, *remedy;
+};
+
+std::array<HeadLine, 4> headOf (const std::string& graph_hash, double rate_hz, const std::string& devices_hash)
+{
+    return { HeadLine { "tactus state\n", "state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged" },
+             HeadLine { std::to_string (state_format) + " " + TACTUS_LIBRARY_VERSION + " " + std::to_string (math::revision) + "\n", "state/format",
+                        "the state was saved by another version or another build of Tactus",
+                        "save it again with this one: a state is not a file format that outlives a version" },
+             HeadLine { graph_hash + " " + std::to_string (rate_hz) + "\n", "state/graph", "the state is that of another graph, or of this one at another rate",
+                        "restore it into a run of the graph that it was saved from" },
+             HeadLine { devices_hash + "\n", "state/graph",
+                        "the state is that of a run with other devices: their axes, efforts, buttons, signals or brakes differ",
+                        "restore it into a run with the same devices" } };
 }
 
 /// Why a state with the same head does not fit. What is left over, or lacks, at the end belongs to the loop.
@@ -132,10 +117,9 @@ Result<std::vector<std::byte>> Run::save (const graph::Graph& graph, const MoreS
     state.reserve (4096);
     StateArchive archive { state };
     serialize (archive, more);
-    if (archive.isRefused())
-        return refused ("state/refused", archive.refusal(), state_remedy);
-    bytes.reserve (head.size() + hash_size + state.size());
-    append (bytes, head);
+    if (archive.isRefused()) return refused ("state/refused", archive.refusal(), state_remedy);
+    for (const auto& line : head)
+        append (bytes, line.text);
     append (bytes, contentHash (textOf (state)));
     bytes.insert (bytes.end(), state.begin(), state.end());
     return bytes;
@@ -149,8 +133,14 @@ Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& gra
     if (running->isEmergency())
         return refused ("state/stopped", "the emergency stop is pressed, which a state does not undo", "rearm the run first, once it is safe");
     const auto head = headOf (hashOf (graph), rate(), hashOfDevices (by_role));
-    if (! textOf (bytes).starts_with (head)) return otherHead (textOf (bytes), head);
-    const auto rest = bytes.subspan (head.size());
+    auto rest = bytes;
+    for (const auto& line : head)
+    {
+        const auto text = textOf (rest);
+        if (! text.starts_with (line.text))
+            return refused (line.id, line.why + (": it has " + quote (text.substr (0, text.find ('\n')))), line.remedy);
+        rest = rest.subspan (line.text.size());
+    }
     if (rest.size() < hash_size || textOf (rest.first (hash_size)) != contentHash (textOf (rest.subspan (hash_size))))
         return refused ("state/damaged", "the state is cut off or has been changed", "give the bytes that save() returned, unchanged");
 
