@@ -48,7 +48,7 @@ constexpr const char* state_remedy = "leave it out of runs that are saved, or le
 
 Message refused (std::string id, std::string why, std::string remedy) { return Message::error (std::move (id), "", std::move (why), std::move (remedy)); }
 
-/// How a state begins: a line for each thing that must be the same where it is restored, and what is wrong if it is not.
+/// A line of the beginning of a state: a thing that must be the same where it is restored, and what is wrong if it is not.
 struct HeadLine
 {
     std::string text;

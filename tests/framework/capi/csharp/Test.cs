@@ -122,7 +122,8 @@ static class Test
         {
             Console.WriteLine (graph.RateHz);
             graph.AddNode ("g", "signal.gain");
-            Console.WriteLine (graph.Text.Contains ("größe") + " " + graph.Text.Contains ("signal.gain") + " " + graph.Undo() + " " + graph.Text.Contains ("signal.gain"));
+            Func<string, bool> has = text => graph.Text.Contains (text);
+            Console.WriteLine (has ("größe") + " " + has ("signal.gain") + " " + graph.Undo() + " " + has ("signal.gain"));
             try { graph.AddNode ("g", "no.such_node"); }
             catch (TactusException e) { Console.WriteLine (e.Messages[0].Id); }
             var file = Path.Combine (folder, "größe und länge.json");

@@ -106,7 +106,8 @@ def main():
         folder = pathlib.Path(name)
 
         def build(program, *files):
-            subprocess.run(["mcs", "-unsafe", "-warnaserror+", "-d:UNITY_EDITOR", f"-out:{folder / program}", sources / "framework/capi/Tactus.cs", *files], check=True)
+            subprocess.run(["mcs", "-unsafe", "-warnaserror+", "-d:UNITY_EDITOR", f"-out:{folder / program}", sources / "framework/capi/Tactus.cs", *files],
+                           check=True)
 
         def lines(*words):
             ran = subprocess.run(["mono", *words], cwd=folder, capture_output=True, text=True, timeout=300, check=False,
