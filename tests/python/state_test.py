@@ -11,7 +11,7 @@ from collections import deque
 
 import numpy as np
 import tactus
-from support import GRAPHS, ROOT, TestCase, drag, parts, quiet, with_checksum
+from support import GRAPHS, TestCase, drag, parts, quiet, with_checksum
 from tactus import _own
 
 PRESETS = sorted(GRAPHS.glob("*.json"))
@@ -265,18 +265,6 @@ class Refusals(TestCase):
         live.start(duration=0.01)
         self.fails("engine/not_now", live.save)
         live.stop()
-
-
-class Page(TestCase):
-    def test_the_lines_in_cpp_are_those_of_the_example(self):
-        """tests/install/run.sh builds and runs the example."""
-        page = (ROOT / "docs/states.md").read_text(encoding="utf-8")
-        block = page.split("parts of docs/examples/steps/main.cpp")[1].split("```cpp\n")[1].split("```")[0]
-        example = (ROOT / "docs/examples/steps/main.cpp").read_text(encoding="utf-8").split("\n")
-        parts = [part.split("\n") for part in block.strip("\n").split("\n\n")]
-        self.assertGreater(sum(map(len, parts)), 9)
-        for line in (line for part in parts for line in part):
-            self.assertIn(line, example)
 
 
 class Uses(TestCase):
