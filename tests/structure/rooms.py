@@ -24,8 +24,8 @@ LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "f
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
 HOST = {"base": set(), "code": {"base"}, "devices": {"base", "code"}, "drivers": {"base", "devices"}, "tools": {"base", "code", "devices", "drivers"},
         "cli": {"base", "code", "devices", "drivers", "tools"}, "app": {"base", "code", "devices", "drivers", "tools"}}
-DRIVERS = ["base/platform/peer_lock.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
-           "devices/hid/calibration.hpp", "devices/hid/slow_adapter.hpp", "devices/hid/vibration_tracker.hpp"]
+DRIVERS = ["base/platform/peer_lock.hpp", "base/platform/wire_file.hpp", "devices/device_plugins/driver_answer.hpp", "devices/device_plugins/tactus_device.h",
+           "devices/hid/calibration.hpp", "devices/hid/usb_adapter.hpp", "devices/hid/vibration_tracker.hpp"]
 MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
 PANELS = pathlib.PurePath("host/app/window/panels.hpp")
 PAGE = "docs/architecture.md"

@@ -4,13 +4,13 @@
 
 #include <host/base/platform/device_file.hpp>
 #include <host/base/platform/signals.hpp>
+#include <host/base/platform/wire_file.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/hid_link/capture.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/hid_link/udev_rule.hpp>
-#include <host/devices/hid_link/wire_file.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -10,7 +10,7 @@
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/audio/card.hpp>
-#include <host/devices/hid/slow_adapter.hpp>
+#include <host/devices/hid/usb_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
 #include <host/devices/hid_link/hid_device.hpp>

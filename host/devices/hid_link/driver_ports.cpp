@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "driver_ports.hpp"
 
+#include <host/devices/hid/usb_adapter.hpp>
+
 #include <algorithm>
-#include <fstream>
-#include <system_error>
+#include <cstddef>
 
 namespace tactus::host::hid
 {
 
 namespace
 {
-namespace fs = std::filesystem;
-
 constexpr DriverPort known[] { { "0403", "cb48", "falcon", "a Novint Falcon" } };
 
 bool isOf (const DriverPort& device, const SerialPort& port) { return port.vid == device.vid && port.pid == device.pid; }
-
-std::string firstWord (const fs::path& file)
-{
-    std::ifstream in (file);
-    std::string word;
-    in >> word;
-    return word;
-}
 }   // namespace
 
 const DriverPort* driverOf (const SerialPort& port)
@@ -31,17 +22,14 @@ const DriverPort* driverOf (const SerialPort& port)
     return found != std::end (known) ? found : nullptr;
 }
 
-std::string withoutPort (std::span<const SerialPort> ports, const fs::path& usb)
+std::string withoutPort (std::span<const SerialPort> ports, const std::filesystem::path& usb)
 {
     std::string all;
     for (const auto& device : known)
     {
-        auto left = -std::ranges::count_if (ports, [&] (const auto& port) { return isOf (device, port); });
-        std::error_code failed;
-        for (fs::directory_iterator it (usb, failed), end; ! failed && it != end; it.increment (failed))
-            left += firstWord (it->path() / "idVendor") == device.vid && firstWord (it->path() / "idProduct") == device.pid ? 1 : 0;
+        const auto with_port = static_cast<std::size_t> (std::ranges::count_if (ports, [&] (const auto& port) { return isOf (device, port); }));
         const auto id = std::string (device.vid) + " " + device.pid;
-        if (left > 0)
+        if (usbEntries (usb, device.vid, device.pid).size() > with_port)
             all += "USB device " + id + "   " + device.what + "\n    the kernel does not know it as a serial port: sudo sh -c 'modprobe ftdi_sio && echo " + id
                    + " > /sys/bus/usb-serial/drivers/ftdi_sio/new_id'\n    or, with libftdi: --device ROLE=" + device.driver + ":usb\n";
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "wire_file.hpp"
-
+#include <host/base/platform/wire_file.hpp>
 #include <host/devices/hid/report/framing.hpp>
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "force_feedback.hpp"
 #include "hid_device.hpp"
 #include "profile_library.hpp"
-#include "wire_file.hpp"
 #include "wires.hpp"
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -11,6 +10,7 @@
 #include <tactus/text/message.hpp>
 #include <tactus/text/object_reader.hpp>
 
+#include <host/base/platform/wire_file.hpp>
 #include <host/devices/hid/physics.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -3,7 +3,7 @@
 #include "support/no_system_calls.hpp"
 
 #include <host/base/platform/peer_lock.hpp>
-#include <host/devices/hid_link/wire_file.hpp>
+#include <host/base/platform/wire_file.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,6 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using hid::WireFile;
 
 namespace
 {

@@ -33,6 +33,7 @@
 
 using namespace tactus;
 using namespace tactus::host::hid;
+using host::WireFile;
 using namespace std::chrono_literals;
 
 namespace

@@ -3,7 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <host/devices/hid/slow_adapter.hpp>
+#include <host/devices/hid/usb_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
 #include <host/devices/hid_link/serial_ports.hpp>

@@ -22,7 +22,7 @@
 #include <system_error>
 #endif
 
-namespace tactus::host::hid
+namespace tactus::host
 {
 
 #if defined(__linux__)
@@ -57,25 +57,27 @@ void excludeOthers (int file) noexcept
 }
 
 /// Some adapters collect bytes for up to 16 ms, unless they are asked not to.
-void askForLowLatency (int file) noexcept
+void setLatency (int file, WireFile::Latency latency) noexcept
 {
     serial_struct how {};
     if (::ioctl (file, TIOCGSERIAL, &how) != 0) return;
-    how.flags |= ASYNC_LOW_LATENCY;
+    how.flags = latency == WireFile::Latency::low ? how.flags | int { ASYNC_LOW_LATENCY } : how.flags & ~int { ASYNC_LOW_LATENCY };
     static_cast<void> (::ioctl (file, TIOCSSERIAL, &how));   // not every adapter can
 }
 }   // namespace
 
-Result<WireFile> WireFile::openSerial (const std::string& path, int baud)
+Result<WireFile> WireFile::openSerial (const std::string& path, int baud, Others others)
 {
     const int file = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (file < 0) return failure (path, errno);
+    if (const int error = errno; file < 0)
+        return Message::error ("device/wire", path, std::generic_category().message (error),
+                               error == EACCES ? "join the group of " + path + " (on Debian: sudo adduser $USER dialout)" : std::string());
     WireFile line (file, Kind::line);
     if (! makeRaw (file, baud))
         return Message::error ("device/wire", path, "it is not a serial line: " + std::generic_category().message (errno),
                                "name a serial port, such as /dev/ttyACM0");
-    excludeOthers (file);
-    askForLowLatency (file);
+    if (others == Others::excluded) excludeOthers (file);
+    setLatency (file, Latency::low);
     line.dropInput();
     return line;
 }
@@ -218,6 +220,20 @@ void WireFile::dropInput() noexcept
     if (kind == Kind::line) static_cast<void> (::ioctl (file, TCFLSH, TCIFLUSH));   // what it keeps does no harm
 }
 
+void WireFile::change (int baud, Latency latency) noexcept
+{
+    setLatency (file, latency);
+    makeRaw (file, baud);
+    static_cast<void> (::ioctl (file, TCFLSH, TCIOFLUSH));
+}
+
+void WireFile::signal (bool is_ready) noexcept
+{
+    const int off = TIOCM_RTS | (is_ready ? 0 : TIOCM_DTR), on = is_ready ? TIOCM_DTR : 0;
+    static_cast<void> (::ioctl (file, TIOCMBIC, &off));   // a pseudo-terminal has no such lines
+    static_cast<void> (::ioctl (file, TIOCMBIS, &on));
+}
+
 #else
 
 namespace
@@ -225,7 +241,7 @@ namespace
 Message none() { return Message::error ("device/wire", {}, "there are no such wires on this system"); }
 }   // namespace
 
-Result<WireFile> WireFile::openSerial (const std::string&, int) { return none(); }
+Result<WireFile> WireFile::openSerial (const std::string&, int, Others) { return none(); }
 Result<> WireFile::checkUdp (const std::string&) { return {}; }
 Result<WireFile> WireFile::connectUdp (const std::string&) { return none(); }
 Result<WireFile> WireFile::makeTerminal (std::string&) { return none(); }
@@ -235,7 +251,9 @@ WireFile::Outcome WireFile::read (std::span<std::uint8_t>, Clock::time_point) no
 WireFile::Sent WireFile::write (std::span<const std::uint8_t>) noexcept { return {}; }
 std::size_t WireFile::unsent() const noexcept { return 0; }
 void WireFile::dropInput() noexcept {}
+void WireFile::change (int, Latency) noexcept {}
+void WireFile::signal (bool) noexcept {}
 
 #endif
 
-}   // namespace tactus::host::hid
+}   // namespace tactus::host

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/base/platform/report_file.hpp>
+#include "report_file.hpp"
 
 #include <tactus/text/result.hpp>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace tactus::host::hid
+namespace tactus::host
 {
 
 /// An open serial line or UDP socket, or the far end of one. Nothing blocks except read(), and nothing allocates or throws once it is open. Works
@@ -23,8 +23,22 @@ public:
     using Clock = ReportFile::Clock;
     using Outcome = ReportFile::Outcome;
 
+    /// The other programs, but for those of root: may they open a line as well? Of a pseudo-terminal, they always may.
+    enum class Others
+    {
+        excluded,
+        admitted
+    };
+
+    /// The time for which the adapter of a line keeps bytes, if it is one that can be told: as short as it can, or as long as it likes.
+    enum class Latency
+    {
+        low,
+        usual
+    };
+
     /// A serial line that passes all bytes unchanged: 8 bits, no parity, no flow control. Also works on a pseudo-terminal.
-    static Result<WireFile> openSerial (const std::string& path, int baud);
+    static Result<WireFile> openSerial (const std::string& path, int baud, Others = Others::excluded);
 
     /// Checks that an address is one for connectUdp(): numbers, with a port from 1 to 65535.
     static Result<> checkUdp (const std::string& address);
@@ -63,6 +77,12 @@ public:
     /// Drops the bytes that have come so far.
     void dropInput() noexcept;
 
+    /// Gives a serial line another speed, and drops the bytes that wait in either direction.
+    void change (int baud, Latency) noexcept;
+
+    /// Sets the control lines of a serial line: RTS off, and DTR on or off.
+    void signal (bool is_ready) noexcept;
+
     int descriptor() const noexcept { return file; }
 
 private:
@@ -89,4 +109,4 @@ private:
     std::uint32_t peer_size = 0;
 };
 
-}   // namespace tactus::host::hid
+}   // namespace tactus::host
