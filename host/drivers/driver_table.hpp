@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace tactus::host
 {
@@ -92,6 +93,23 @@ private:
         });
     }
 };
+
+/// The answer of a call that fails, with its reason.
+inline std::int32_t because (std::string& why, std::string reason, std::int32_t answer = TACTUS_DEVICE_GONE)
+{
+    why = std::move (reason);
+    return answer;
+}
+
+/// Tells the names of the axes and buttons of a device.
+template <std::size_t axis_count, std::size_t button_count>
+void nameParts (tactus_device_about& about, const char* const (&axes)[axis_count], const char* const (&buttons)[button_count])
+{
+    about.axes = axes;
+    about.axis_count = axis_count;
+    about.buttons = buttons;
+    about.button_count = button_count;
+}
 
 template <typename Device, std::size_t n>
 constexpr tactus_device_driver driverTable (const char* name, const char* about, const char* const (&keys)[n])

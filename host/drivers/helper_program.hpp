@@ -2,13 +2,18 @@
 #pragma once
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>   // NOLINT: sigset_t
 #include <spawn.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -38,37 +43,87 @@ inline std::filesystem::path findHelper (const void* in_driver, const std::strin
     return {};
 }
 
-/// Starts a helper, in a session of its own, so that no key of the terminal reaches it. It gets copies of `files`, whose numbers follow the arguments. Returns
-/// why that failed; empty if it runs, as `process`.
-inline std::string startHelper (const std::filesystem::path& file, std::vector<std::string> arguments, const std::vector<int>& files, char* const* environment,
-                                pid_t& process)
+/// A program of a driver's own, for a library that might not end well. Each of both knows by a pipe when the other one is gone. [one thread]
+class HelperProcess
 {
-    posix_spawn_file_actions_t copies;
-    posix_spawnattr_t how;
-    sigset_t none;
-    ::sigemptyset (&none);
-    ::posix_spawn_file_actions_init (&copies);
-    ::posix_spawnattr_init (&how);
-    arguments.insert (arguments.begin(), file.filename().string());
-    int copy = files.empty() ? 0 : *std::ranges::max_element (files);   // above all files that are copied
-    for (const int each : files)
+public:
+    HelperProcess() = default;
+    HelperProcess (const HelperProcess&) = delete;
+    HelperProcess& operator= (const HelperProcess&) = delete;
+
+    /// The helper sees that it shall end, or else is killed.
+    ~HelperProcess()
     {
-        ::posix_spawn_file_actions_adddup2 (&copies, each, ++copy);
-        arguments.push_back (std::to_string (copy));
+        constexpr int patience = 150, nap_ms = 20;
+        if (to_helper >= 0) ::close (to_helper);
+        for (int naps = 0; process > 0 && ! hasEnded (nap_ms) && naps < patience; ++naps)
+        {
+        }
+        if (process > 0 && ! hasEnded (0)) kill();
+        if (process > 0) ::waitpid (process, nullptr, 0);
+        if (from_helper >= 0) ::close (from_helper);
     }
-    std::vector<char*> texts;
-    for (auto& argument : arguments)
-        texts.push_back (argument.data());
-    texts.push_back (nullptr);
-    ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
-    ::posix_spawnattr_setsigmask (&how, &none);
-    pid_t started = -1;
-    const int error = ::posix_spawn (&started, file.c_str(), &copies, &how, texts.data(), environment);
-    ::posix_spawnattr_destroy (&how);
-    ::posix_spawn_file_actions_destroy (&copies);
-    if (error != 0) return file.string() + " cannot be started: " + std::generic_category().message (error);
-    process = started;
-    return {};
-}
+
+    /// Starts it, in a session of its own, so that no key of the terminal reaches it. After its arguments come the numbers of its copies of `files`, of a
+    /// pipe that ends with this object, and of one for its first line. Returns why that failed; empty if it runs. `in_driver`: as for findHelper().
+    std::string start (const void* in_driver, const std::string& name, std::vector<std::string> arguments, std::vector<int> files, char* const* environment)
+    {
+        std::string why;
+        const auto program = findHelper (in_driver, name, why);
+        if (program.empty()) return why;
+        std::array<int, 2> towards { -1, -1 }, from { -1, -1 };
+        if (::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0) return "no pipes for " + name;
+        to_helper = towards[1];
+        from_helper = from[0];
+        files.insert (files.end(), { towards[0], from[1] });
+        posix_spawn_file_actions_t copies;
+        posix_spawnattr_t how;
+        sigset_t none;
+        ::sigemptyset (&none);
+        ::posix_spawn_file_actions_init (&copies);
+        ::posix_spawnattr_init (&how);
+        arguments.insert (arguments.begin(), name);
+        int copy = *std::ranges::max_element (files);   // above all files that are copied
+        for (const int each : files)
+        {
+            ::posix_spawn_file_actions_adddup2 (&copies, each, ++copy);
+            arguments.push_back (std::to_string (copy));
+        }
+        std::vector<char*> texts;
+        for (auto& argument : arguments)
+            texts.push_back (argument.data());
+        texts.push_back (nullptr);
+        ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+        ::posix_spawnattr_setsigmask (&how, &none);
+        const int error = ::posix_spawn (&process, program.c_str(), &copies, &how, texts.data(), environment);
+        if (error != 0) process = -1;
+        ::posix_spawnattr_destroy (&how);
+        ::posix_spawn_file_actions_destroy (&copies);
+        for (const int its : { towards[0], from[1] })
+            ::close (its);
+        return error != 0 ? program.string() + " cannot be started: " + std::generic_category().message (error) : std::string();
+    }
+
+    /// What it says first, up to the end of the line; empty if it dies without a line.
+    std::optional<std::string> firstLine() const
+    {
+        std::string said;
+        for (char byte = 0; ::read (from_helper, &byte, 1) == 1; said += byte)
+            if (byte == '\n') return said;
+        return std::nullopt;
+    }
+
+    bool hasEnded (int wait_ms) const
+    {
+        pollfd end { from_helper, POLLIN, 0 };
+        return ::poll (&end, 1, wait_ms) > 0;
+    }
+
+    void kill() const { ::kill (process, SIGKILL); }
+
+private:
+    int to_helper = -1, from_helper = -1;
+    pid_t process = -1;
+};
 
 }   // namespace tactus::host

@@ -6,7 +6,9 @@
 #include <tactus/text/object_reader.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <string>
+#include <string_view>
 
 namespace tactus::host
 {
@@ -24,6 +26,14 @@ std::string readKeys (const tactus_device_description& given, std::string& port,
     port = given.port != nullptr ? given.port : "";
     const auto wrong = std::ranges::find (messages, Message::Severity::error, &Message::severity);
     return wrong != messages.end() ? wrong->where + ": " + wrong->text + "; " + wrong->remedy : std::string();
+}
+
+/// Reads a number from 0 to `most`, which is all of the text. False if it is none.
+template <typename Integer>
+bool readNumber (std::string_view text, Integer most, Integer& to)
+{
+    const auto read = std::from_chars (text.data(), text.data() + text.size(), to);
+    return read.ec == std::errc() && read.ptr == text.data() + text.size() && to >= 0 && to <= most;
 }
 
 }   // namespace tactus::host

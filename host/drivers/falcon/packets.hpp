@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,18 +14,12 @@ namespace tactus::host::falcon
 /// marks is written as its value + 'A'.
 using Packet = std::array<std::uint8_t, 16>;
 
-enum Bits : std::uint8_t
-{
-    homing = 1,   // to the Falcon, in every packet: keeps its homing
-    green = 2,
-    red = 8,
-    homed = 0x70   // from the Falcon: each encoder has passed its mark. The lowest four are the buttons
-};
+constexpr unsigned homing = 1, green = 2, red = 8;   // bits to the Falcon; the first one, in every packet, keeps its homing
+constexpr unsigned homed = 0x70;                     // from it: each encoder has passed its mark. The lowest four are the buttons
 
 constexpr Packet packetOf (const std::array<int, 3>& motors, unsigned bits)
 {
-    Packet p {};
-    p.front() = '<';
+    Packet p { '<' };
     p.back() = '>';
     for (std::size_t i = 0; i < 12; ++i)
         p[1 + i] = static_cast<std::uint8_t> ('A' + ((static_cast<unsigned> (motors[i / 4]) >> 4 * (i % 4)) & 0xfu));
@@ -52,19 +47,17 @@ public:
     /// The report that ends with this byte, if one does.
     std::optional<Report> take (std::uint8_t byte)
     {
-        for (std::size_t i = 0; i + 1 < last.size(); ++i)
-            last[i] = last[i + 1];
+        std::shift_left (last.begin(), last.end(), 1);
         last.back() = byte;
-        if (last.front() != '<' || byte != '>' || last[14] < 'A' || last[14] > 'P' || last[13] < 'A' || last[13] > 'A' + 0x7f) return std::nullopt;
+        if (last.front() != '<' || byte != '>') return std::nullopt;
         Report report { {}, static_cast<unsigned> (last[13] - 'A') };
         for (std::size_t i = 0; i < 12; ++i)
-        {
-            const int nibble = last[1 + i] - 'A';
-            if (nibble < 0 || nibble > 15) return std::nullopt;
-            report.counts[i / 4] |= nibble << 4 * (i % 4);
-        }
+            report.counts[i / 4] |= (last[1 + i] - 'A') << 4 * (i % 4);
         for (int& count : report.counts)
             count = static_cast<std::int16_t> (count);
+        auto whole = packetOf (report.counts, report.bits);
+        whole[14] = std::clamp<std::uint8_t> (last[14], 'A', 'P');   // which is nothing, but may be anything
+        if (whole != last || report.bits > (homed | 0xf)) return std::nullopt;
         last = {};   // its bytes belong to no other packet
         return report;
     }

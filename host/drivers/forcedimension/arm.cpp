@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <climits>
 #include <memory>
@@ -33,7 +32,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-constexpr auto period = 500us;         // of readings, and of zeros while nothing is asked for: the library compensates the weight only while forces are set
 constexpr auto between_looks = 20ms;   // at the status
 constexpr int most_unseen = 2;
 constexpr auto until_gone = 50ms;      // of failures only
@@ -75,12 +73,6 @@ struct WantedArm
     bool calibrate = false;
 };
 
-bool readNumber (std::string_view text, int most, int& to)
-{
-    const auto read = std::from_chars (text.data(), text.data() + text.size(), to);
-    return read.ec == std::errc() && read.ptr == text.data() + text.size() && to >= 0 && to <= most;
-}
-
 /// The number of arms that this program has open. Nothing says that the library would open such an arm only once.
 std::atomic<int> open_arms = 0;
 
@@ -100,8 +92,12 @@ void turn (const double* from, double* to)
     to[2] = from[2];
 }
 
+/// An arm. `period_us`: of readings, and of zeros while nothing is asked for: the library compensates the weight only while forces are set.
+template <int period_us>
 class Arm
 {
+    static constexpr std::chrono::microseconds period { period_us };
+
 public:
     using Wanted = WantedArm;
 
@@ -208,8 +204,7 @@ public:
         const std::lock_guard lock (sending);
         is_resting = is_zero || ! is_enabled;
         if (is_enabled && put (push) >= 0) return TACTUS_DEVICE_OK;
-        why = is_enabled ? dhd->lastError() : "its forces are not enabled";
-        return TACTUS_DEVICE_FAILED;
+        return because (why, is_enabled ? dhd->lastError() : "its forces are not enabled", TACTUS_DEVICE_FAILED);
     }
 
     std::int32_t rest (std::string& why)
@@ -219,8 +214,7 @@ public:
         const std::lock_guard lock (sending);
         is_resting = true;
         if (put ({}) >= 0 || ! is_enabled) return TACTUS_DEVICE_OK;   // nothing pushes before the forces are enabled
-        why = dhd->lastError();
-        return TACTUS_DEVICE_FAILED;
+        return because (why, dhd->lastError(), TACTUS_DEVICE_FAILED);
     }
 
 private:
@@ -431,9 +425,8 @@ private:
 
     std::int32_t leave (std::string& why, std::string reason)
     {
-        why = std::move (reason);
         is_gone = true;
-        return TACTUS_DEVICE_GONE;
+        return because (why, std::move (reason));
     }
 
     /// The parts of a reading besides the position. False if one cannot be read.
@@ -481,9 +474,12 @@ private:
 };
 
 constexpr const char* keys[] { "port", "calibrate" };
+
+template <int period_us>
+constexpr auto table =
+    driverTable<Arm<period_us>> ("forcedimension", "The arms of Force Dimension (omega, delta, sigma, lambda), through the library of their maker.", keys);
 }   // namespace
 
-const tactus_device_driver driver =
-    driverTable<Arm> ("forcedimension", "The arms of Force Dimension (omega, delta, sigma, lambda), through the library of their maker.", keys);
+const tactus_device_driver driver = table<500>, eager_driver = table<0>;
 
 }   // namespace tactus::host::forcedimension

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <host/drivers/makers_library.hpp>
+
 #include <string>
 
 namespace tactus::host::openhaptics
@@ -30,12 +32,19 @@ using HdCallback = unsigned (*) (void*);   ///< 1: call again on the next tick
 
 struct HdFunctions
 {
-#define TACTUS_DECLARE(result, name, parameters) result (*name) parameters = nullptr;
-    TACTUS_HD_FUNCTIONS (TACTUS_DECLARE)
-#undef TACTUS_DECLARE
+    TACTUS_HD_FUNCTIONS (TACTUS_FUNCTION_OF_LIBRARY)
 
-    /// Opens the library of this computer. Returns the reason if that fails, in the words of the system; empty: all functions are there.
-    std::string load();
+    /// Opens the library of this computer. Returns the reason if that fails; empty: all functions are there.
+    std::string load()
+    {
+#if defined(_WIN32)
+        MakersLibrary library { "HD.dll" };   // with 32 and 64 bits
+#else
+        MakersLibrary library { "libHD.so", "libHD.so.3.4", "libHD.so.3.0" };
+#endif
+        TACTUS_HD_FUNCTIONS (TACTUS_NEED_IN_LIBRARY)
+        return library.why().empty() ? std::string() : "the library of OpenHaptics " + library.why();
+    }
 };
 
 /// The numbers that the library gives its parameters, states and errors.

@@ -11,18 +11,13 @@
 #include <host/drivers/rotation_of.hpp>
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -40,9 +35,8 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds until_open = 10s, until_stuck = 1s, until_ended = 3s, until_zero = 200ms;
+constexpr std::chrono::milliseconds until_open = 10s, until_stuck = 1s, until_zero = 200ms;
 constexpr std::int64_t between_looks_ns = 5'000'000;   // at whether the helper lives
 constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium with six motors, as the library tells none
 constexpr const char* program = "openhaptics-helper";
@@ -72,39 +66,27 @@ std::string localeOfNumbers()
     return {};
 }
 
-/// The process that owns the maker's library, for all arms of this program.
-class HelperProcess
+/// The process that owns the maker's library, and the memory of the arms of this program, which it shares.
+class Owner
 {
 public:
     /// The one that runs, or a new one. Null, with the reason, if there is none. [opening thread]
-    static std::shared_ptr<HelperProcess> get (std::string& why)
+    static std::shared_ptr<Owner> get (std::string& why)
     {
-        static std::weak_ptr<HelperProcess> running;
-        if (auto helper = running.lock(); helper != nullptr && ! helper->hasEnded (0) && helper->shared->is_ending == 0) return helper;
-        const auto file = findHelper (&driver, program, why);
-        if (file.empty()) return nullptr;
-        auto helper = std::make_shared<HelperProcess>();
-        why = helper->launch (file);
+        static std::weak_ptr<Owner> running;
+        if (auto owner = running.lock(); owner != nullptr && ! owner->process.hasEnded (0) && owner->shared->is_ending == 0) return owner;
+        auto owner = std::make_shared<Owner>();
+        why = owner->launch();
         if (! why.empty()) return nullptr;
-        running = helper;
-        return helper;
+        running = owner;
+        return owner;
     }
 
-    HelperProcess() = default;
-    HelperProcess (const HelperProcess&) = delete;
-    HelperProcess& operator= (const HelperProcess&) = delete;
-
-    /// The helper sends zeros, ends the library, and then itself.
-    ~HelperProcess()
+    Owner() = default;
+    Owner (const Owner&) = delete;
+    Owner& operator= (const Owner&) = delete;
+    ~Owner()   // the helper, which has the memory as well, sends zeros, ends the library, and then itself
     {
-        if (to_helper >= 0) ::close (to_helper);
-        const auto until = Clock::now() + until_ended;
-        while (process > 0 && ! hasEnded (20) && Clock::now() < until)
-        {
-        }
-        if (process > 0 && ! hasEnded (0)) ::kill (process, SIGKILL);
-        if (process > 0) ::waitpid (process, nullptr, 0);
-        if (life >= 0) ::close (life);
         if (shared != nullptr) ::munmap (shared, sizeof (SharedArms));
     }
 
@@ -126,45 +108,31 @@ public:
     {
         arm.is_wanted = 0;
         const auto until = Clock::now() + until_zero;
-        while (arm.state == SharedArm::ready && ! hasEnded (1) && Clock::now() < until)
+        while (arm.state == SharedArm::ready && ! process.hasEnded (1) && Clock::now() < until)
         {
         }
     }
 
     bool isJoining() const { return shared->is_joining != 0; }
 
-    bool hasEnded (int wait_ms) const
-    {
-        pollfd of_helper { life, POLLIN, 0 };
-        return ::poll (&of_helper, 1, wait_ms) > 0;
-    }
-
-    void kill() const { ::kill (process, SIGKILL); }
-
 private:
-    static std::string reason (const char* what) { return std::string (what) + ": " + std::generic_category().message (errno); }
-
-    std::string launch (const fs::path& file)
+    std::string launch()
     {
         const int memory = ::memfd_create ("tactus-openhaptics", MFD_CLOEXEC);
-        std::array<int, 2> towards { -1, -1 }, from { -1, -1 };
-        std::string why;
-        if (memory < 0 || ::ftruncate (memory, sizeof (SharedArms)) != 0 || ::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0)
-            why = reason ("no memory or pipe for the helper");
-        void* at = why.empty() ? ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0) : MAP_FAILED;
-        if (why.empty() && at == MAP_FAILED) why = reason ("no memory for the helper");
+        void* at = MAP_FAILED;
+        if (memory >= 0 && ::ftruncate (memory, sizeof (SharedArms)) == 0)
+            at = ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
         if (at != MAP_FAILED) shared = static_cast<SharedArms*> (at);
-        if (why.empty()) why = startHelper (file, {}, { memory, towards[0], from[1] }, plainEnvironment().data(), process);   // from[1] closes with it
-        to_helper = towards[1];
-        life = from[0];
-        for (const int each : { memory, towards[0], from[1] })
-            if (each >= 0) ::close (each);
+        auto why = shared == nullptr ? "no memory for the helper: " + std::generic_category().message (errno)
+                                     : process.start (&driver, program, {}, { memory }, plainEnvironment().data());
+        if (memory >= 0) ::close (memory);
         return why;
     }
 
     SharedArms* shared = nullptr;
-    int to_helper = -1, life = -1;
-    pid_t process = -1;
+
+public:
+    HelperProcess process;
 };
 
 /// The library's y points up, its z towards the person.
@@ -195,9 +163,9 @@ public:
     static std::unique_ptr<Touch> open (const Wanted& name, tactus_device_about& about, std::string& said)
     {
         auto touch = std::make_unique<Touch>();
-        touch->helper = HelperProcess::get (said);
-        if (touch->helper == nullptr) return nullptr;
-        touch->arm = touch->helper->add (name);
+        touch->owner = Owner::get (said);
+        if (touch->owner == nullptr) return nullptr;
+        touch->arm = touch->owner->add (name);
         if (touch->arm == nullptr) said = "this program has four arms open, and no place for another one";
         if (touch->arm == nullptr || ! touch->wait (said)) return nullptr;
         touch->describe (about, said);
@@ -219,7 +187,7 @@ public:
     Touch& operator= (const Touch&) = delete;
     ~Touch()
     {
-        if (arm != nullptr) helper->remove (*arm);
+        if (arm != nullptr) owner->remove (*arm);
     }
 
     std::int32_t read (std::int32_t timeout_ms, tactus_reading& to, tactus_device_stamp& stamp, std::string& why)
@@ -239,13 +207,13 @@ public:
                 fill (tick, to, stamp);
                 return TACTUS_DEVICE_OK;
             }
-            if (arm->state == SharedArm::failed) return leave (why, arm->text);
-            if (helper->hasEnded (0)) return leave (why, std::string ("the process that owns its library has died") + may_push);
-            if (helper->isJoining()) heard = Clock::now();   // its servo loop stands still, and the helper watches the time
+            if (arm->state == SharedArm::failed) return because (why, arm->text);
+            if (owner->process.hasEnded (0)) return because (why, std::string ("the process that owns its library has died") + may_push);
+            if (owner->isJoining()) heard = Clock::now();   // its servo loop stands still, and the helper watches the time
             if (Clock::now() - heard > until_stuck)
             {
-                helper->kill();
-                return leave (why, std::string ("its library has not moved for a second, so its process was killed") + may_push);
+                owner->process.kill();
+                return because (why, std::string ("its library has not moved for a second, so its process was killed") + may_push);
             }
             if (Clock::now() >= until) return TACTUS_DEVICE_NONE;
             waitWhile (arm->ticks, newest, between_looks_ns);
@@ -261,16 +229,12 @@ public:
     }
 
     /// After the death of the helper nothing can be sent any more, and read() has said what that means.
-    std::int32_t rest (std::string& why) { return helper->hasEnded (0) ? std::int32_t { TACTUS_DEVICE_OK } : give ({}, why); }
+    std::int32_t rest (std::string& why) { return owner->process.hasEnded (0) ? std::int32_t { TACTUS_DEVICE_OK } : give ({}, why); }
 
 private:
     std::int32_t give (SharedArm::Push push, std::string& why)
     {
-        if (helper->hasEnded (0))
-        {
-            why = "the process that owns its library has died";
-            return TACTUS_DEVICE_FAILED;
-        }
+        if (owner->process.hasEnded (0)) return because (why, "the process that owns its library has died", TACTUS_DEVICE_FAILED);
         push.at_ns = nanosecondsNow();
         push.answers = read_last;
         arm->push.store (push);
@@ -282,13 +246,13 @@ private:
     bool wait (std::string& why)
     {
         const auto until = Clock::now() + until_open;
-        while (arm->ticks == 0 && arm->state != SharedArm::failed && ! helper->hasEnded (1) && Clock::now() < until)
+        while (arm->ticks == 0 && arm->state != SharedArm::failed && ! owner->process.hasEnded (1) && Clock::now() < until)
         {
         }
         heard = Clock::now();
         if (arm->ticks != 0) return true;
-        why = arm->state == SharedArm::failed ? arm->text : helper->hasEnded (0) ? "the process that owns its library has died while it started it"
-                                                                                 : "its library does not start";
+        why = arm->state == SharedArm::failed ? arm->text : owner->process.hasEnded (0) ? "the process that owns its library has died while it started it"
+                                                                                        : "its library does not start";
         return false;
     }
 
@@ -303,10 +267,7 @@ private:
         about.tool = TACTUS_DEVICE_POSITION | TACTUS_DEVICE_ROTATION | (drives ? TACTUS_DEVICE_FORCE : 0) | (drives && turns ? TACTUS_DEVICE_TORQUE : 0);
         static constexpr const char* axes[] { "temperature", "delay" };
         static constexpr const char* buttons[] { "button1", "button2", "button3", "button4" };
-        about.axes = axes;
-        about.axis_count = std::size (axes);
-        about.buttons = buttons;
-        about.button_count = std::size (buttons);
+        nameParts (about, axes, buttons);
         about.rate_hz = arm->rate_hz;
         about.stamps = TACTUS_DEVICE_NUMBERS;                                           // the ticks of its servo loop
         about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm->rate_hz;   // of the helper: it does not help if the helper dies, too
@@ -333,13 +294,7 @@ private:
         stamp.fault = tick.fault;
     }
 
-    static std::int32_t leave (std::string& why, std::string reason)
-    {
-        why = std::move (reason);
-        return TACTUS_DEVICE_GONE;
-    }
-
-    std::shared_ptr<HelperProcess> helper;
+    std::shared_ptr<Owner> owner;
     SharedArm* arm = nullptr;
     bool turns = false;
     std::string sentence, limits;
