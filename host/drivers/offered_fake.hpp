@@ -4,11 +4,15 @@
 #include <tactus/node/device.hpp>
 #include <tactus/text/result.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tactus::host
 {
@@ -25,6 +29,14 @@ public:
     /// Fails in this way from now on, one of its kind's `faults`; "": in none.
     virtual void fail (std::string_view fault) = 0;
 };
+
+/// The fault with this name in a table, or `Fault::none`, which has none.
+template <typename Fault, std::size_t n>
+Fault faultNamed (std::string_view name, const std::pair<std::string_view, Fault> (&table)[n])
+{
+    const auto* found = std::ranges::find (table, name, &std::pair<std::string_view, Fault>::first);
+    return found != std::end (table) ? found->second : Fault::none;
+}
 
 /// The parts that a fake is made from.
 struct OfferedFakeParts

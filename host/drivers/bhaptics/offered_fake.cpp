@@ -3,7 +3,6 @@
 
 #include <host/drivers/offered_fake.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace tactus::host
@@ -33,14 +32,13 @@ public:
     void fail (std::string_view fault) override
     {
         using Fault = FakePlayer::Fault;
-        constexpr std::pair<std::string_view, Fault> all[] {
+        static constexpr std::pair<std::string_view, Fault> all[] {
             { "stall", Fault::silent },
             { "garbage", Fault::garbage },
             { "away", Fault::restart },
             { "rename", Fault::unworn },
         };
-        const auto* found = std::ranges::find (all, fault, [] (const auto& each) { return each.first; });
-        player->fail (found != std::end (all) ? found->second : Fault::none);
+        player->fail (faultNamed (fault, all));
     }
 
 private:

@@ -35,7 +35,7 @@ public:
     void fail (std::string_view fault) override
     {
         using Fault = FakeFalcon::Fault;
-        constexpr std::pair<std::string_view, Fault> all[] {
+        static constexpr std::pair<std::string_view, Fault> all[] {
             { "stall", Fault::silent },
             { "garbage", Fault::noisy },
             { "half", Fault::shorter },
@@ -44,8 +44,7 @@ public:
             { "lie", Fault::changed },
             { "reset", Fault::forgetful },
         };
-        const auto* found = std::ranges::find (all, fault, [] (const auto& each) { return each.first; });
-        falcon.fail (found != std::end (all) ? found->second : Fault::none);
+        falcon.fail (faultNamed (fault, all));
     }
 
 private:

@@ -4,7 +4,6 @@
 #include <host/drivers/offered_fake.hpp>
 #include <tactus/text/number_text.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace tactus::host
@@ -35,15 +34,14 @@ public:
     void fail (std::string_view fault) override
     {
         using Fault = FakeInverse3::Fault;
-        constexpr std::pair<std::string_view, Fault> all[] {
+        static constexpr std::pair<std::string_view, Fault> all[] {
             { "stall", Fault::silent },
             { "garbage", Fault::garbage },
             { "away", Fault::restart },
             { "push", Fault::push },
             { "rename", Fault::rename },
         };
-        const auto* found = std::ranges::find (all, fault, [] (const auto& each) { return each.first; });
-        service->fail (found != std::end (all) ? found->second : Fault::none);
+        service->fail (faultNamed (fault, all));
     }
 
 private:
