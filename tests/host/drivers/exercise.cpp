@@ -12,6 +12,7 @@
 #include <cmath>
 #include <iostream>
 #include <thread>
+#include <vector>
 
 namespace tactus::test
 {
@@ -97,7 +98,16 @@ void play (const tactus_device_driver& driver, const std::string& port, const Us
     std::cout << driver.name << ", " << use.what << ": " << readings << " readings" << std::endl;
 }
 
-Exercise exerciseFalcon, exerciseForceDimension, exerciseTouch;
+namespace
+{
+std::vector<void (*) (const TemporaryFolder&)>& exercises()
+{
+    static std::vector<void (*) (const TemporaryFolder&)> all;
+    return all;
+}
+}   // namespace
+
+Exercise::Exercise (void (*of) (const TemporaryFolder&)) { exercises().push_back (of); }
 
 }   // namespace tactus::test
 
@@ -109,7 +119,7 @@ int main()
     for (const auto* variable : { "ASAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS" })   // of the helpers, which this program starts
         ::setenv (variable, ("log_path=" + (folder / "sanitizer").string()).c_str(), 1);
     ::setenv ("HOME", folder.path().c_str(), 1);
-    for (auto* const exercise : { exerciseFalcon, exerciseForceDimension, exerciseTouch })
+    for (auto* const exercise : exercises())
         exercise (folder);
     for (const auto& entry : std::filesystem::directory_iterator (folder.path()))
         if (const auto name = entry.path().filename().string(); name.starts_with ("sanitizer")) expect (false, "a helper: " + folder.textOf (name));

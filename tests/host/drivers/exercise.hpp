@@ -47,7 +47,10 @@ T& sharedMemory (const std::filesystem::path& file, const char* variable)
     return *static_cast<T*> (at);
 }
 
-/// The exercise of a driver, in the driver's folder; exercise.cpp has the list.
-using Exercise = void (const TemporaryFolder&);
+/// The exercise of a driver, which a file in the driver's folder defines and so adds to the others.
+struct Exercise
+{
+    explicit Exercise (void (*) (const TemporaryFolder&));
+};
 
 }   // namespace tactus::test

@@ -7,10 +7,9 @@
 namespace tactus::test
 {
 
-void exerciseFalcon (const TemporaryFolder&);
-
-void exerciseFalcon (const TemporaryFolder&)
+namespace
 {
+const Exercise falcon_exercise ([] (const TemporaryFolder&) {
     using Fault = host::FakeFalcon::Fault;
     const auto& driver = host::falcon::patient_driver;
     host::FakeFalcon falcon;
@@ -27,6 +26,7 @@ void exerciseFalcon (const TemporaryFolder&)
     for (int i = 0; i < 3; ++i)
         play (driver, "usb", { .what = "by libftdi" });
     play (driver, falcon.port(), { .what = "unplugged", .disturb = [&] { falcon.unplug(); }, .ends_with = TACTUS_DEVICE_GONE });
-}
+});
+}   // namespace
 
 }   // namespace tactus::test

@@ -9,10 +9,9 @@
 namespace tactus::test
 {
 
-void exerciseForceDimension (const TemporaryFolder&);
-
-void exerciseForceDimension (const TemporaryFolder& folder)
+namespace
 {
+const Exercise force_dimension_exercise ([] (const TemporaryFolder& folder) {
     const auto& driver = host::forcedimension::driver;
     auto& arms = sharedMemory<host::FakeArms> (folder / "drd", "TACTUS_FAKE_DRD");
     utsname machine {};
@@ -41,6 +40,7 @@ void exerciseForceDimension (const TemporaryFolder& folder)
     expect (arm.calls_after_close == 0, "calls after close");
     expect (arm.expert_violations == 0, "a setting of the arm was changed");
     expect (arm.calibrations == 0, "the arm was moved by its motors");
-}
+});
+}   // namespace
 
 }   // namespace tactus::test

@@ -7,10 +7,9 @@
 namespace tactus::test
 {
 
-void exerciseTouch (const TemporaryFolder&);
-
-void exerciseTouch (const TemporaryFolder& folder)
+namespace
 {
+const Exercise touch_exercise ([] (const TemporaryFolder& folder) {
     const auto& driver = host::openhaptics::driver;
     auto& arms = sharedMemory<host::FakeTouches> (folder / "hd", "TACTUS_FAKE_HD");
     ::setenv ("LD_LIBRARY_PATH", (std::string (TACTUS_FAKE_LIBRARIES) + "/hd").c_str(), 1);
@@ -31,6 +30,7 @@ void exerciseTouch (const TemporaryFolder& folder)
     expect (arms.frame_errors == 0, "frames out of order");
     expect (arms.calls_after_unschedule == 0, "calls after hdUnschedule");
     expect (arms.gets_outside_frames == 0, "calls outside of frames");
-}
+});
+}   // namespace
 
 }   // namespace tactus::test
