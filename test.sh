@@ -81,6 +81,7 @@ case $mode in --daily|--long)
     export RC_PARAMS=${RC_PARAMS:-seed=$(seeds 1)} bench=ON
     say "Random inputs: RC_PARAMS=$RC_PARAMS"
 esac
+[ "$mode" = --long ] && export TACTUS_READINGS=${TACTUS_READINGS:-30000}   # of each device that is compared with a render
 export RC_PARAMS=${RC_PARAMS:-seed=1}
 [ "$mode" = --packages ] && bench=ON
 again=()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The driver of the Novint Falcon against a fake at the other end of a pseudo-terminal. Both are ours; no Falcon has been tried.
 
-#include "../readings.hpp"
+#include "../dry_wood.hpp"
 #include "../trial_person.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
@@ -14,8 +14,6 @@
 #include <host/drivers/falcon/kinematics.hpp>
 #include <host/drivers/falcon/packets.hpp>
 #include <host/drivers/falcon/serial_port.hpp>
-#include <tactus/file/graph_file.hpp>
-#include <tactus/node/catalogue.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
@@ -266,87 +264,31 @@ TEST_CASE ("a Falcon is read and pushed in the axes of Tactus, one packet at a t
 
 TEST_CASE ("dry wood on a Falcon has the forces of its render at the positions that its encoders have rounded", "[falcon]")
 {
-    /// A device with the readings that the test gives it, which keeps the efforts that it gets.
-    struct ToldDevice final : Device
-    {
-        void prepare (double) override {}
-        Reading read() noexcept override { return next; }
-        void write (const Effort& effort) noexcept override { last = effort; }
-        Reading next;
-        Effort last;
-    };
-    /// A Falcon on the thread of its ticks: each reading sends the last force, and takes the answer to it. So no time passes but that of the packets.
-    struct TickedFalcon final : Device
-    {
-        void prepare (double) override {}
-        Reading read() noexcept override
-        {
-            tactus_reading from;
-            tactus_device_stamp stamp;
-            Reading reading;
-            reading.valid = is_past_first && eventually (0ns, [&] {   // not an answer to an earlier packet
-                                return opened->read (50ms, from, stamp, why) == TACTUS_DEVICE_OK && from.buttons == number;
-                            });
-            if (reading.valid) reading.position = Position (from.position);
-            return reading;
-        }
-        void write (const Effort& effort) noexcept override
-        {
-            has_failed = opened->write (effort, false, GuardLimits::none, why) != TACTUS_DEVICE_OK || has_failed;
-        }
-        std::unique_ptr<host::OpenedDevice> opened;
-        host::DriverReport why;
-        unsigned number = 0;
-        bool is_past_first = false, has_failed = false;
-    };
     FakeFalcon falcon;
-    Messages messages;
-    const auto driver = host::DeviceDriver::within (host::falcon::patient_driver);
-    REQUIRE (driver);
-    TickedFalcon ticked;
-    ticked.opened = (*driver)->open ({ { "driver", "falcon" }, { "port", falcon.port() } }, messages);
-    REQUIRE (ticked.opened);
-    const auto& own_limits = ticked.opened->about().limits;
-    CHECK (own_limits.max_still == 1.0);   // its readings have neither a number nor a time
-    CHECK (own_limits.still_force == 0.5);
-    auto file = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs/dry_wood.json");
-    REQUIRE_FALSE (hasErrors (file.messages));
-    const auto told_plan = compile (file.graph, catalogue()).plan, falcon_plan = compile (file.graph, catalogue()).plan;
-    REQUIRE (told_plan);
-    REQUIRE (falcon_plan);
-    ToldDevice told;
-    Engine offline { told_plan }, live { falcon_plan };
-    const GuardLimits limits { .max_force = own_limits.max_force };
-    offline.attach ("stylus", told, limits);
-    live.attach ("stylus", ticked, limits);
+    test::DryWood wood { host::falcon::patient_driver, { { "port", falcon.port() } } };
+    CHECK (wood.about().limits.max_still == 1.0);   // its readings have neither a number nor a time
+    CHECK (wood.about().limits.still_force == 0.5);
     Kinematics legs;
-    int pushed = 0;
     std::array<int, 3> sent {};
     const int readings = test::readings (30'000);
     for (int k = 0; k < readings; ++k)
     {
-        const double time = k / 4000.0;
-        // It touches from the start.
-        const Vec3 at { 0.02 * std::sin (9.0 * time), 0.02 + 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };
-        ticked.number = static_cast<unsigned> (k % 15) + 1;   // tells this reading from the one before
-        ticked.is_past_first = told.next.valid = k > 0;       // the first tick brings a device to rest
-        falcon.hold ({ at.x(), at.z(), 0.15 - at.y() }, ticked.number);
-        live.tick();
+        const Vec3 at = test::DryWood::placeAt (k);
+        const auto number = static_cast<unsigned> (k % 15) + 1;   // tells this reading from the one before, which an earlier packet may bring
+        falcon.hold ({ at.x(), at.z(), 0.15 - at.y() }, number);
+        const auto place = legs.placeOf (Kinematics::anglesOf (falcon_legs::countsAt ({ at.x(), at.z(), 0.15 - at.y() })));
+        REQUIRE (place);
+        const Vec3 rounded { (*place)[0], 0.15 - (*place)[2], (*place)[1] };
+        const Vec3 asked = wood.tick (rounded, [&] (const auto& reading, const auto&) { return reading.buttons == number; });
         INFO ("reading " << k << ": motors " << falcon.motors[0] << ", " << falcon.motors[1] << ", " << falcon.motors[2] << " instead of " << sent[0] << ", "
                          << sent[1] << ", " << sent[2]);
         if (k > 0) REQUIRE (falcon.hasGot (sent));   // the force of the reading before, with the packet that this reading answers
-        const auto place = legs.placeOf (Kinematics::anglesOf (falcon_legs::countsAt ({ at.x(), at.z(), 0.15 - at.y() })));
-        REQUIRE (place);
-        told.next.position = { (*place)[0], 0.15 - (*place)[2], (*place)[1] };
-        offline.tick();
-        const auto& asked = told.last.force;
         const Vec3 torques = legs.torquesOf ({ asked.x(), asked.z(), -asked.y() });
         for (int i = 0; i < 3; ++i)
             sent[static_cast<std::size_t> (i)] = static_cast<int> (std::lround (-1e4 * torques[i]));
-        pushed += asked.isZero (0.0) ? 0 : 1;
     }
-    CHECK (pushed > readings / 4);
-    CHECK_FALSE (ticked.has_failed);
+    CHECK (wood.pushes() > readings / 4);
+    CHECK_FALSE (wood.hasFailed());
 }
 
 TEST_CASE ("a Falcon whose position jumps, is impossible or is frozen under a push is not trusted", "[falcon][safety]")
@@ -537,7 +479,7 @@ TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what i
     CHECK (desk.pushes());
     CHECK (desk.said().empty());   // it has its firmware until its power is cut
     CHECK (contains (desk.said ({ { "port", "ttyUSB0" } }), "name the port: falcon:/dev/ttyUSB0"));
-    CHECK (contains (desk.said ({ { "port", "/dev/null" } }), "is not a serial port"));
+    CHECK (contains (desk.said ({ { "port", "/dev/null" } }), "it is not a serial line"));
     CHECK (contains (desk.said ({ { "port", "/dev/not_there" } }), "No such file"));
     REQUIRE (desk.opens());
     Desk other;

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The driver of Force Dimension's arms against a fake of their library. Both are ours; no arm has been tried.
 
-#include "../readings.hpp"
+#include "../dry_wood.hpp"
 #include "../trial_person.hpp"
 #include "lab.hpp"
-
-#include <tactus/file/graph_file.hpp>
-#include <tactus/node/catalogue.hpp>
-#include <tactus/run/engine.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +17,6 @@ using test::Lab;
 namespace
 {
 bool contains (const std::string& text, const char* part) { return text.find (part) != std::string::npos; }
-
-/// A device that reads what it is told, and keeps what it gets.
-struct ToldDevice final : Device
-{
-    void prepare (double) override {}
-    Reading read() noexcept override { return next; }
-    void write (const Effort& effort) noexcept override { last = effort; }
-
-    Reading next;
-    Effort last;
-};
 }   // namespace
 
 TEST_CASE ("an arm of Force Dimension is read and pushed in the axes of Tactus", "[forcedimension]")
@@ -65,48 +50,34 @@ TEST_CASE ("an arm of Force Dimension is read and pushed in the axes of Tactus",
 TEST_CASE ("dry wood on an arm of Force Dimension has the forces of its render at the positions that the arm has rounded", "[forcedimension]")
 {
     Lab lab;
-    lab.arm().is_stepped = 1;
-    REQUIRE (lab.opens());
-    REQUIRE (lab.reads());
-
-    auto file = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs/dry_wood.json");
-    REQUIRE_FALSE (hasErrors (file.messages));
-    const auto told_plan = compile (file.graph, catalogue()).plan, arm_plan = compile (file.graph, catalogue()).plan;
-    REQUIRE (told_plan);
-    REQUIRE (arm_plan);
-    ToldDevice told;
-    Engine offline { told_plan }, live { arm_plan };
-    const GuardLimits limits { .max_force = lab.limits.max_force };
-    offline.attach ("stylus", told, limits);
-    live.attach ("stylus", *lab.device, limits);
-    int pushed = 0;
-    const int readings = test::readings (3000);
+    auto& arm = lab.arm();
+    arm.is_stepped = 1;
+    test::DryWood wood { host::forcedimension::eager_driver, Json::object() };
+    CHECK (wood.about().limits.max_still == 1.0);   // its readings have neither a number nor a time
+    CHECK (wood.about().limits.still_force == 0.5);
+    const auto any = [] (const auto&, const auto&) { return true; };
+    REQUIRE (eventually (0ns, [&] {   // its forces are enabled when it first looks at the status
+        ++arm.step;
+        wood.reads (any);
+        return arm.is_enabled == 1;
+    }));
+    const auto before = arm.new_positions.load();
+    const int readings = test::readings (30'000);
     for (int k = 0; k < readings; ++k)
     {
-        const double time = k / 4000.0;
-        const Vec3 at { 0.03 * std::sin (9.0 * time), 0.01 * std::sin (5.0 * time), -1e-3 + 1.5e-3 * std::cos (7.0 * time + 2.0) };   // touches from the start
+        const Vec3 at = test::DryWood::placeAt (k);
         const double by_library[] { -at.y(), at.x(), at.z() };
         for (std::size_t i = 0; i < 3; ++i)
-            lab.arm().target[i] = by_library[i];
-        const auto before = lab.device->counts().readings;
-        ++lab.arm().step;
-        REQUIRE (eventually ([&] { return lab.device->counts().readings > before; }));
-        // Round by hand, as the arm does: to 1 um.
-        const auto um = [] (double m) { return std::round (m / 1e-6) * 1e-6; };
-        told.next.position = { um (at.x()), -um (-at.y()), um (at.z()) };
-        told.next.valid = k > 0;   // the first tick brings a device to rest
-        offline.tick();
-        live.tick();
-        const auto& asked = told.last.force;
+            arm.target[i] = by_library[i];
+        ++arm.step;
+        const auto um = [] (double m) { return std::round (m / 1e-6) * 1e-6; };   // by hand, as the arm does
+        const Vec3 asked = wood.tick ({ um (at.x()), -um (-at.y()), um (at.z()) }, any);
         INFO ("reading " << k << " asks for " << asked.transpose());
-        REQUIRE (eventually ([&] { return lab.arm().force[1] == asked.x() && lab.arm().force[0] == -asked.y() && lab.arm().force[2] == asked.z(); }));
-        pushed += asked.isZero (0.0) ? 0 : 1;
+        REQUIRE (Vec3 (arm.force[1], -arm.force[0], arm.force[2]) == asked);
     }
-    CHECK (pushed > readings / 4);
-    CHECK (lab.limits.max_still == 1.0);   // its readings have neither a number nor a time
-    CHECK (lab.limits.still_force == 0.5);
-    CHECK (lab.device->counts().readings == static_cast<std::uint64_t> (readings) + 1);   // each is new once
-    CHECK (lab.device->counts().departures == 0);
+    CHECK (wood.pushes() > readings / 4);
+    CHECK_FALSE (wood.hasFailed());
+    CHECK (arm.new_positions == before + static_cast<std::uint64_t> (readings));   // each is new once
 }
 
 TEST_CASE ("an arm of Force Dimension is found by number, serial number and model", "[forcedimension]")
