@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -70,6 +71,8 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
     CHECK ((falcon.bits & 1u) == 1u);
     if (end == SIGSTOP)
     {
+        // A busy computer has no force now and then, so this may not be the rest of the guardian. The driver gives up a force after 100 ms.
+        test::letPass (std::chrono::milliseconds (200));
         const auto pushes = falcon.pushes.load(), packets = falcon.packets.load();
         program.signal (SIGCONT);
         CHECK (eventually ([&] { return falcon.packets > packets + 5; }));

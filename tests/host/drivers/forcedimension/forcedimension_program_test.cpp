@@ -107,8 +107,12 @@ TEST_CASE ("how long a force on an arm of Force Dimension outlives its program, 
 {
     Played played;
     auto& arm = played.lab.arm();
-    for (const auto& end : { test::End { "kill -9", 33.0, SIGKILL }, test::End { "frozen", 33.0, SIGSTOP }, test::End { "emergency stop", 10.0, SIGUSR1 },
-                             test::End { "unplugged", 33.0, 0, [&] { arm.is_unplugged = 1; } } })
+    const auto closes = [&] { arm.is_open = 0; };   // the system does, when the program is dead
+    const test::End ends[] { { "kill -9", 33.0, SIGKILL, closes },
+                             { "frozen", 33.0, SIGSTOP },
+                             { "emergency stop", 10.0, SIGUSR1 },
+                             { "unplugged", 33.0, 0, [&] { arm.is_unplugged = 1; } } };
+    for (const auto& end : ends)
     {
         CHECK (test::keepsPromise (
             played.play, end,
