@@ -37,6 +37,7 @@ LEFT_OUT = [
     ("tests/guest", "programs and devices in a machine whose clock counts instructions"),
     ("tests/host/app/screens", "films and listens to the program"),
     ("tests/host/code/generate/exported_code.cpp", "the program that it writes prints its time"),
+    ("tests/host/drivers/apart", "libraries with a servo loop of their own and calls that stall"),
     ("tests/plugins/objects", "devices and nodes, which are slow on purpose"),
     ("tests/mutants", "a program that people start by hand: it ends compilers that do not end"),
     ("tests/structure/waits.py", "examples"),
