@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -147,10 +148,45 @@ void addExperiment (const Command& app)
 
 void addStudy (const Command& app)
 {
+    struct Flags
+    {
+        bool resume = false, mixed = false, status = false, merge = false, partial = false, dry = false;
+    };
+    const auto words = std::make_shared<LabWords>();
+    const auto flags = std::make_shared<Flags>();
     const auto command = app.add ("study", "Render a graph at many points, on one computer or a cluster, with the Python package");
-    command.passOn ([] (std::vector<std::string> words) {
-        words.insert (words.begin(), "study");
-        startPython ("tactus.lab.__main__", words);
+    command.addOption (
+               "file", [words] (const std::string& file) { words->positional.push_back (file); }, "The study file")
+        .required();
+    for (const auto& [name, about] : { std::pair { "--out", "The folder of results; default: the name of the study" },
+                                       std::pair { "--executor", "serial, local, dask, mpi or slurm; default: local" },
+                                       std::pair { "--workers", "How many processes, or shards of a Slurm job; default: one per processor" },
+                                       std::pair { "--dask", "The address of a scheduler of dask.distributed; without it, a local cluster" },
+                                       std::pair { "--shard", "I/N: only each N-th point, from the I-th on, from 0; does not merge" },
+                                       std::pair { "--functions", "A Python file with the functions that the measures name" },
+                                       std::pair { "--point", "Only render this point, from 0: its records as CSV, and its graph" },
+                                       std::pair { "--to", "Also write the results as csv, h5 or mat" } })
+        command.addOption (name, takeForLab (words, name), about);
+    const std::vector<std::tuple<const char*, bool Flags::*, const char*>> all {
+        { "--resume", &Flags::resume, "Go on with a folder that has results" },
+        { "--mixed", &Flags::mixed, "Also take results of other versions and other kinds of computers, and mark them" },
+        { "--status", &Flags::status, "Only say how far it is" },
+        { "--merge", &Flags::merge, "Only merge the results, and make the report" },
+        { "--partial", &Flags::partial, "Merge also if points are missing" },
+        { "--dry-run", &Flags::dry, "Only print the script for Slurm" }
+    };
+    for (const auto& [name, flag, about] : all)
+        command.addFlag (name, (*flags).*flag, about);
+    command.footer ("Starts python3 -m tactus.lab. See docs/studies.md.\n\n"
+                    "Examples:\n"
+                    "  tactus study wall.json --workers 8\n"
+                    "  tactus study wall.json --executor slurm --workers 100\n"
+                    "  tactus study wall.json --resume\n"
+                    "  tactus study wall.json --point 17");
+    command.callback ([words, flags, all] {
+        for (const auto& [name, flag, about] : all)
+            if ((*flags).*flag) words->flags.emplace_back (name);
+        startPython ("tactus.lab.__main__", words->all ("study"));
     });
 }
 
