@@ -77,7 +77,7 @@ TEST_CASE ("another Falcon gets its firmware, knows its place only once it is ho
     REQUIRE (desk.plays ({ { "firmware", (folder / "image.bin").string() } }));
     CHECK (desk.falcon.uploaded == 8324);
     CHECK (desk.tells (ReadingFault::not_homed));
-    CHECK (desk.falcon.lights == 8);
+    CHECK (desk.ticksUntil ([&] { return desk.falcon.lights == 8; }));
     desk.falcon.homed = 7;
     CHECK (desk.pushes());
     desk.has_begun = false;
