@@ -154,8 +154,6 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("F6, Shift+F6"), NEEDS_TRANS ("goes to the next or the previous panel") },
     Keys { NEEDS_TRANS ("Ctrl+K, F3"),
            NEEDS_TRANS ("finds a node of the graph and shows it, or a command, a button or a panel and does what a click on it does") },
-    Keys { NEEDS_TRANS ("Ctrl+Left, Ctrl+Right"), NEEDS_TRANS ("in the mixer, go to the same field or button of the layer beside") },
-    Keys { NEEDS_TRANS ("Page Up, Page Down, Home, End"), NEEDS_TRANS ("scroll this help") },
     Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },
     Keys { NEEDS_TRANS ("V"), NEEDS_TRANS ("switches between the last two snapshots") },
     Keys { NEEDS_TRANS ("Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S, Ctrl+Q"), NEEDS_TRANS ("new, open, save, save as, quit") },
@@ -167,6 +165,8 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("C"), NEEDS_TRANS ("shows the CPU cost of each node") },
     Keys { NEEDS_TRANS ("Shift+F1"), NEEDS_TRANS ("guided tour of the window") },
     Keys { NEEDS_TRANS ("F1 or ?"), NEEDS_TRANS ("help on the selected node, or this list") },
+    Keys { NEEDS_TRANS ("Ctrl+Left, Ctrl+Right"), NEEDS_TRANS ("in the mixer, go to the same field or button of the layer beside") },
+    Keys { NEEDS_TRANS ("Page Up, Page Down, Home, End"), NEEDS_TRANS ("scroll this help") },
 };
 constexpr std::array mouse_list {
     Keys { NEEDS_TRANS ("drag on a number"), NEEDS_TRANS ("changes it, with Shift in fine steps; double-click to type a value with its unit") },

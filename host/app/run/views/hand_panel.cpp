@@ -87,6 +87,7 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     for (const auto& gesture : gestures())
         source.addItem (filled (TRANS ("Gesture: %1"), gesture.id), id++);
     source.setSelectedId (as_described, juce::dontSendNotification);
+    shown_source = as_described;
     source.setTooltip (TRANS ("What moves the tool. Its own device is the one chosen in the Devices panel, or else the one described in the graph. "
                               "Drop a recording (CSV with t,x,y,z) here to play it."));
     source.onChange = [this] { choose(); };
@@ -193,8 +194,9 @@ void HandPanel::enlarge (bool large)
 void HandPanel::choose()
 {
     const int id = source.getSelectedId();
-    shown_source = 0;
-    if (id == 0 || id == by_recording) return;   // as it is
+    const bool is_choice = id != 0 && id != by_recording;
+    shown_source = is_choice ? id : 0;   // so that the next refresh does not take back what the user chooses meanwhile
+    if (! is_choice) return;             // as it is
     chosen_hand = {};
     if (id == by_pointer) chosen_hand = LiveRun::Hand::pointer();
     if (id >= first_gesture) chosen_hand = { LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (id - first_gesture)].id) };

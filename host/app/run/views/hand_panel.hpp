@@ -81,7 +81,7 @@ private:
     LiveRun::Hand chosen_hand;
     std::vector<std::string> tool_roles;   // those in the list of tools
     std::string shown_tool;                // the one that is selected in it
-    int shown_source = 0;                  // that the list showed as what moves the tool; 0 after the user has chosen
+    int shown_source = 0;                  // that the list showed as what moves the tool; 0: shows it anew
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
     std::shared_ptr<TransportPath> transport;   // as of the last refresh(); its run may have ended since then
