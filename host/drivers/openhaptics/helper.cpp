@@ -29,6 +29,7 @@ using namespace tactus::host::openhaptics;
 constexpr std::uint64_t between_looks = 50;                   // ticks: at the calibration and the temperature
 constexpr std::uint64_t fault_lasts = 500;                    // ticks after the last error, so that a force does not come and go
 constexpr double return_per_tick = 0.1;                       // of a force that was away, so that it does not come back as a step
+constexpr std::int64_t longest_pause_ns = 50'000'000;         // between two pushes of a run, on a busy computer, which must not look like its end
 constexpr unsigned wanted_rate = 1000;                        // Hz
 constexpr int until_first_ms = 3000, until_zero_ms = 100;     // how long the servo loop has to start, and to send zeros
 constexpr unsigned until_killed_s = 2, until_joined_s = 12;   // how long the library has to stop, and to open an arm
@@ -138,7 +139,7 @@ public:
     }
 
     bool hasStarted() const { return shared.state != SharedArm::starting; }
-    bool isPushed() const { return is_pushed; }   ///< by a run that ticks, perhaps with zeros
+    bool isPushed() const { return nanosecondsNow() - last_pushed < longest_pause_ns; }   ///< by a run that ticks, perhaps with zeros
     bool isWanted() const { return shared.is_wanted != 0; }
     void release() { shared.state = SharedArm::unused; }
 
@@ -225,6 +226,7 @@ private:
             measure (push, now - begin, period);
             apart_ns = std::clamp (push.at_ns - pushed_at, period, SharedArm::patience_ns);
             pushed_at = push.at_ns;
+            if (push.at_ns != 0) last_pushed = now;
         }
         const auto holds = std::min (2 * apart_ns + period, SharedArm::patience_ns);
         is_pushed = push.at_ns != 0 && now - push.at_ns < holds;
@@ -250,12 +252,12 @@ private:
     int styles = 0;
     bool turns = false;
     std::string last_error;
-    std::atomic<bool> is_pushed = false;
+    std::atomic<std::int64_t> last_pushed = -longest_pause_ns;
 
     // [servo thread, or while it stands still]
     std::uint64_t number = 0, fault_since = 0;
     std::uint32_t fault = 0, last_push = 0;
-    bool is_homed = false;
+    bool is_homed = false, is_pushed = false;
     double temperature = 0.0, delay_s = 0.0;
     double share = 0.0;   // of the push that the arm gets
     std::int64_t apart_ns = 0, pushed_at = 0;
