@@ -58,7 +58,7 @@ TEST_CASE ("another Falcon is read and pushed in its axes", "[falcon][apart]")
     Desk desk;
     REQUIRE (desk.plays());
     CHECK (desk.isPushed (desk.middle, 200.0));
-    CHECK (desk.falcon.lights == 2);
+    CHECK (desk.ticksUntil ([&] { return desk.falcon.lights == 2; }));
     desk.falcon.buttons = 9;
     CHECK (desk.ticksUntil ([&] { return desk.reading.buttons == 9; }));
     REQUIRE (desk.pushes());

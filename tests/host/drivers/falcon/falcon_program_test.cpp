@@ -106,7 +106,7 @@ TEST_CASE ("if the process between a Falcon and its program is killed, the progr
     CHECK (falcon.isAtRest());
 }
 
-TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][falcon][promise]")
+TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][promise]")
 {
     const TemporaryFolder folder;
     folder.write ("wall.json", wall);
