@@ -271,7 +271,7 @@ void PythonRun::tellStops()
     for (std::size_t i = 0; i < run->guards.size(); ++i)
     {
         const auto role = run->guards.at (i);
-        const bool is_mine = run->pushed.contains (role.name);   // not a device that the graph simulates, whose effort nobody reads
+        const bool is_mine = run->pushed.contains (role.name);   // the caller reads this effort; a simulated device uses its own
         if (! is_mine || role.is_latched == 0 || role.latest.why == Guard::Stop::emergency || told.contains (role.name)) continue;
         told.emplace (role.name);
         found.push_back (Message::warning ("guard/stopped", "/devices/" + std::string (role.name),

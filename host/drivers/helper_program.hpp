@@ -104,7 +104,7 @@ public:
         return error != 0 ? program.string() + " cannot be started: " + std::generic_category().message (error) : std::string();
     }
 
-    /// What it says first, up to the end of the line; empty if it dies without a line.
+    /// The first line that the helper writes; empty if it dies before.
     std::optional<std::string> firstLine() const
     {
         std::string said;

@@ -378,7 +378,10 @@ void CanvasCommands::joinControl (const PortId& start, const std::string& contro
     std::vector<PortId> targets;
     for (const auto& n : canvas.scene().nodes())
         for (const auto& p : n.face->params)
-            if (std::ranges::count (set->to, canvas.address (n.name + '.' + p.id), &graph::Control::Target::path) > 0) targets.push_back ({ n.id, p.role, p.id });
+        {
+            const auto path = canvas.address (n.name + '.' + p.id);
+            if (std::ranges::count (set->to, path, &graph::Control::Target::path) > 0) targets.push_back ({ n.id, p.role, p.id });
+        }
     auto step = graph::Step::own;
     juce::String why = filled (TRANS ("%1 sets nothing in this patch"), set->name.empty() ? control : set->name);
     for (const auto& target : targets)

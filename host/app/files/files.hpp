@@ -63,11 +63,15 @@ public:
     /// Offers to recover crashed sessions, the latest first. Returns true if there are any.
     bool recover();
 
-    void beforeRun();                                                     ///< call before each run
-    void poll();                                                          ///< call many times a second: an edit that came while another one was being autosaved is handed over here
+    void beforeRun();   ///< call before each run
+
+    /// Call many times a second: an edit that came too soon after an autosave, or while one was being written, is handed over here.
+    void poll();
+
     bool isWriting() const { return session && ! autosaver->isIdle(); }   ///< an autosave is being written
     void finishAutosave();                                                ///< waits until the autosave matches the document
     void end();                                                           ///< removes the autosave; call it when the program closes normally
+
     /// Autosaves unsaved changes; call it when the program must close now. The folder of the session stays if there are takes in it.
     void endSuddenly (bool has_takes = false);
 

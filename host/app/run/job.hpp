@@ -39,7 +39,7 @@ public:
         threads.emplace_back (work, std::jthread ([own = work, where = std::move (where), act = std::move (act)]() mutable {
                                   own->result.emplace (caught (std::move (where), [&] { return act (own->course); }));
                                   own->is_done = true;
-                                  if (own->is_discarded) own->result.reset();   // nobody wants it now
+                                  if (own->is_discarded) own->result.reset();   // it was cancelled: free the result here, not in the window
                               }));
     }
 

@@ -33,7 +33,7 @@ std::string freeFolder (const std::string& name)
     return free;
 }
 
-/// What moves the tool while the stems are rendered, for each role: "tool: stroke, 2 s".
+/// The motion of each tool while the stems are rendered: "tool: stroke, 2 s".
 juce::String motionsOf (const graph::Graph& g)
 {
     juce::String text;
@@ -108,8 +108,9 @@ void StemExport::ask()
     looped.loop_s = 0.05;
     with_clips.clips = stemClipFormats();
     const auto about = TRANS ("WAV files of the mix, of each axis or actuator, of each layer, and of what is not mixed, as the simulated device "
-                              "feels them. Motion: %1.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end is blended into "
-                              "its start. With clips: 24 bit, and each layer as .haptic, AHAP and HJIF. Float: as many samples as the run has, and 1 is 1 N.");
+                              "feels them. Motion: %1.\n\n24 and 16 bit: at 48 kHz, with the loudest sample of all files at -1 dBFS. Loop: its end "
+                              "is blended into its start. With clips: 24 bit, and each layer as .haptic, AHAP and HJIF. Float: as many samples as the "
+                              "run has, and 1 is 1 N.");
     std::vector<Question::Choice> choices { choice (TRANS ("24 bit"), integers), choice (TRANS ("16 bit"), small) };
     choices.push_back (choice (TRANS ("24 bit loop"), looped));
     choices.push_back (choice (TRANS ("With clips"), with_clips));

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// What to do after an error in code that is watched. There may be no earlier version, such as when a program starts.
+/// The remedy for an error in code that is watched. No earlier version may be loaded, such as when a program starts.
 inline constexpr const char* correct_and_save = "correct the C++ code and save it; what is loaded stays as it is";
 
 /// The errors in the output of g++ or clang++, each with its file and line. If the output contains no error, its last lines become one,

@@ -49,7 +49,7 @@ public:
 
     const host::DriverAbout& about() const { return device.opened->about(); }
 
-    /// Where the hand is at this reading: it touches from the start, and again and again.
+    /// The place of the hand at this reading. It touches from the start, and again and again.
     static Vec3 placeAt (int reading)
     {
         const double time = reading / 4000.0;

@@ -195,8 +195,8 @@ void HandPanel::choose()
 {
     const int id = source.getSelectedId();
     const bool is_choice = id != 0 && id != by_recording;
-    shown_source = is_choice ? id : 0;   // so that the next refresh does not take back what the user chooses meanwhile
-    if (! is_choice) return;             // as it is
+    shown_source = is_choice ? id : 0;   // else the next refresh would undo a second choice that is still on its way
+    if (! is_choice) return;             // nothing changes
     chosen_hand = {};
     if (id == by_pointer) chosen_hand = LiveRun::Hand::pointer();
     if (id >= first_gesture) chosen_hand = { LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (id - first_gesture)].id) };

@@ -81,7 +81,7 @@ private:
     LiveRun::Hand chosen_hand;
     std::vector<std::string> tool_roles;   // those in the list of tools
     std::string shown_tool;                // the one that is selected in it
-    int shown_source = 0;                  // that the list showed as what moves the tool; 0: shows it anew
+    int shown_source = 0;                  // id of the source that refresh() has last put into the list; 0: it puts it there again
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
     std::shared_ptr<TransportPath> transport;   // as of the last refresh(); its run may have ended since then
