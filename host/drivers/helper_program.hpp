@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -43,7 +44,8 @@ inline std::filesystem::path findHelper (const void* in_driver, const std::strin
     return {};
 }
 
-/// A program of a driver's own, for a library that might not end well. Each of both knows by a pipe when the other one is gone. [one thread]
+/// A program of a driver's own, for a library that might not end well. Each of the two learns from a pipe that the other is gone. [one thread; hasEnded()
+/// and kill(): any thread, while the object lives]
 class HelperProcess
 {
 public:
@@ -64,7 +66,8 @@ public:
         if (from_helper >= 0) ::close (from_helper);
     }
 
-    /// Starts it, in a session of its own, so that no key of the terminal reaches it. After its arguments come the numbers of its copies of `files`, of a
+    /// Starts it, in a session of its own, so that no key of the terminal reaches it. SIGTERM and SIGHUP, which a computer that shuts down sends to every
+    /// program, wait until it ends: it ends with this program, after it has taken the force off. After its arguments come the numbers of its copies of `files`, of a
     /// pipe that ends with this object, and of one for its first line. Returns why that failed; empty if it runs. `in_driver`: as for findHelper().
     std::string start (const void* in_driver, const std::string& name, std::vector<std::string> arguments, std::vector<int> files, char* const* environment)
     {
@@ -72,14 +75,22 @@ public:
         const auto program = findHelper (in_driver, name, why);
         if (program.empty()) return why;
         std::array<int, 2> towards { -1, -1 }, from { -1, -1 };
-        if (::pipe2 (towards.data(), O_CLOEXEC) != 0 || ::pipe2 (from.data(), O_CLOEXEC) != 0) return "no pipes for " + name;
+        const bool has_pipes = ::pipe2 (towards.data(), O_CLOEXEC) == 0 && ::pipe2 (from.data(), O_CLOEXEC) == 0;
+        const int failed = errno;
         to_helper = towards[1];
         from_helper = from[0];
+        if (! has_pipes)
+        {
+            if (towards[0] >= 0) ::close (towards[0]);
+            return "no pipes for " + name + ": " + std::generic_category().message (failed);
+        }
         files.insert (files.end(), { towards[0], from[1] });
         posix_spawn_file_actions_t copies;
         posix_spawnattr_t how;
-        sigset_t none;
-        ::sigemptyset (&none);
+        sigset_t waiting;
+        ::sigemptyset (&waiting);
+        ::sigaddset (&waiting, SIGTERM);
+        ::sigaddset (&waiting, SIGHUP);
         ::posix_spawn_file_actions_init (&copies);
         ::posix_spawnattr_init (&how);
         arguments.insert (arguments.begin(), name);
@@ -94,7 +105,7 @@ public:
             texts.push_back (argument.data());
         texts.push_back (nullptr);
         ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
-        ::posix_spawnattr_setsigmask (&how, &none);
+        ::posix_spawnattr_setsigmask (&how, &waiting);
         const int error = ::posix_spawn (&process, program.c_str(), &copies, &how, texts.data(), environment);
         if (error != 0) process = -1;
         ::posix_spawnattr_destroy (&how);
@@ -119,7 +130,10 @@ public:
         return ::poll (&end, 1, wait_ms) > 0;
     }
 
-    void kill() const { ::kill (process, SIGKILL); }
+    void kill() const
+    {
+        if (process > 0) ::kill (process, SIGKILL);
+    }
 
 private:
     int to_helper = -1, from_helper = -1;

@@ -35,7 +35,7 @@ public:
         reason = handle != nullptr ? std::string() : "cannot be opened: " + reason;
     }
 
-    /// Why it cannot be used, in the words of the system, after its name; empty: it can.
+    /// The reason why it cannot be used, in the words of the system, after its name; empty: it can.
     const std::string& why() const { return reason; }
 
     /// Takes a function; null if it is not there.

@@ -32,13 +32,13 @@ namespace
 Message failure (const std::string& where, std::string why) { return Message::error ("device/wire", where, std::move (why)); }
 Message failure (const std::string& where, int error) { return failure (where, std::generic_category().message (error)); }
 
-/// Sets a line to raw bytes. False if it is none.
-bool makeRaw (int file, int baud) noexcept
+/// Sets a line to raw bytes. False if it is none. `kept`: the flags of its control that stay as they are.
+bool makeRaw (int file, int baud, tcflag_t kept = HUPCL) noexcept
 {
     termios2 how {};
     if (::ioctl (file, TCGETS2, &how) != 0) return false;
     how.c_iflag = how.c_oflag = how.c_lflag = 0;
-    how.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (how.c_cflag & HUPCL);
+    how.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (how.c_cflag & kept);
     how.c_ispeed = how.c_ospeed = static_cast<speed_t> (baud);
     how.c_cc[VMIN] = 1;
     how.c_cc[VTIME] = 0;
@@ -223,7 +223,7 @@ void WireFile::dropInput() noexcept
 void WireFile::change (int baud, Latency latency) noexcept
 {
     setLatency (file, latency);
-    makeRaw (file, baud);
+    makeRaw (file, baud, 0);   // without HUPCL: when the line closes, its control lines stay, else a Falcon would want its firmware again
     static_cast<void> (::ioctl (file, TCFLSH, TCIOFLUSH));
 }
 

@@ -23,7 +23,7 @@ public:
     using Clock = ReportFile::Clock;
     using Outcome = ReportFile::Outcome;
 
-    /// The other programs, but for those of root: may they open a line as well? Of a pseudo-terminal, they always may.
+    /// Permission for other programs, except those of root, to open a line as well. A pseudo-terminal is always open to them.
     enum class Others
     {
         excluded,

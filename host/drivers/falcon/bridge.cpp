@@ -101,7 +101,7 @@ void carry (const Adapter& adapter, int line, int driver)
             is_there = adapter.put (bytes.data(), count);
             unanswered += count;
             const auto* const end = bytes.data() + count;
-            pushes = baud == normal_baud && ! std::equal (end - std::min (count, int { at_rest.size() }), end, at_rest.begin(), at_rest.end());   // or may
+            pushes = baud == normal_baud && ! std::equal (end - std::min (count, int { at_rest.size() }), end, at_rest.begin(), at_rest.end());   // or may push
             heard = now;
         }
         if (pushes && (has_left || now - heard > silent))

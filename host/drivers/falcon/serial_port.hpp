@@ -38,7 +38,7 @@ public:
     {
         name = path;
         lock = FileLock::takeExisting (path);
-        if (! lock && ::access (path.c_str(), R_OK | W_OK) == 0) return "another role or another instance of Tactus is using it";
+        if (! lock && ::access (path.c_str(), R_OK | W_OK) == 0) return "another role, another instance of Tactus or another program is using it";
         auto opened = WireFile::openSerial (path, normal_baud, WireFile::Others::admitted);   // the guardian opens it, too
         if (! opened) return opened.error().text + (opened.error().remedy.empty() ? "" : ": " + opened.error().remedy);
         wire = std::move (*opened);

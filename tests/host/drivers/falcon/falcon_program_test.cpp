@@ -106,6 +106,26 @@ TEST_CASE ("if the process between a Falcon and its program is killed, the progr
     CHECK (falcon.isAtRest());
 }
 
+TEST_CASE ("a computer that shuts down, and so ends all programs at once, leaves a Falcon without a force", "[falcon][safety]")
+{
+    const TemporaryFolder folder;
+    folder.write ("wall.json", wall);
+    FakeFalcon falcon;
+    const Ftdi ftdi (falcon);
+    ::setenv ("TACTUS_FAKE_FTDI_PROCESS", (folder / "process").c_str(), 1);
+    falcon.target[1] = -0.006;
+    falcon.tremor = 2e-4;
+    const int end = GENERATE (SIGTERM, SIGHUP);
+    Running program ({ "play", (folder / "wall.json").string(), "--device", "stylus=falcon:usb" });
+    const bool pushes = test::soon ([&] { return falcon.pushes > 100 && ! falcon.isAtRest(); });
+    INFO (program.err());
+    REQUIRE (pushes);
+    REQUIRE (::kill (static_cast<pid_t> (std::stol (folder.textOf ("process"))), end) == 0);   // first the process that still has to take the force off
+    program.signal (end);
+    static_cast<void> (program.finish());
+    CHECK (falcon.isAtRest());
+}
+
 TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][promise]")
 {
     const TemporaryFolder folder;

@@ -483,7 +483,7 @@ TEST_CASE ("the firmware of a Falcon comes from a file of the person, and what i
     CHECK (contains (desk.said ({ { "port", "/dev/not_there" } }), "No such file"));
     REQUIRE (desk.opens());
     Desk other;
-    CHECK (contains (other.said ({ { "port", desk.falcon.port() } }), "another role or another instance of Tactus is using it"));
+    CHECK (contains (other.said ({ { "port", desk.falcon.port() } }), "another role, another instance of Tactus or another program is using it"));
 }
 
 TEST_CASE ("a Falcon without a serial port is played by libftdi, and gets its firmware by it", "[falcon]")
