@@ -57,7 +57,7 @@ struct HeadLine
 
 std::array<HeadLine, 4> headOf (const std::string& graph_hash, double rate_hz, const std::string& devices_hash)
 {
-    return { HeadLine { "tactus state\n", "state/format", "these bytes are not the state of a run", "give the bytes that save() returned, unchanged" },
+    return { HeadLine { "tactus state\n", "state/format", "this is not the state of a run", "give the bytes that save() returned, unchanged" },
              HeadLine { std::to_string (state_format) + " " + TACTUS_LIBRARY_VERSION + " " + std::to_string (math::revision) + "\n", "state/format",
                         "the state was saved by another version or another build of Tactus",
                         "save it again with this one: a state is not a file format that outlives a version" },
@@ -138,7 +138,7 @@ Result<> Run::restore (std::span<const std::byte> bytes, const graph::Graph& gra
     {
         const auto text = textOf (rest);
         if (! text.starts_with (line.text))
-            return refused (line.id, line.why + (": it has " + quote (text.substr (0, text.find ('\n')))), line.remedy);
+            return refused (line.id, std::string (line.why) + " (it says " + quote (text.substr (0, text.find ('\n'))) + ")", line.remedy);
         rest = rest.subspan (line.text.size());
     }
     if (rest.size() < hash_size || textOf (rest.first (hash_size)) != contentHash (textOf (rest.subspan (hash_size))))
