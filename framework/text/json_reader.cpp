@@ -281,7 +281,8 @@ std::string JsonReader::found() const
 std::string JsonReader::remedyFor (Wanted wanted, bool after_comma) const
 {
     const char c = scan.peek();
-    if (scan.atEnd()) return "the file ends too early; was it cut off?";
+    if (scan.atEnd()) return "the file ends too early, as if it was cut off";
+    if (const auto [line, column] = scan.position(); line == 1 && column == 1 && c != '/') return "this is a file of another kind: choose a JSON file";
     if (c == '/' || c == '#') return "JSON has no comments; put notes under a key of your own (unknown keys are kept)";
     if (c == '\'') return "put strings and keys in double quotes";
     if (c == '}' || c == ']') return after_comma ? "remove the comma before the bracket" : "check which bracket is open here";
