@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "variation.hpp"
 
+#include <host/app/layers/mixer_parts.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace tactus::host
@@ -38,8 +41,58 @@ graph::Graph at (graph::Graph g, int snapshot)
     return g;
 }
 
+/// A length on both sides of 0 is a place, such as the offset of a wall. At random, it would be out of reach, or jump into the hand.
+bool isPlace (const PortSheet& sheet)
+{
+    const bool is_length = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::length;
+    return is_length && sheet.limits.usual.min < 0.0 && sheet.limits.usual.max > 0.0;
+}
+
 /// A switch is a number that means on or off.
 bool isSwitch (const PortSheet& sheet) { return sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::state; }
+/// Gives nodes random numbers, and those inside of subgraphs, each of which it changes once.
+struct Randomiser
+{
+    /// `path`: of the node, as controls name it; empty if it is not known.
+    void change (const graph::Patch& in, const std::string& patch, const graph::Node& node, const std::optional<std::string>& path)
+    {
+        constexpr std::string_view subgraph = "graph:";
+        if (node.type.starts_with (subgraph)) enter (node.type.substr (subgraph.size()), path);
+        auto changed = node;
+        for (const auto& p : faceOf (g, in, node, catalogue).params)
+        {
+            if (! isNumber (p) || isSwitch (*p.sheet) || isPlace (*p.sheet)) continue;
+            const auto& [hard, usual, latch] = p.sheet->limits;
+            const double low = std::max (hard.min, usual.min), high = std::min (hard.max, usual.max);
+            const double share = random.uniform();   // taken even if it is not used, so that a value depends on the seed alone
+            if (! std::isfinite (low) || ! std::isfinite (high) || low >= high || node.type.starts_with (subgraph)) continue;
+            const auto isDriving = [&, id = baseOf (p.id)] (const graph::Wire& w) { return w.to.node == node.name && w.to.port == id; };
+            if (std::ranges::any_of (in.wires, isDriving) || (path && isSetElsewhere (g, *path + '.' + p.id))) continue;
+            const auto now = readQuantity (valueOf (g, node, p), *p.sheet);
+            if (! now) continue;
+            const double wanted = low > 0.0 && high >= 10.0 * low ? low * std::pow (high / low, share) : low + share * (high - low);
+            const auto moved = now->moved (wanted);
+            const auto value = withValue (changed, p, (moved.si() < low || moved.si() > high ? now->exactly (std::clamp (wanted, low, high)) : moved).toJson());
+            if (value) changed.params[baseOf (p.id)] = *value;
+        }
+        for (const auto& [key, value] : changed.params.items())
+            if (! node.params.contains (key) || *node.params.find (key) != value) batch.commands.push_back (graph::SetParam { patch, node.name, key, value });
+    }
+
+    void enter (const std::string& patch, const std::optional<std::string>& path)
+    {
+        const auto* in = findPatch (g, patch);
+        if (in == nullptr || ! entered.insert (patch).second) return;
+        for (const auto& node : in->nodes)
+            if (! mixing::isMixer (node.type)) change (*in, patch, node, path ? std::optional (*path + '/' + node.name) : std::nullopt);
+    }
+
+    const graph::Graph& g;
+    const Catalogue& catalogue;
+    Random random;
+    graph::Batch& batch;
+    std::set<std::string> entered {};   // subgraphs
+};
 }   // namespace
 
 Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catalogue& catalogue)
@@ -96,31 +149,10 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
 graph::Batch randomised (const graph::Graph& g, const std::string& patch, std::span<const graph::Id> nodes, const Catalogue& catalogue, std::uint64_t seed)
 {
     graph::Batch batch { filled (NEEDS_TRANS ("randomise, seed %1"), juce::String (seed)).toStdString(), {} };
+    Randomiser randomiser { g, catalogue, Random { seed }, batch };
     const auto* in = findPatch (g, patch);
-    Random random { seed };
     for (const auto& node : in == nullptr ? std::vector<graph::Node> {} : in->nodes)
-    {
-        if (std::ranges::count (nodes, node.id) == 0) continue;
-        auto changed = node;
-        for (const auto& p : faceOf (g, *in, node, catalogue).params)
-        {
-            if (! isNumber (p) || isSwitch (*p.sheet)) continue;
-            const auto& [hard, usual, latch] = p.sheet->limits;
-            const double low = std::max (hard.min, usual.min), high = std::min (hard.max, usual.max);
-            const double share = random.uniform();   // taken even if it is not used, so that a value depends on the seed alone
-            if (! std::isfinite (low) || ! std::isfinite (high) || low >= high) continue;
-            const auto isDriving = [&, id = baseOf (p.id)] (const graph::Wire& w) { return w.to.node == node.name && w.to.port == id; };
-            if (std::ranges::any_of (in->wires, isDriving) || (patch.empty() && isSetElsewhere (g, node.name + '.' + p.id))) continue;
-            const auto now = readQuantity (valueOf (g, node, p), *p.sheet);
-            if (! now) continue;
-            const double wanted = low > 0.0 && high >= 10.0 * low ? low * std::pow (high / low, share) : low + share * (high - low);
-            const auto moved = now->moved (wanted);
-            const auto value = withValue (changed, p, (moved.si() < low || moved.si() > high ? now->exactly (std::clamp (wanted, low, high)) : moved).toJson());
-            if (value) changed.params[baseOf (p.id)] = *value;
-        }
-        for (const auto& [key, value] : changed.params.items())
-            if (! node.params.contains (key) || *node.params.find (key) != value) batch.commands.push_back (graph::SetParam { patch, node.name, key, value });
-    }
+        if (std::ranges::count (nodes, node.id) > 0) randomiser.change (*in, patch, node, patch.empty() ? std::optional (node.name) : std::nullopt);
     return batch;
 }
 

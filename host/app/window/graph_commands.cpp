@@ -3,6 +3,7 @@
 
 #include <host/app/canvas/picture/save_picture.hpp>
 #include <host/app/compose/variation.hpp>
+#include <host/app/layers/mixer_parts.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/share.hpp>
@@ -39,7 +40,7 @@ void randomise (const Desk& desk)
     std::vector<graph::Id> nodes;
     const auto& selected = desk.canvas.selection();
     for (const auto& n : desk.canvas.scene().nodes())
-        if (selected.empty() || selected.contains (n.id)) nodes.push_back (n.id);
+        if (selected.empty() ? ! mixing::isMixer (n.type) : selected.contains (n.id)) nodes.push_back (n.id);   // levels and ceilings are what the user set for the hand
     const auto seed = static_cast<std::uint64_t> (1 + juce::Random::getSystemRandom().nextInt (9999));
     auto batch = randomised (desk.document.graph(), desk.canvas.patch(), nodes, desk.types, seed);
     if (batch.commands.empty()) return desk.notify (TRANS ("Nothing here has a number with a usual range."));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Morphs between two snapshots, and random values.
+#include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/variation.hpp>
+#include <host/app/layers/mixer_parts.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/storage/snapshots.hpp>
 
@@ -173,6 +175,7 @@ TEST_CASE ("random values stay within the usual ranges, leave out what is set el
                             CHECK (si >= sheet.limits.usual.min * (1.0 - 1e-9) - 1e-12);
                             CHECK (si <= sheet.limits.usual.max * (1.0 + 1e-9) + 1e-12);
                         }
+                        CHECK (key != "offset");   // a wall would jump into the hand
                         for (const auto& c : g.controls)
                             for (const auto& t : c.to)
                                 CHECK (t.path != n.name + "." + key);
@@ -183,4 +186,46 @@ TEST_CASE ("random values stay within the usual ranges, leave out what is set el
         }
         CHECK (different.size() == 20);
     }
+}
+
+namespace
+{
+/// Dry wood with Bronze bell added.
+graph::Graph withBell()
+{
+    auto open = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+    const auto added = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
+    auto made = compose::addPreset (open, added, { .roles = compose::roleMaps (open, added).front(), .parts = {}, .at = {} }, catalogue());
+    REQUIRE (made);
+    REQUIRE (graph::apply (open, made->command));
+    return open;
+}
+}   // namespace
+
+TEST_CASE ("random values reach what is inside of an added preset, but not what its knobs set, nor its levels", "[snapshots]")
+{
+    const auto g = withBell();
+    std::vector<graph::Id> all;
+    for (const auto& n : g.root.nodes)
+        all.push_back (n.id);
+    graph::History h (g);
+    mustPerform (h, randomised (g, {}, all, catalogue(), 7));
+    int changed = 0;
+    for (const auto& [name, patch] : g.graphs)
+        for (const auto& n : patch.nodes)
+        {
+            const auto& now = h.graph().find (name)->find (n.name)->params;
+            changed += now != n.params ? 1 : 0;
+            if (mixing::isMixer (n.type)) CHECK (now == n.params);
+        }
+    CHECK (changed > 0);
+    for (const auto& c : g.controls)
+        for (const auto& t : c.to)
+        {
+            const auto slash = t.path.rfind ('/'), dot = t.path.rfind ('.');
+            if (slash == t.path.npos) continue;
+            for (const auto& [name, patch] : g.graphs)
+                if (const auto* n = patch.find (t.path.substr (slash + 1, dot - slash - 1)))
+                    CHECK (h.graph().find (name)->find (n->name)->params.value (t.path.substr (dot + 1), Json()) == n->params.value (t.path.substr (dot + 1), Json()));
+        }
 }
