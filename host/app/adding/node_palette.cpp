@@ -65,9 +65,10 @@ void openNodePalette (const Desk& desk, Palette& palette, const std::vector<Pres
     const bool begins = canvas.edited().graph().root.nodes.empty(), is_empty = begins && canvas.patch().empty();
     for (const auto& t : is_empty ? templates : std::vector<Preset> {})
         beginnings.push_back ({ idOf (t), t.name, t.about });
-    if (! is_empty && ! request.start && request.wire == 0)
+    const auto about = is_empty ? TRANS ("A preset to open") : TRANS ("A preset, as a node and a layer of the mixer");
+    if ((is_empty || ! begins) && ! request.start && request.wire == 0)
         for (const auto& p : presets)
-            if (p.problem.empty()) layers.push_back ({ idOf (p), p.name, TRANS ("A preset, as a node and a layer of the mixer").toStdString() });
+            if (p.problem.empty()) layers.push_back ({ idOf (p), p.name, about.toStdString() });
     auto purpose = TRANS ("Add node");
     if (request.wire != 0)
         purpose = TRANS ("Insert into wire");
@@ -81,7 +82,7 @@ void openNodePalette (const Desk& desk, Palette& palette, const std::vector<Pres
                 found.push_back ({ {}, filled (TRANS ("%1 has no port for this wire"), all[0].name.empty() ? all[0].type : all[0].name).toStdString(), {} });
         if (const auto added = withName (layers, query); ! added.empty())
         {
-            found.push_back ({ {}, TRANS ("Add to this graph").toStdString(), {} });
+            found.push_back ({ {}, (beginnings.empty() ? TRANS ("Add to this graph") : TRANS ("Open a preset")).toStdString(), {} });
             found.insert (found.end(), added.begin(), added.end());
         }
         if (beginnings.empty()) return found;
@@ -97,9 +98,11 @@ void openNodePalette (const Desk& desk, Palette& palette, const std::vector<Pres
     };
     palette.open (at, search, purpose, [&desk, templates, presets, request, begins] (const std::string& chosen) {
         takeFocus (desk.canvas);   // first: what is chosen may open the palette again
-        const auto* preset = presetOf (chosen, begins ? templates : presets);
+        const auto* beginning = begins ? presetOf (chosen, templates) : nullptr;
+        if (beginning != nullptr) return desk.feel (beginning->file, false);
+        const auto* preset = presetOf (chosen, presets);
         if (preset == nullptr) return addNode (desk, chosen, request);
-        begins ? desk.feel (preset->file, false) : addGraph (desk, preset->file, {}, request.at);
+        begins ? desk.openGraph (preset->file) : addGraph (desk, preset->file, {}, request.at);
     });
 }
 

@@ -66,15 +66,20 @@ void openMenu (const Desk& desk, PresetBrowser& list, const Preset& p)
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list).withMousePosition());
 }
 
-/// The presets that can be added to the graph, whole or without their walls.
+/// The presets that can be added to the graph, whole or without their walls. An empty graph gives way to a preset.
 std::vector<Panel::Action> actionsOf (const Desk& desk, const PresetBrowser& list)
 {
     std::vector<Panel::Action> all;
-    if (! isAnythingOpen (desk)) return all;
-    const auto about = TRANS ("A preset, as a node and a layer");
+    const bool is_empty = ! isAnythingOpen (desk);
+    const auto about = is_empty ? TRANS ("A preset to open") : TRANS ("A preset, as a node and a layer");
     for (const auto& p : list.shipped())
     {
         if (! p.problem.empty()) continue;
+        if (is_empty)
+        {
+            all.push_back ({ filled (TRANS ("Open %1"), p.name), about, [&desk, file = p.file] { desk.openGraph (file); } });
+            continue;
+        }
         all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), about, [&desk, file = p.file] { addGraph (desk, file); } });
         all.push_back ({ filled (TRANS ("Add %1 without its walls"), p.name), about,
                          [&desk, file = p.file] { addGraph (desk, file, compose::withoutWalls()); } });

@@ -252,3 +252,33 @@ TEST_CASE ("a search for commands says nothing about nodes", "[app][small][palet
     CHECK (isSaid ("No match"));
     CHECK_FALSE (isSaid ("friction"));
 }
+
+TEST_CASE ("in an empty graph, Ctrl+K and Space find the presets, and open them", "[app][keyboard]")
+{
+    const TemporaryFolder folder;
+    graph::Graph nothing;
+    nothing.name = "nothing";
+    REQUIRE (saveGraph (nothing, folder / "nothing.json").has_value());
+    for (const auto& [key, words] : { std::pair { "ctrl + k", "open oak board" }, std::pair { "spacebar", "oak b" } })
+    {
+        INFO (key);
+        SearchDesk desk ((folder / "nothing.json").string());
+        desk.choose (key, words);
+        CHECK (desk.w.graph().name == "Oak board");
+    }
+}
+
+TEST_CASE ("Ctrl+K finds the ceiling of the mix, also where an added preset has a mixer of its own", "[app][keyboard]")
+{
+    SearchDesk desk ("bronze_bell.json");
+    const auto entries = desk.listed ("ctrl + k", "ceiling");
+    REQUIRE_FALSE (entries.empty());
+    CHECK (entries.front().name == "Ceiling of the mix");
+    desk.w.key ("return");
+    WindowRig::settle();
+    desk.w.stage->type ("1.5");
+    desk.w.key ("return");
+    WindowRig::settle();
+    const auto isCeiling = [] (const graph::Node& n) { return n.params.contains ("ceiling") && n.params.at ("ceiling").dump().find ("1.5") != std::string::npos; };
+    CHECK (std::ranges::any_of (desk.w.graph().root.nodes, isCeiling));
+}
