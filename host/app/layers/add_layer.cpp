@@ -84,7 +84,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     if (gain) node.params["gain"] = numberText (*gain) + " N";
     const auto name = node.name;
     const auto id = node.id;
-    batch.name = filled (TRANS ("add the layer %1"), name).toStdString();
+    batch.name = filled (TRANS ("add the layer '%1'"), name).toStdString();
     batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
     const auto later = wiring::downstreamOf (*patch, at.node);
     auto missing = plays == ClipPlays::at_taps ? wiring::wireInputs (*sheet, name, g, at.patch, later, catalogue, batch) : std::string();

@@ -391,9 +391,12 @@ bool LayersPanel::keyPressed (const juce::KeyPress& key)
     const auto* part = getCurrentlyFocusedComponent();
     if (! key.getModifiers().isCtrlDown() || ! (to_left || key.isKeyCode (juce::KeyPress::rightKey)) || part == nullptr) return false;
     const auto own = std::ranges::find (strips, part->getParentComponent(), [] (const auto& s) { return s.get(); });
-    if (own == strips.end()) return false;
+    const bool is_mix = total != nullptr && part->getParentComponent() == total.get();
+    if (own == strips.end() && ! is_mix) return false;
     const auto beside = own - strips.begin() + (to_left ? -1 : 1);
+    if (total != nullptr && beside == std::ssize (strips)) takeFocus (*total->fields().back());
     if (beside < 0 || beside >= std::ssize (strips)) return true;
+    if (is_mix) return takeFocus (strips.back()->gainField()), true;
     auto& strip = *strips[static_cast<std::size_t> (beside)];
     auto* to = strip.getChildComponent ((*own)->getIndexOfChildComponent (part));
     if (to == nullptr || ! to->isShowing() || ! to->isEnabled()) return true;

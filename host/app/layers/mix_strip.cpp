@@ -60,7 +60,8 @@ void MixStrip::refresh (const Traces::Client& traces, const std::vector<std::str
     const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
     feed.take (traces.of (context->place.path + ".out"), 1.0, dt_s);
     over_db = 0.0;
-    if (const auto found = traces.of (context->place.path + ".reduction"); ! found.empty())
+    const bool is_heard = feed.meter.peak() > 0.0;   // the traces of a run stay after it
+    if (const auto found = traces.of (context->place.path + ".reduction"); is_heard && ! found.empty())
     {
         std::vector<double> latest;
         latestOf (*found.front(), static_cast<std::size_t> (0.3 * found.front()->rate()), 1.0, latest);

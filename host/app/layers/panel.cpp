@@ -27,16 +27,22 @@ Panel layersPanel (Desk& desk)
         desk.toFront (*layers);
         layers->addClip (file, gain);
     };
-    const auto gains = [&desk, layers] {
+    const auto fields = [&desk, layers] {
         std::vector<Panel::Action> all;
         for (std::size_t i = 0; i < layers->layers(); ++i)
-            all.push_back ({ layers->layer (i).gainField().getTitle(), TRANS ("A layer of the mixer: type its gain"), [&desk, layers, i] {
+            all.push_back ({ layers->layer (i).gainField().getTitle(), TRANS ("A layer of the mixer: type its gain, or level"), [&desk, layers, i] {
                                 desk.toFront (*layers);
                                 if (i < layers->layers()) layers->layer (i).gainField().openEditor();
                             } });
+        auto* mix = layers->mix();
+        for (std::size_t i = 0; mix != nullptr && i < mix->fields().size(); ++i)
+            all.push_back ({ mix->fields()[i]->getTitle(), TRANS ("The mix: type a number"), [&desk, layers, i] {
+                                desk.toFront (*layers);
+                                if (auto* now = layers->mix()) now->fields()[i]->openEditor();
+                            } });
         return all;
     };
-    return { .name = TRANS ("Layers"), .component = std::move (made), .actions = gains, .refresh = [layers] { layers->refresh(); } };
+    return { .name = TRANS ("Layers"), .component = std::move (made), .actions = fields, .refresh = [layers] { layers->refresh(); } };
 }
 
 }   // namespace tactus::host

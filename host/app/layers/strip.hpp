@@ -12,6 +12,8 @@
 #include <host/app/model/document.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <array>
+
 namespace tactus::host
 {
 
@@ -126,6 +128,7 @@ public:
     double reduction() const noexcept { return over_db; }
     const Meter& meter() const noexcept { return feed.meter; }
     const Meter& motorMeter() const noexcept { return motor.meter; }
+    std::array<NumberField*, 2> fields() noexcept { return { &duck, &ceiling }; }
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -250,7 +250,7 @@ TEST_CASE ("a preset that is dropped on the mixer is a layer of it, in one undo 
     CHECK (writeGraph (w.graph()) == before);
 }
 
-TEST_CASE ("Ctrl and an arrow key go to the same part of the next strip, and come to rest at the last one", "[app][layers]")
+TEST_CASE ("Ctrl and an arrow key go to the same part of the next strip, and come to rest at the ceiling of the mix", "[app][layers]")
 {
     DeskStage w ("bronze_bell.json");
     auto& desk = w.show<LayersPanel> (layersPanel);
@@ -258,11 +258,18 @@ TEST_CASE ("Ctrl and an arrow key go to the same part of the next strip, and com
     const auto isAt = [&] (std::size_t i) { return desk.layer (i).gainField().hasKeyboardFocus (true); };
     desk.layer (0).gainField().grabKeyboardFocus();
     const auto before = w.document.history().position();
-    for (const std::size_t at : { 1u, 2u, 2u })
+    for (const std::size_t at : { 1u, 2u })
     {
         w.key ("ctrl + cursor right");
         CHECK (isAt (at));
     }
+    for (int i = 0; i < 2; ++i)
+    {
+        w.key ("ctrl + cursor right");
+        CHECK (desk.mix()->fields()[1]->hasKeyboardFocus (true));
+    }
+    w.key ("ctrl + cursor left");
+    CHECK (isAt (2));
     w.key ("ctrl + cursor left");
     CHECK (isAt (1));
     CHECK (w.document.history().position() == before);   // no value has changed
