@@ -244,6 +244,7 @@ void LiveRun::begin()
     end();
     begins = false;
     const auto& graph = document.graph();
+    began_held = held;
     run_of = document.identity();
     run_devices = withoutGuards (graph.devices);
     if (setup != nullptr) run_session = setup->session().session;
@@ -370,7 +371,7 @@ bool LiveRun::canRearm() const noexcept { return stops->mayRearm().has_value() &
 void LiveRun::rearm() noexcept
 {
     if (! canRearm()) return;
-    held = false;
+    held = began_held = false;
     if (wanted) stops->started();
     if (session) static_cast<void> (session->rearm());
 }

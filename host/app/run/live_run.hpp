@@ -99,7 +99,8 @@ public:
     bool canRearm() const noexcept;
     void hold() noexcept { held = true; }   ///< the next run starts stopped, until rearm() or until the user starts it
     bool isHeld() const noexcept { return held; }
-    bool isStoppedForGood() const;   ///< true after a latched stop, until rearm() or until the user starts another run
+    bool beganHeld() const noexcept { return held && began_held; }   ///< a stop of an earlier graph still holds the forces
+    bool isStoppedForGood() const;                                   ///< true after a latched stop, until rearm() or until the user starts another run
 
     /// Stops, waits until the forces are zero, and releases the devices.
     void letGo();
@@ -285,6 +286,7 @@ private:
     std::map<std::string, GuardLimits> kept_limits {};   // by role, what the graphs have asked for since the user started
     Hand moved_by;
     bool held = false;         // an emergency stop or another latched stop holds the forces at zero until rearm()
+    bool began_held = false;   // when the run began
     bool ends_stops = false;   // START was pressed, so the run that begins next ends the latched stops of the one before
     StopSwitch own_stops;      // until obey()
     StopSwitch* stops = &own_stops;

@@ -90,6 +90,8 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     playback.restart();
     REQUIRE (until ([&] { return run.isRunning() && run.status() && run.status()->ticks > 100; }));
     run.emergencyStop();
+    run.startOther ({});   // as another graph does that is opened now
+    CHECK (until ([&] { return run.isRunning() && strip.guardText().contains ("stopped before this graph began; REARM"); }));
     buttonCalled (strip, "STOP")->onClick();
     CHECK (until ([&] { return ! run.isRunning(); }));
 }
