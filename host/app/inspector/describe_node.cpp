@@ -16,6 +16,7 @@
 #include <tactus/node/claims_passive.hpp>
 
 #include <cmath>
+#include <span>
 
 namespace tactus::host
 {
@@ -200,8 +201,6 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
         column.add (TRANS ("Unknown node type. The node keeps its parameters and wires. A graph with it does not start."), TextBlock::Kind::text);
     if (face.kind == Face::Kind::subgraph) column.add (TRANS ("A subgraph. Double-click it on the canvas to enter."), TextBlock::Kind::text);
     column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
-    if (at.contacts && at.patch.empty())
-        column.add (std::make_unique<LimitBlock> ([contacts = at.contacts, name = node.name] { return contacts (name); }));
     if (help)
     {
         listPorts (face.inputs, TRANS ("Inputs"), column);
@@ -220,10 +219,13 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
     }
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
-    if (face.type == nullptr) return;
-    if (! face.type->settings.empty()) column.add (TRANS ("Settings"), TextBlock::Kind::heading);
-    for (const auto& s : face.type->settings)
+    const auto settings = face.type != nullptr ? std::span<const SettingSheet> (face.type->settings) : std::span<const SettingSheet> {};
+    if (! settings.empty()) column.add (TRANS ("Settings"), TextBlock::Kind::heading);
+    for (const auto& s : settings)
         column.add (settingEditor (s, bindingOf<graph::SetSetting> (at, node.name, std::string (s.id), &graph::Node::settings), at.editors));
+    if (at.contacts && at.patch.empty())   // below what can be changed: it comes a moment later, and nothing moves under the pointer
+        column.add (std::make_unique<LimitBlock> ([contacts = at.contacts, name = node.name] { return contacts (name); }));
+    if (face.type == nullptr) return;
     if (const auto law = lawOf (node.type); ! law.empty())
     {
         column.add (TRANS ("Law"), TextBlock::Kind::heading);

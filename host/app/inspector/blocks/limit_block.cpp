@@ -35,21 +35,22 @@ LimitBlock::LimitBlock (std::function<std::vector<ContactLimit>()> g) : get (std
 juce::String LimitBlock::textOf (const ContactLimit& c)
 {
     using check::Verdict;
+    const auto device = c.device == TRANS ("simulated").toStdString() ? TRANS ("the simulated device") : fromUtf8 (c.device);
     // The limit of the linear loop, unless only the trials show a swing, or what calms it.
     const bool is_known = c.verdict == Verdict::stable ? c.stable_up_to >= 1.0 : c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
-    if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, and up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, up to %2 times as stiff"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::passive_here)
-        return filled (TRANS ("Passive on %1 along this motion, and up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+        return filled (TRANS ("Passive on %1 along this motion, up to %2 times as stiff"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::stable && ! is_known)
-        return filled (TRANS ("It comes to rest in a simulation of %1; passive up to %2 times as steep"), c.device, factorText (c.passive_up_to));
-    if (c.verdict == Verdict::unstable && ! is_known) return filled (TRANS ("It does not come to rest in a simulation of %1"), c.device);
+        return filled (TRANS ("It comes to rest in a trial with %1; passive up to %2 times as stiff"), device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::unstable && ! is_known) return filled (TRANS ("It does not come to rest in a trial with %1"), device);
     if (c.verdict == Verdict::stable)
-        return filled (TRANS ("Stable on %1 with usual hands, and up to %2 times as steep; passive up to %3 times"), c.device, factorText (c.stable_up_to),
+        return filled (TRANS ("Stable on %1 with usual hands, up to %2 times as stiff; passive up to %3 times"), device, factorText (c.stable_up_to),
                        factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable)
-        return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as steep, passive up to %3 times"), c.device,
+        return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as stiff, passive up to %3 times"), device,
                        factorText (c.stable_up_to), factorText (c.passive_up_to));
-    return filled (TRANS ("Not passive on %1; passive up to %2 times as steep"), c.device, factorText (c.passive_up_to));
+    return filled (TRANS ("Not passive on %1; passive up to %2 times as stiff"), device, factorText (c.passive_up_to));
 }
 
 void LimitBlock::refresh (const graph::Node*)

@@ -203,7 +203,7 @@ protected:
             add (filled (text, count ("nodes"), count ("triangles")), TextBlock::Kind::small);
         }
         else
-            add (fileRow (TRANS ("mesh"), Kind::surface, binding.member ("mesh"), context, TRANS ("OBJ, OFF, PLY or STL")));
+            add (fileRow (TRANS ("mesh"), Kind::surface, mesh(), context, TRANS ("OBJ, OFF, PLY or STL")));
         const auto mu = sheetOfNumber ("mu", unit::gain, lasting (TRANS ("lateral deflection of the contact over its depth")),
                                        { .hard = { 0, inf }, .usual = { 0, 1 } }, 0.0);
         if (! now.is_object() || ! now.contains ("mu") || ! now["mu"].is_array()) add (numberRow ("mu", mu, binding.member ("mu"), context.refused));
@@ -218,6 +218,23 @@ protected:
     }
 
 private:
+    /// A mesh alone cannot be felt: with the first one come the curves and the ratio of the default surface, which the fields below then show.
+    Binding mesh() const
+    {
+        auto made = binding.member ("mesh");
+        made.set = [all = binding, set = made.set] (std::optional<Json> to, bool continues) {
+            auto now = all.get();
+            if (! to || (now.is_object() && now.contains ("curves"))) return set (std::move (to), continues);
+            if (! now.is_object()) now = Json::object();
+            const auto across = Json::parse (R"({ "power": [500, 1] })"), along = Json::parse (R"({ "power": [1000, 1] })");
+            now["mesh"] = *to;
+            now["curves"] = Json::array ({ Json::array ({ across, across, along }) });
+            if (! now.contains ("mu")) now["mu"] = 0.5;
+            all.set (std::move (now), continues);
+        };
+        return made;
+    }
+
     /// The number of tools if each has one triple of laws for all nodes, else 0.
     static std::size_t tools (const Json& now)
     {

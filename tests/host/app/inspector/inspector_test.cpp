@@ -495,6 +495,27 @@ TEST_CASE ("of a long value as JSON, the inspector shows the beginning and its l
     CHECK (field()->getText() == R"({"mesh": "a \"new\", one: of\\", "mu": 0.5})");
 }
 
+TEST_CASE ("a mesh that is chosen for a surface without curves brings the curves of the default surface, so that it can be felt", "[inspector]")
+{
+    InspectorRig rig ("liver.json");
+    const auto liver = std::ranges::find (rig.document->graph().root.nodes, "deform.surface", &graph::Node::type)->name;
+    const auto mesh = rig.node (liver).settings["surface"]["mesh"].get<std::string>();
+    REQUIRE (rig.document->perform (graph::SetSetting { {}, liver, "surface", std::nullopt }));
+    rig.select (liver);
+    TextField* field = nullptr;
+    for (auto* f : rig.all<TextField>())
+        if (f->getTooltip().startsWith ("OBJ, OFF")) field = f;
+    REQUIRE (field != nullptr);
+    write (field, mesh);
+    const auto set = rig.node (liver).settings["surface"];
+    CHECK (set["mesh"] == mesh);
+    REQUIRE (set.contains ("curves"));
+    CHECK (set["curves"][0][2] == Json::parse (R"({ "power": [1000, 1] })"));
+    CHECK (set["mu"] == 0.5);
+    rig.document->undo();
+    CHECK_FALSE (rig.node (liver).settings.contains ("surface"));   // one step
+}
+
 TEST_CASE ("a law is plotted as one line across the plot", "[inspector]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
@@ -536,12 +557,12 @@ TEST_CASE ("the inspector says how steep the contact of the selected node may be
     rig.inspector->showLimits ({ { "wall", "Simulated", Verdict::passive, 1.5, 0.0 }, { "wall/inner", "Simulated", Verdict::stable, 0.5, 2.0 } });
     CHECK (block()->getHeight() > one);
     const auto text = [] (Verdict verdict, double passive, double stable) { return LimitBlock::textOf ({ "wall", "A", verdict, passive, stable }); };
-    CHECK (text (Verdict::passive, 2.0, 0.0).startsWith ("Passive on A, and up to 2 times"));
+    CHECK (text (Verdict::passive, 2.0, 0.0).startsWith ("Passive on A, up to 2 times"));
     CHECK (text (Verdict::passive_here, 2.0, 0.0).startsWith ("Passive on A along this motion"));
-    CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands, and up to 2 times as steep"));
-    CHECK (text (Verdict::stable, 0.5, 0.75).startsWith ("It comes to rest in a simulation of A"));   // dry friction holds it
+    CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands, up to 2 times as stiff"));
+    CHECK (text (Verdict::stable, 0.5, 0.75).startsWith ("It comes to rest in a trial with A"));   // dry friction holds it
     CHECK (text (Verdict::unstable, 0.5, 0.75).startsWith ("It swings on A"));
-    CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("It does not come to rest in a simulation of A"));   // it bounces
+    CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("It does not come to rest in a trial with A"));   // it bounces
     rig.inspector->showLimits ({});
     CHECK (block()->getHeight() == 0);
 }
