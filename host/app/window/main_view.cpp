@@ -253,8 +253,11 @@ void MainView::documentChanged()
     if (parts.welcome.isVisible() && (edited.identity() != first_identity || edited.isChanged())) parts.welcome.setVisible (false);
     beginnings.placeTemplates();
     if (is_other && parts.layout.left.isParentOf (getCurrentlyFocusedComponent()))
-        takeFocus (patching);                  // what is typed next is for this graph, not for a search
-    if (! patching.isDragging()) showName();   // else at its end
+        takeFocus (patching);   // what is typed next is for this graph, not for a search
+    if (patching.isDragging())
+        was_dragging = true;   // also if the drag ends before the next look: the name is shown at its end
+    else
+        showName();
 }
 
 void MainView::showName()
