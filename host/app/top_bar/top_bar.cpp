@@ -355,8 +355,8 @@ void TopBar::morph (int from, int to)
     if (! made) return desk.notify (fromUtf8 (messageText (made.error())));
     if (! document.perform (std::move (made->command))) return;
     desk.notify (made->left_out == 0
-                     ? filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3."), made->params, from, to)
-                     : filled (TRANS ("The new control moves %1 numbers from snapshot %2 to snapshot %3. %4 differences stay as in snapshot %2: choices, "
+                     ? filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to)
+                     : filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1. Differences that stay as in snapshot %2: %4. They are choices, "
                                       "vectors, values in subgraphs, and what a wire or a control sets."),
                                made->params, from, to, made->left_out));
 }
