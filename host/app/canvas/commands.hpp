@@ -35,6 +35,7 @@ struct NodeRequest
     std::optional<PortId> start {};   ///< the port to connect the new node to
     graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
     bool modulates = false;           ///< what the new node gives to `start`, a param, moves it around its value, and does not set it
+    bool is_joined = false;           ///< it belongs to the last step of the history
 };
 
 /// The commands for the selection of a canvas and for its patch. Each edit is one undo step.
@@ -105,8 +106,12 @@ public:
     /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.
     void join (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0);
 
-    /// Connects an output to what a control sets: a modulator moves the control's targets around their values. One undo step.
+    /// Connects an output to what a control sets: a modulator moves the control's targets around their values, and any other output replaces them. One
+    /// undo step. Exposes targets inside of subgraphs. Says so if a target does not take the wire.
     void joinControl (const PortId& start, const std::string& control);
+
+    /// Adds a node of this type that moves what a control sets around its value, as addModulator() does for a param.
+    void addModulatorOf (const std::string& control, const std::string& type);
 
     void editParams();   ///< gives the keyboard focus to the parameters of the selected node
     void editParam (const SceneNode&, const Socket&);
@@ -114,6 +119,11 @@ public:
     bool setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
 private:
+    /// Calls `act` with each param of the patch through which a control sets something, exposed if it is inside of a subgraph: that is an edit with this step,
+    /// and what follows is joined to it. Returns what `act` said last, or why there is no such param; empty if neither.
+    juce::String eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&)>& act);
+
+    void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step);
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
 
     /// The node that was added last, its place, and where the pointer was.

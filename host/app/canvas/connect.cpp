@@ -30,6 +30,7 @@ struct WireChoice
     Findable searched;
     PortId own, other {};
     std::string type {};
+    std::string control {};   // the id of the one whose targets the wire goes to
 };
 
 /// The choices that the key W offers for a node: wires to and from what is there, then nodes still to be chosen, then each type of node that fits.
@@ -72,6 +73,15 @@ public:
         const auto key = t.entry.type + (own.role == Role::output ? " (" + own.id + ')' : " -> " + own.id);   // an input may have the name of an output
         const auto name = wireText (own, filled (TRANS ("new %1"), t.entry.name).toStdString());
         add ({ { key, name, t.entry.summary }, std::move (searched), idOf (own), {}, t.entry.type });
+    }
+
+    /// A knob of the graph, for what it sets inside of a subgraph.
+    void addControl (const FacePort& own, const graph::Control& c)
+    {
+        const auto name = c.name.empty() ? c.id : c.name;
+        const auto text = wireText (own, name);
+        const auto about = TRANS ("Moves what this control sets around its value.").toStdString();
+        add ({ { text, {}, about }, { name, text, {}, about }, idOf (own), {}, {}, c.id });
     }
 
     std::size_t size() const { return found.size(); }
@@ -133,6 +143,9 @@ void CanvasCommands::wireFromSelection()
         return by ? by->name : std::string();
     });
     made.addWires();
+    for (const auto& own : node.face->outputs)
+        for (const auto& c : document.graph().controls)
+            if (own.width == 1 && std::ranges::any_of (c.to, [] (const auto& t) { return t.path.find ('/') != std::string::npos; })) made.addControl (own, c);
     for (const auto role : WireChoices::roles)
         for (const auto& own : node.face->of (role))
             if (! own.isChoice()) made.addNewNode (own);
@@ -166,6 +179,7 @@ void CanvasCommands::wireFromSelection()
         const auto choice = std::ranges::find (*choices, chosen, [] (const WireChoice& c) { return c.entry.type; });
         const auto own = choice == choices->end() ? ScenePort {} : canvas.scene().findPort (choice->own);
         if (! own) return;
+        if (! choice->control.empty()) return joinControl (choice->own, choice->control);
         const bool leaves = own.port->role == Role::output;
         if (const auto other = canvas.scene().findPort (choice->other))
         {
@@ -266,8 +280,14 @@ void CanvasCommands::addModulator (const std::string& node, const std::string& p
     const auto& nodes = canvas.scene().nodes();
     const auto driven = std::ranges::find (nodes, node, &SceneNode::name);
     if (driven == nodes.end()) return;
+    if (const auto to = canvas.scene().findPort ({ driven->id, Role::param, param })) addModulatorAt (to, type, graph::Step::own);
+}
+
+void CanvasCommands::addModulatorAt (const ScenePort& to, const std::string& type, graph::Step step)
+{
     constexpr float gap = 3 * Box::grid;
-    NodeRequest request { driven->bounds().getTopLeft().translated (-gap, 0.0f), PortId { driven->id, Role::param, param }, 0, true };
+    const PortId param { to.node->id, Role::param, to.port->id };
+    const NodeRequest request { to.node->bounds().getTopLeft().translated (-gap, 0.0f), param, 0, true, step == graph::Step::joined };
     type.empty() ? requestNode (request) : addNodeAt (type, request);
 }
 
@@ -275,7 +295,7 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
 {
     graph::Id made = 0;
     const auto at = placeFor (type, request);
-    if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
+    if (! perform (addNode (document.graph(), canvas.patch(), type, at, made), request.is_joined ? graph::Step::joined : graph::Step::own)) return;
     moveClear (made, request);
     const auto* put = canvas.scene().find (made);
     const auto pointer = canvas.getMouseXYRelative();
@@ -297,7 +317,7 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     {
         const ScenePort own { node, &p };
         const auto &from = is_output ? other : own, &to = is_output ? own : other;
-        if (from.port->width != to.port->width || ! mayJoin (from, to)) continue;
+        if (from.port->width != to.port->width || ! (request.modulates ? mayJoin (from, to) : checkWireByComponent (from.end(), to.end()))) continue;
         const bool has_more = is_output && (other.port->id == "position" || other.port->id == "resistance");
         const auto name = node->name;
         auto joined = connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port });
@@ -319,19 +339,28 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     }
 }
 
-/// A modulator that is wired to a param adds to its value, with a depth that is the gain of the wire. A param that a wire sets already has no such value.
+/// A modulator that is wired to a param adds to its value and to what other modulators add. Its depth is the gain of the wire. A param that a wire sets
+/// already has no such value.
 void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command& joined) const
 {
     auto& commands = std::get<graph::Batch> (joined.edit).commands;
     const auto *source = patchShown().find (from.node.name), *driven = patchShown().find (to.node.name);
-    if (commands.size() != 1 || to.port.role != Role::param || to.port.width != 1 || to.port.sheet == nullptr || to.port.isChoice()) return;
+    if (to.port.role != Role::param || to.port.width != 1 || to.port.sheet == nullptr || to.port.isChoice()) return;
     if (source == nullptr || driven == nullptr) return;
+    const auto replaced = [&] (const graph::Command& c) -> const graph::Wire* {
+        const auto* removal = std::get_if<graph::RemoveWire> (&c.edit);
+        const auto& wires = patchShown().wires;
+        const auto at = removal == nullptr ? wires.end() : std::ranges::find (wires, removal->wire, &graph::Wire::id);
+        return at == wires.end() ? nullptr : &*at;
+    };
+    if (std::ranges::any_of (commands, [&] (const auto& c) { return replaced (c) != nullptr && ! replaced (c)->add; })) return;
     const auto now = paramNow (document.graph(), canvas.seen(), *driven, to.port).value;
     const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet);
     if (! depth) return;
-    auto& wire = std::get<graph::AddWire> (commands.front().edit).wire;
+    auto& wire = std::get<graph::AddWire> (commands.back().edit).wire;
     wire.add = true;
     wire.gain = *depth;
+    std::erase_if (commands, [&] (const auto& c) { return replaced (c) != nullptr && replaced (c)->from != wire.from; });
     const auto from_text = graph::toText (wire.from), to_text = graph::toText (wire.to);
     canvas.hint (filled (TRANS ("%1 moves %2 around its value, by %3 for each unit. Select the wire to set this depth."), from_text, to_text,
                          gainText (*depth)));
@@ -371,31 +400,60 @@ Result<> CanvasCommands::mayJoin (const ScenePort& from, const ScenePort& to, gr
     return {};
 }
 
+juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&)>& act)
+{
+    const auto* found = findControl (document.graph(), control);
+    if (found == nullptr) return {};
+    const auto set = *found;
+    auto here = canvas.address ("x");   // "wood/x" in the subgraph `wood`
+    if (! here.empty()) here.pop_back();
+    std::optional<juce::String> why;
+    for (const auto& t : set.to)
+    {
+        graph::Batch exposed { NEEDS_TRANS ("connect"), {} };
+        const auto through = t.path.starts_with (here) ? paramThrough (document.graph(), canvas.patch(), t.path.substr (here.size()), exposed) : std::nullopt;
+        if (! through) continue;
+        const auto& nodes = canvas.scene().nodes();
+        const auto node = std::ranges::find (nodes, through->node, &SceneNode::name);
+        if (node == nodes.end()) continue;
+        const PortId port { node->id, Role::param, through->param };
+        if (! exposed.commands.empty() && ! perform (std::move (exposed), std::exchange (step, graph::Step::joined))) continue;
+        const auto said = act (port);
+        if (! why || said.isNotEmpty()) why = said;
+    }
+    return why.value_or (filled (TRANS ("%1 sets nothing in this patch"), set.name.empty() ? control : set.name));
+}
+
 void CanvasCommands::joinControl (const PortId& start, const std::string& control)
 {
-    const auto* set = findControl (document.graph(), control);
-    if (set == nullptr) return;
-    std::vector<PortId> targets;
-    for (const auto& n : canvas.scene().nodes())
-        for (const auto& p : n.face->params)
-        {
-            const auto path = canvas.address (n.name + '.' + p.id);
-            if (std::ranges::count (set->to, path, &graph::Control::Target::path) > 0) targets.push_back ({ n.id, p.role, p.id });
-        }
     auto step = graph::Step::own;
-    juce::String why = filled (TRANS ("%1 sets nothing in this patch"), set->name.empty() ? control : set->name);
-    for (const auto& target : targets)
-    {
+    const auto why = eachTarget (control, step, [&] (const PortId& target) -> juce::String {
         const auto from = canvas.scene().findPort (start), to = canvas.scene().findPort (target);
-        if (! from || ! to) continue;
+        if (! from || ! to) return {};
         if (const auto may = mayJoin (from, to); ! may || from.port->width != to.port->width)
-        {
-            why = fromUtf8 (to.node->name + '.' + to.port->id) + ": " + (may ? TRANS ("A vector cannot drive a number") : fromUtf8 (may.error().text));
-            continue;
-        }
+            return fromUtf8 (to.node->name + '.' + to.port->id) + ": " + (may ? TRANS ("A vector cannot drive a number") : fromUtf8 (may.error().text));
         connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, std::exchange (step, graph::Step::joined));
-    }
-    if (step == graph::Step::own) canvas.notice (why);
+        return {};
+    });
+    if (why.isNotEmpty()) canvas.notice (why);
+}
+
+void CanvasCommands::addModulatorOf (const std::string& control, const std::string& type)
+{
+    auto step = graph::Step::own;
+    std::optional<PortId> source;   // the output of the new node
+    const auto why = eachTarget (control, step, [&] (const PortId& target) -> juce::String {
+        const auto from = source ? canvas.scene().findPort (*source) : ScenePort {};
+        const auto to = canvas.scene().findPort (target);
+        if (from && to) connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, graph::Step::joined);
+        if (source || ! to) return {};
+        addModulatorAt (to, type, std::exchange (step, graph::Step::joined));
+        for (const auto& w : patchShown().wires)
+            if (const auto* made = canvas.scene().find (added.node); made != nullptr && w.from.node == made->name)
+                if (const auto* output = made->face->startOf (w.from)) source = PortId { made->id, Role::output, output->id };
+        return {};
+    });
+    if (why.isNotEmpty()) canvas.notice (why);
 }
 
 void CanvasCommands::join (const ScenePort& from, const ScenePort& to, graph::Id replaced)

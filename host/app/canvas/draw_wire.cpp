@@ -39,7 +39,7 @@ public:
     void move (const juce::MouseEvent& e) override
     {
         end_at = canvas.view().toCanvas (e.position);
-        const auto over = targetAt (end_at);
+        const auto over = isOutside (e) ? SceneSocket {} : targetAt (end_at);
         if (over && over.node->id != start.node)
         {
             const auto fits = check (*over.node, *over.socket->port);
@@ -50,7 +50,7 @@ public:
         else
         {
             problem.clear();
-            canvas.hint (TRANS ("Drop on a highlighted port, or on the canvas to add a node"));
+            canvas.hint (isOutside (e) ? TRANS ("Drop on a knob to modulate what it sets") : TRANS ("Drop on a highlighted port, or on the canvas to add a node"));
         }
         canvas.repaint();
     }
@@ -59,12 +59,16 @@ public:
     {
         canvas.hint ({});
         const auto at = canvas.view().toCanvas (e.position);
+        if (isOutside (e))
+        {
+            if (wire_id == 0) canvas.onWireOutside (start, e.getScreenPosition());   // an existing wire stays where it was
+            return;
+        }
         const auto over = targetAt (at);
         if (! over)
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
             if (wire_id != 0) return unplug();
-            if (canvas.onWireOutside && ! canvas.getLocalBounds().contains (e.getPosition())) return canvas.onWireOutside (start, e.getScreenPosition());
             canvas.commands().requestNode ({ at, start });
             return;
         }
@@ -96,6 +100,9 @@ public:
     }
 
 private:
+    /// True beside the canvas, where other parts of the window may take the wire. Nodes go on there, but nobody sees them.
+    bool isOutside (const juce::MouseEvent& e) const { return canvas.onWireOutside && ! canvas.getLocalBounds().contains (e.getPosition()); }
+
     /// The port at a place; elsewhere on a node, the first one that fits, preferably one that has no wire yet.
     SceneSocket targetAt (juce::Point<float> at) const
     {

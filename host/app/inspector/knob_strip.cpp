@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "knob_strip.hpp"
 #include "control_value.hpp"
+#include "modulator_menu.hpp"
 
 #include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/blocks/fields.hpp>
@@ -100,6 +101,7 @@ public:
     {
         holds_ring = isOnRing (e.position) && ! e.mods.isPopupMenu();
         depth_grabbed = holds_ring ? depths.front().modulation.depth : 0.0;
+        if (e.mods.isPopupMenu()) return showMenu();
         if (! holds_ring) refusesHand();
         grabbed = getValue();
         way = {};
@@ -110,7 +112,7 @@ public:
     {
         constexpr double pixels = 200.0;   // over the whole range
         if (holds_ring) return turnDepth (way.to (e));
-        if (! has_no_effect) turnTo (grabbed + way.to (e) / pixels);
+        if (! has_no_effect && ! e.mods.isPopupMenu()) turnTo (grabbed + way.to (e) / pixels);
     }
 
     void mouseUp (const juce::MouseEvent& e) override
@@ -180,6 +182,29 @@ public:
         g.drawText (juce::String (getValue(), 2), dial, juce::Justification::centred, false);
         g.setColour (isMouseOverOrDragging() ? theme.text : theme.dim);
         g.drawText (name, label, juce::Justification::centred, true);
+    }
+
+    void fillMenu (juce::PopupMenu& menu)
+    {
+        const auto item = [&] (const juce::String& text, void (Knob::*act)(), bool can = true) {
+            menu.addItem (text, can, false, [safe = SafePointer (this), act] {
+                if (safe != nullptr) (safe.getComponent()->*act)();
+            });
+        };
+        menu.addSectionHeader (name);
+        item (TRANS ("Type a value"), &Knob::typeValue, ! has_no_effect);
+        item (TRANS ("Rename"), &Knob::rename);
+        if (! strip.onModulate) return;
+        menu.addSubMenu (TRANS ("Modulate by"), modulatorMenu (strip.catalogue, [safe = SafePointer (this)] (const std::string& type) {
+                             if (safe != nullptr) safe->strip.onModulate (safe->id, type);
+                         }));
+    }
+
+    void showMenu()
+    {
+        juce::PopupMenu menu;
+        fillMenu (menu);
+        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (this));
     }
 
     void rename()
@@ -326,6 +351,7 @@ void KnobStrip::rename (const std::string& id)
 }
 
 juce::Slider& KnobStrip::knob (std::size_t i) { return *knobs[i]; }
+void KnobStrip::fillMenu (juce::PopupMenu& menu, std::size_t i) { knobs[i]->fillMenu (menu); }
 
 void KnobStrip::refresh()
 {

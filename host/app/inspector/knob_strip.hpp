@@ -13,7 +13,7 @@ namespace tactus::host
 {
 
 /// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
-/// keys; a double click on the dial sets it to the middle, and one on the name renames it. A knob is dimmed and does not turn if wires set all its targets.
+/// keys; a double click on the dial types a value, and one on the name renames it. A right click opens a menu. A knob is dimmed and does not turn if wires set all its targets.
 /// A ring around a knob shows how far modulators move its targets; drag the ring to change the depth of the first one.
 class KnobStrip final : public juce::Component
 {
@@ -28,7 +28,9 @@ public:
     juce::Slider& knob (std::size_t i);
     void rename (const std::string& control);   ///< opens the field for the name of a control
 
-    std::function<void (const juce::String&)> onHint;   ///< receives the reason why a knob has no effect
+    std::function<void (const juce::String&)> onHint;                                       ///< receives the reason why a knob has no effect
+    std::function<void (const std::string& control, const std::string& type)> onModulate;   ///< adds a node of this type that moves what a control sets
+    void fillMenu (juce::PopupMenu&, std::size_t knob);                                     ///< the menu of a right click on a knob
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -81,21 +81,36 @@ std::vector<Modulation> modulationsAt (const graph::Graph& g, const std::string&
 {
     const auto end = graph::parseEndpoint (path);
     if (! end || end->component >= 0 || end->node.find ('[') != std::string::npos) return {};
+    std::vector<std::pair<std::string, std::string>> around;   // patches and their nodes on the path, the outermost first
     std::string patch, rest = end->node;
     for (auto slash = rest.find ('/'); slash != std::string::npos; slash = rest.find ('/'))
     {
-        const auto* around = findPatch (g, patch);
-        const auto* node = around == nullptr ? nullptr : around->find (rest.substr (0, slash));
+        around.emplace_back (patch, rest.substr (0, slash));
+        const auto* in = findPatch (g, patch);
+        const auto* node = in == nullptr ? nullptr : in->find (around.back().second);
         if (node == nullptr || ! node->type.starts_with ("graph:")) return {};
         patch = node->type.substr (6);
         rest.erase (0, slash + 1);
     }
-    const auto* in = findPatch (g, patch);
-    const auto* node = in == nullptr ? nullptr : in->find (rest);
-    if (node == nullptr) return {};
-    const auto face = faceOf (g, *in, *node, catalogue);
-    const auto* port = face.find (Role::param, end->index < 0 ? end->port : end->port + '[' + std::to_string (end->index) + ']');
-    return port == nullptr ? std::vector<Modulation> {} : modulationsOf (g, patch, rest, *port, catalogue);
+    std::vector<Modulation> found;
+    auto id = end->index < 0 ? end->port : end->port + '[' + std::to_string (end->index) + ']';
+    for (graph::Endpoint at { rest, end->port, end->index };;)
+    {
+        const auto* in = findPatch (g, patch);
+        const auto* node = in == nullptr ? nullptr : in->find (at.node);
+        if (node == nullptr) return found;
+        const auto face = faceOf (g, *in, *node, catalogue);
+        if (const auto* port = face.find (Role::param, id))
+            for (auto& m : modulationsOf (g, patch, at.node, *port, catalogue))
+                found.push_back (std::move (m));
+        // Wires also reach it through the port that its subgraph exposes.
+        const auto exposed = std::ranges::find (in->expose.params, at, &std::pair<std::string, graph::Endpoint>::second);
+        if (around.empty() || exposed == in->expose.params.end()) return found;
+        id = exposed->first;
+        patch = around.back().first;
+        at = { around.back().second, exposed->first };
+        around.pop_back();
+    }
 }
 
 juce::String sizeOf (const Modulation& m)

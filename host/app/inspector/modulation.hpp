@@ -30,7 +30,8 @@ struct Modulation
 /// the standard deviation of a noise, 0.1 m/s of a speed, and 1 of all others.
 std::vector<Modulation> modulationsOf (const graph::Graph&, const std::string& patch, const std::string& node, const FacePort&, const Catalogue&);
 
-/// The same for the path of a param, such as "grain/wave.amplitude". None for a path into another file, or into several instances.
+/// The same for the path of a param, such as "grain/wave.amplitude", with the wires to ports through which subgraphs expose it. None for a path into another
+/// file, or into several instances.
 std::vector<Modulation> modulationsAt (const graph::Graph&, const std::string& path, const Catalogue&);
 
 /// "±8 mN", or "+8 mN" from a source that is never below 0.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The menu of a parameter: the same on the canvas and in the inspector.
 #include "inspector.hpp"
+#include "modulator_menu.hpp"
 
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/look/fitted_text.hpp>
@@ -75,16 +76,12 @@ void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_na
             }
             if (onModulate)
             {
-                juce::PopupMenu by;
-                const auto add = [&] (const juce::String& name, const char* type) {
-                    by.addItem (name, [safe = SafePointer (this), at, type] {
-                        if (safe != nullptr) safe->onModulate (at.node, at.port, type);
-                    });
-                };
-                for (const auto* type : { "signal.lfo", "signal.envelope", "signal.noise" })
-                    if (const auto* known = catalogue.find (type)) add (fromUtf8 (known->info.name), type);
-                add (TRANS ("Speed of the hand"), "motion.velocity");
-                add (TRANS ("Another node..."), "");
+                auto by = modulatorMenu (catalogue, [safe = SafePointer (this), at] (const std::string& type) {
+                    if (safe != nullptr) safe->onModulate (at.node, at.port, type);
+                });
+                by.addItem (TRANS ("Another node..."), [safe = SafePointer (this), at] {
+                    if (safe != nullptr) safe->onModulate (at.node, at.port, {});
+                });
                 menu.addSubMenu (TRANS ("Modulate by"), by);
             }
             menu.addSeparator();

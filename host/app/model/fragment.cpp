@@ -240,4 +240,32 @@ graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph
     return graph::Batch { NEEDS_TRANS ("expose port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
 }
 
+std::optional<NodeParam> paramThrough (const graph::Graph& g, const std::string& patch, const std::string& path, graph::Batch& batch)
+{
+    constexpr std::string_view subgraph = "graph:";
+    const auto slash = path.find ('/');
+    const auto dot = path.find ('.', slash == path.npos ? 0 : slash);
+    const auto* in = findPatch (g, patch);
+    const auto* node = in == nullptr || dot == path.npos ? nullptr : in->find (path.substr (0, std::min (slash, dot)));
+    if (node == nullptr) return std::nullopt;
+    if (slash == path.npos) return NodeParam { node->name, path.substr (dot + 1) };
+    if (! node->type.starts_with (subgraph)) return std::nullopt;
+    const auto inside = node->type.substr (subgraph.size());
+    const auto inner = paramThrough (g, inside, path.substr (slash + 1), batch);
+    if (! inner) return std::nullopt;
+    FacePort port;
+    port.role = Role::param;
+    port.id = inner->param;
+    const auto exposedAs = [&] (const graph::Expose& all) -> std::optional<NodeParam> {
+        const auto entry = entryOf (port.id);
+        const graph::Endpoint end { inner->node, baseOf (port.id), entry ? static_cast<int> (*entry) : -1 };
+        const auto at = std::ranges::find (all.params, end, &std::pair<std::string, graph::Endpoint>::second);
+        return at == all.params.end() ? std::nullopt : std::optional (NodeParam { node->name, at->first });
+    };
+    if (auto known = exposedAs (findPatch (g, inside)->expose)) return known;
+    const auto expose = std::get<graph::Batch> (toggleExposed (g, inside, inner->node, port).edit).commands.front();
+    batch.commands.push_back (expose);
+    return exposedAs (std::get<graph::ChangeExpose> (expose.edit).to);
+}
+
 }   // namespace tactus::host

@@ -49,4 +49,14 @@ std::string asNodeName (const juce::String& typed);
 /// Exposes a port of a node inside a subgraph under a free name, or hides it again.
 graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
 
+/// A param as a node of a patch has it.
+struct NodeParam
+{
+    std::string node, param;
+};
+
+/// The param of a node of this patch through which the one at a path is reached: "wood" and "mu" for "wood/drag.mu". Adds to `batch` what exposes it first,
+/// where no subgraph on the path does. Empty if the path leads to no node.
+std::optional<NodeParam> paramThrough (const graph::Graph&, const std::string& patch, const std::string& path, graph::Batch& batch);
+
 }   // namespace tactus::host

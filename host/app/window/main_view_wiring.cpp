@@ -166,7 +166,7 @@ void MainView::connect()
         openPalette (parts.palette, parts.patching, purpose, std::move (entries), std::move (chosen));
     };
     canvas.onWireOutside = [this] (const PortId& start, juce::Point<int> screen) {
-        if (const auto control = parts.inspector.controlAt (screen); ! control.empty() && start.role == Role::output)
+        if (const auto control = parts.inspector.controlAt (screen); ! control.empty())
             parts.patching.commands().joinControl (start, control);
     };
     canvas.onProbe = [this] (const auto& ports) { parts.desk.probe (ports); };
@@ -178,6 +178,10 @@ void MainView::connect()
     inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) {
         parts.turnTo (parts.patching);
         parts.patching.commands().addModulator (node, param, type);
+    };
+    inspector.knobs().onModulate = [this] (const auto& control, const auto& type) {
+        parts.turnTo (parts.patching);
+        parts.patching.commands().addModulatorOf (control, type);
     };
     inspector.onChooseFile = desk.chooseInput;
     inspector.messagesNow = [this] { return run().messages(); };

@@ -27,7 +27,7 @@ private:
     struct Ground
     {
         View view;
-        float scale = 1.0f;   // pixels of a picture for one of the component
+        float scale = 1.0f;   // pixels of the screen per pixel of the component
         const Theme* theme = nullptr;
         std::uint64_t version = 0;
         std::set<graph::Id> selected {};

@@ -2,6 +2,7 @@
 // The depth of a modulator, as the dials and knobs show and change it. The reference is the run: how far the parameter moves there.
 #include "host/app/support/desk_stage.hpp"
 
+#include <host/app/compose/add_preset.hpp>
 #include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/modulation.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -316,7 +317,12 @@ TEST_CASE ("a cable that is dropped on a knob moves what the knob sets, in one u
     REQUIRE (strip != nullptr);
     dropOn (strip->knob (0));
     CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04).epsilon (0.02));
-    w.document.undo();
+    const auto once = writeGraph (w.graph());
+    dropOn (strip->knob (0));   // it moves it already
+    CHECK (writeGraph (w.graph()).size() == once.size());
+    CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04).epsilon (0.02));
+    while (w.document.history().position() > 0)
+        w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
 
     w.canvas.select ({});   // the column has the control itself
@@ -330,4 +336,75 @@ TEST_CASE ("a cable that is dropped on a knob moves what the knob sets, in one u
     dropOn (w.status);
     CHECK (writeGraph (w.graph()) == before);
     CHECK_FALSE (asks);
+}
+
+TEST_CASE ("a second modulator of a parameter adds to the first one, which keeps its depth", "[app][modulation]")
+{
+    Sketch s { wavy ("0.02") };
+    s.node ("slow", "signal.lfo", { { "frequency", "1 Hz" } });
+    DeskStage w (s.graph, 1280, 1000);
+    auto& commands = w.canvas.commands();
+    const auto port = [&] (const char* node, Role role, const char* id) {
+        return w.canvas.scene().findPort (PortId { w.graph().root.find (node)->id, role, id });
+    };
+    commands.join (port ("slow", Role::output, "out"), port ("drag", Role::param, "mu"));
+    const auto both = modulationsAt (w.graph(), "drag.mu", catalogue());
+    REQUIRE (both.size() == 2);
+    CHECK (both[0].depth == Approx (0.04));   // as it was
+    CHECK (both[1].depth == Approx (0.04).epsilon (0.02));
+    CHECK (compile (w.graph(), catalogue()).plan != nullptr);
+}
+
+TEST_CASE ("a knob of an added preset is modulated by its menu, by a cable and by the key W", "[app][modulation]")
+{
+    DeskStage w ("dry_wood.json", 1280, 1000);
+    const auto added = loadGraph (TACTUS_SOURCE_DIR "/graphs/canvas_weave.json").graph;
+    const auto open = w.graph();
+    const auto roles = compose::roleMaps (open, added);
+    auto made = compose::addPreset (open, added, { .roles = roles.front(), .parts = {}, .at = {} }, catalogue());
+    REQUIRE (made);
+    REQUIRE (w.document.perform (made->command));
+    const auto& controls = w.graph().controls;
+    const auto knob = std::ranges::find_if (controls, [&] (const auto& c) { return c.to.size() == 2 && c.to[0].path.starts_with (made->block + "/"); });
+    REQUIRE (knob != controls.end());
+    const auto set = *knob;
+    const auto before = writeGraph (w.graph());
+    const auto modulations = [&] {   // of both params that it sets, by the same wave
+        const auto first = modulationsAt (w.graph(), set.to[0].path, catalogue()), second = modulationsAt (w.graph(), set.to[1].path, catalogue());
+        return first.size() == 1 && second.size() == 1 && first[0].from == second[0].from;
+    };
+
+    juce::PopupMenu menu;
+    w.select ("board");
+    w.inspector.knobs().fillMenu (menu, static_cast<std::size_t> (knob - controls.begin()));
+    for (juce::PopupMenu::MenuItemIterator i (menu, true); i.next();)
+        if (i.getItem().text == "LFO") i.getItem().action();
+    OnStage::settle();
+    REQUIRE (modulations());
+    CHECK (compile (w.graph(), catalogue()).plan != nullptr);
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == before);
+    OnStage::settle();
+
+    Sketch s { w.graph() };
+    s.node ("wave", "signal.lfo");
+    REQUIRE (w.document.perform (graph::ReplaceGraph { std::make_shared<const graph::Graph> (s.graph) }));
+    const auto with_wave = writeGraph (w.graph());
+    w.canvas.commands().joinControl ({ w.graph().root.find ("wave")->id, Role::output, "out" }, set.id);
+    CHECK (modulations());
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == with_wave);
+
+    std::function<void (const std::string&)> choose;
+    std::vector<PaletteEntry> offered;
+    w.canvas.onChoose = [&] (const auto&, auto search, auto chosen) {
+        offered = search (set.name);
+        choose = chosen;
+    };
+    w.select ("wave");
+    w.canvas.commands().wireFromSelection();
+    REQUIRE_FALSE (offered.empty());
+    CHECK (offered.front().type == "wave.out -> " + set.name);
+    choose (offered.front().type);
+    CHECK (modulations());
 }

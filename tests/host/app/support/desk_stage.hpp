@@ -149,6 +149,7 @@ private:
         canvas.onWireOutside = [this] (const PortId& start, juce::Point<int> screen) {
             if (const auto control = inspector.controlAt (screen); ! control.empty()) canvas.commands().joinControl (start, control);
         };
+        inspector.knobs().onModulate = [this] (const auto& control, const auto& type) { canvas.commands().addModulatorOf (control, type); };
         canvas.onProbe = [this] (const auto& ports) { desk.probe (ports); };
         canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (desk, file, {}, at); };
         canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { host::addNode (desk, type, request); };
