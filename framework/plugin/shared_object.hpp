@@ -9,7 +9,7 @@
 namespace tactus
 {
 
-/// A loaded shared object. The one place that calls the system's loader. [main thread]
+/// A loaded shared object. [main thread]
 class SharedObject
 {
 public:

@@ -22,7 +22,7 @@ namespace tactus::host
 class LiveCompiler
 {
 public:
-    /// Edits follow: low priority beside the run, and a precompiled header. One compilation, for which somebody waits: neither.
+    /// The work ahead: edits of code that is watched, at low priority and with a precompiled header; or one compilation that somebody waits for, with neither.
     enum class Work
     {
         edits,
