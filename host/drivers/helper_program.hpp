@@ -67,8 +67,9 @@ public:
     }
 
     /// Starts it, in a session of its own, so that no key of the terminal reaches it. SIGTERM and SIGHUP, which a computer that shuts down sends to every
-    /// program, wait until it ends: it ends with this program, after it has taken the force off. After its arguments come the numbers of its copies of `files`, of a
-    /// pipe that ends with this object, and of one for its first line. Returns why that failed; empty if it runs. `in_driver`: as for findHelper().
+    /// program, wait until it ends: it ends with this program, after it has taken the force off. After its arguments come the numbers of its copies of
+    /// `files`, of a pipe that ends with this object, and of one for its first line. Returns why that failed; empty if it runs. `in_driver`: as for
+    /// findHelper().
     std::string start (const void* in_driver, const std::string& name, std::vector<std::string> arguments, std::vector<int> files, char* const* environment)
     {
         std::string why;

@@ -50,7 +50,8 @@ public:
         else
         {
             problem.clear();
-            canvas.hint (isOutside (e) ? TRANS ("Drop on a knob to modulate what it sets") : TRANS ("Drop on a highlighted port, or on the canvas to add a node"));
+            canvas.hint (isOutside (e) ? TRANS ("Drop on a knob to modulate what it sets")
+                                       : TRANS ("Drop on a highlighted port, or on the canvas to add a node"));
         }
         canvas.repaint();
     }

@@ -27,9 +27,9 @@ struct Morph
 /// is), morph/same (no number differs).
 Result<Morph> morphBetween (const graph::Graph&, int from, int to, const Catalogue&);
 
-/// Gives the numbers of these nodes of a patch, and of what is inside of them but mixers, new values, at random within their usual ranges: evenly, or by ratio where a range spans a decade and
-/// more. What a wire or a control sets stays, and so do choices, switches, places, vectors and numbers without a usual range. The same seed gives the same values.
-/// The name of the step contains the seed. Empty if there is nothing to change.
+/// Gives the numbers of these nodes of a patch, and of what is inside of them but mixers, new values, at random within their usual ranges: evenly, or by
+/// ratio where a range spans a decade and more. What a wire or a control sets stays, and so do choices, switches, places, vectors and numbers without a
+/// usual range. The same seed gives the same values. The name of the step contains the seed. Empty if there is nothing to change.
 graph::Batch randomised (const graph::Graph&, const std::string& patch, std::span<const graph::Id> nodes, const Catalogue&, std::uint64_t seed);
 
 }   // namespace tactus::host

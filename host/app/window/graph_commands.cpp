@@ -40,7 +40,7 @@ void randomise (const Desk& desk)
     std::vector<graph::Id> nodes;
     const auto& selected = desk.canvas.selection();
     for (const auto& n : desk.canvas.scene().nodes())
-        if (selected.empty() ? ! mixing::isMixer (n.type) : selected.contains (n.id)) nodes.push_back (n.id);   // levels and ceilings are what the user set for the hand
+        if (selected.empty() ? ! mixing::isMixer (n.type) : selected.contains (n.id)) nodes.push_back (n.id);   // levels and ceilings are for the hand
     const auto seed = static_cast<std::uint64_t> (1 + juce::Random::getSystemRandom().nextInt (9999));
     auto batch = randomised (desk.document.graph(), desk.canvas.patch(), nodes, desk.types, seed);
     if (batch.commands.empty()) return desk.notify (TRANS ("Nothing here has a number with a usual range."));

@@ -226,6 +226,9 @@ TEST_CASE ("random values reach what is inside of an added preset, but not what 
             if (slash == t.path.npos) continue;
             for (const auto& [name, patch] : g.graphs)
                 if (const auto* n = patch.find (t.path.substr (slash + 1, dot - slash - 1)))
-                    CHECK (h.graph().find (name)->find (n->name)->params.value (t.path.substr (dot + 1), Json()) == n->params.value (t.path.substr (dot + 1), Json()));
+                {
+                    const auto param = t.path.substr (dot + 1);
+                    CHECK (h.graph().find (name)->find (n->name)->params.value (param, Json()) == n->params.value (param, Json()));
+                }
         }
 }

@@ -279,6 +279,6 @@ TEST_CASE ("Ctrl+K finds the ceiling of the mix, also where an added preset has 
     desk.w.stage->type ("1.5");
     desk.w.key ("return");
     WindowRig::settle();
-    const auto isCeiling = [] (const graph::Node& n) { return n.params.contains ("ceiling") && n.params.at ("ceiling").dump().find ("1.5") != std::string::npos; };
+    const auto isCeiling = [] (const graph::Node& n) { return n.params.value ("ceiling", Json()).dump().find ("1.5") != std::string::npos; };
     CHECK (std::ranges::any_of (desk.w.graph().root.nodes, isCeiling));
 }
