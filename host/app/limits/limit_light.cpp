@@ -16,8 +16,9 @@ juce::String labelOf (const LimitList& list)
     const auto broken = list.broken(), near = list.limits.size() - broken;
     if (broken > 0) return filled (broken == 1 ? TRANS ("%1 limit broken") : TRANS ("%1 limits broken"), broken);
     if (near > 0) return filled (near == 1 ? TRANS ("%1 limit near") : TRANS ("%1 limits near"), near);
-    if (list.unknown == 0) return TRANS ("limits hold");
-    return filled (list.unknown == 1 ? TRANS ("%1 limit unknown") : TRANS ("%1 limits unknown"), list.unknown);
+    const auto open = list.unjudged.size();
+    if (open == 0) return TRANS ("limits hold");
+    return filled (open == 1 ? TRANS ("%1 limit not judged") : TRANS ("%1 limits not judged"), open);
 }
 
 /// The first few limits in full, and how many more there are.
@@ -74,7 +75,7 @@ void LimitLight::paintButton (juce::Graphics& g, bool over, bool)
     const auto lamp = juce::Rectangle<float> (10.0f, 10.0f).withCentre ({ area.getX() + 11.0f, area.getCentreY() });
     if (shown.limits.empty())
     {
-        g.setColour (shown.unknown > 0 ? theme.dim : theme.of (Quantity::energy).withMultipliedAlpha (0.6f));
+        g.setColour (! shown.unjudged.empty() ? theme.dim : theme.of (Quantity::energy).withMultipliedAlpha (0.6f));
         g.fillEllipse (lamp);
     }
     else

@@ -157,10 +157,13 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                                        .passive_up_to = c.limit / c.value,
                                        .stable_up_to = std::isnan (c.may_grow) ? 0.0 : c.may_grow });
         const bool is_broken = c.isBroken();
-        if (c.verdict == check::Verdict::not_reached)
-            ++list.not_reached;
-        else if (c.verdict == check::Verdict::unknown)
-            ++list.unknown;
+        if (! c.isKnown())
+        {
+            const bool is_reached = c.verdict == check::Verdict::unknown;
+            ++(is_reached ? list.unknown : list.not_reached);
+            const auto remedy = is_reached ? c.remedy : TRANS ("move the hand so that it touches the node").toStdString();
+            list.unjudged.push_back ({ false, std::string (c.id), nodesOf (c, demand, plan), limitSentence (c, c.node, nameOf (devices, c.role)), remedy, {} });
+        }
         else if (! is_broken && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
             ++list.held;
         else
@@ -207,6 +210,14 @@ std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession&
 }
 
 std::size_t LimitList::broken() const noexcept { return static_cast<std::size_t> (std::ranges::count_if (limits, &Limit::is_broken)); }
+
+Messages LimitList::remarks (const graph::Graph& g) const
+{
+    Messages all;
+    for (const auto& l : unjudged)
+        all.push_back (Message::warning ("limit/" + l.id, l.nodes.empty() ? std::string() : pointerOf (g, l.nodes.front()), l.text, l.remedy));
+    return all;
+}
 
 Messages LimitList::messages (const graph::Graph& g) const
 {

@@ -70,7 +70,8 @@ struct LimitList
 {
     static constexpr double near = 1.2;   ///< a condition with a margin below this (Condition::margin) is near its limit
 
-    std::vector<Limit> limits {};   ///< broken ones first
+    std::vector<Limit> limits {};     ///< broken ones first
+    std::vector<Limit> unjudged {};   ///< those of which nothing is known, and of nodes that the hand does not reach
     std::vector<ContactLimit> contacts {};
     std::size_t held = 0, unknown = 0;   ///< how many other conditions hold, and how many cannot be judged
     std::size_t not_reached = 0;         ///< how many nodes the path of the hand does not reach, so that nothing about them is judged
@@ -78,6 +79,7 @@ struct LimitList
 
     std::size_t broken() const noexcept;
     Messages messages (const graph::Graph&) const;   ///< one for each limit: an error if broken, else a warning. Ids: limit/ID
+    Messages remarks (const graph::Graph&) const;    ///< a warning for each that is not judged, with the same ids
 
     bool operator== (const LimitList&) const = default;
 };

@@ -85,7 +85,10 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
     const bool has_factor = margin > 0.0 && std::isfinite (margin) && (c.isBroken() == (margin < 1.0));
     const auto percent = std::to_string (static_cast<int> (std::floor (100.0 / std::max (1.0, margin))));
     juce::String text;
-    if (of_device && c.isBroken())
+    if (! c.isKnown())
+        text = c.verdict == check::Verdict::not_reached ? filled (TRANS ("The hand does not reach %1, so that it is not judged"), who)
+                                                        : filled (TRANS ("%1 of %2 is not judged for %3"), noun, who, role);
+    else if (of_device && c.isBroken())
         text = has_factor ? filled (TRANS ("%1 of %2 is too coarse for %3 by a factor of %4"), noun, role, who, twoDigits (1.0 / margin))
                           : filled (TRANS ("%1 of %2 is too coarse for %3"), noun, role, who);
     else if (of_device)

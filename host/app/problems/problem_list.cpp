@@ -23,7 +23,7 @@ bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.wher
 class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (fromUtf8 (message.text)), remedy (fromUtf8 (withoutOptions (message.remedy)))
+    Row (ProblemList& l, Message m, bool remark) : list (l), message (std::move (m)), is_remark (remark), text (fromUtf8 (message.text)), remedy (fromUtf8 (withoutOptions (message.remedy)))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path
@@ -47,7 +47,8 @@ public:
         auto area = getLocalBounds().reduced (16, 4);
         if (button) area.removeFromRight (button_width + 8);
         const bool is_error = message.severity == Message::Severity::error;
-        g.setColour (is_error ? theme.stop : theme.warning);
+        g.setColour (is_error ? theme.stop : is_remark ? theme.dim
+                                                       : theme.warning);
         g.fillEllipse (area.removeFromLeft (20).withSizeKeepingCentre (8, 8).translated (-6, 0).toFloat());
         const auto [what, help] = texts (area.getWidth());
         const auto height = what.getHeight() + help.getHeight();
@@ -86,6 +87,7 @@ private:
 
     ProblemList& list;
     const Message message;
+    const bool is_remark;
     const juce::String text, remedy;
     std::unique_ptr<TextButton> button;
     int button_width = 0;
@@ -103,16 +105,18 @@ ProblemList::ProblemList (Document& d) : document (d)
 
 ProblemList::~ProblemList() = default;
 
-void ProblemList::show (const Messages& messages)
+void ProblemList::show (const Messages& messages, const Messages& remarks)
 {
-    if (asked && std::ranges::equal (messages, shown, isSame)) return;
+    if (asked && std::ranges::equal (messages, shown, isSame) && std::ranges::equal (remarks, remarked, isSame)) return;
     asked = true;
     shown = messages;
     std::stable_partition (shown.begin(), shown.end(), [] (const Message& m) { return m.severity == Message::Severity::error; });
     rows.clear();
-    for (const auto& m : shown)
-        column.addAndMakeVisible (*rows.emplace_back (std::make_unique<Row> (*this, m)));
+    for (const auto* all : { &std::as_const (shown), &remarks })
+        for (const auto& m : *all)
+            column.addAndMakeVisible (*rows.emplace_back (std::make_unique<Row> (*this, m, all == &remarks)));
     shown = messages;
+    remarked = remarks;
     resized();
     repaint();
 }

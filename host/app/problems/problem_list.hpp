@@ -21,7 +21,7 @@ public:
     explicit ProblemList (Document&);
     ~ProblemList() override;
 
-    void show (const Messages&);
+    void show (const Messages&, const Messages& remarks = {});   ///< remarks come last and are no problems: what nobody has judged
     const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const ProblemLocation&)> onShow;
@@ -35,7 +35,7 @@ private:
     class Row;
 
     Document& document;
-    Messages shown;
+    Messages shown, remarked;
     bool asked = false;   // true after the first show()
     juce::Viewport scroll;
     juce::Component column;

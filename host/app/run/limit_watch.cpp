@@ -95,6 +95,7 @@ void LimitWatch::show (LimitList list)
 {
     shown = std::move (list);
     said = shown.messages (document.graph());
+    remarked = shown.remarks (document.graph());
 }
 
 void LimitWatch::run()

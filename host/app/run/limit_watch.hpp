@@ -32,6 +32,7 @@ public:
 
     /// The same list as messages, for the Problems tab.
     const Messages& messages() const noexcept { return said; }
+    const Messages& remarks() const noexcept { return remarked; }   ///< what is not judged
 
     /// False from an edit until its check is done. poll() notices a change of the devices at most a fifth of a second late.
     bool isUpToDate() const noexcept { return ! changed_at && ! is_busy; }
@@ -66,7 +67,7 @@ private:
     const Catalogue& catalogue;
 
     LimitList shown;
-    Messages said;
+    Messages said, remarked;
     const void* seen = nullptr;             // identity of the document at the latest edit
     std::optional<std::uint64_t> version;   // of the document
     std::vector<LimitRole> roles;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/desk_rig.hpp"
+#include "host/app/support/seen_text.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/inspector/blocks/limit_block.hpp>
@@ -21,6 +22,8 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
 using tactus::host::test::DeskRig;
+using tactus::host::test::readTexts;
+using tactus::host::test::SeenText;
 
 namespace
 {
@@ -165,6 +168,13 @@ TEST_CASE ("limits are those of the device that the session binds, in the worksp
     CHECK (list.is_checked);
     CHECK (list.limits.empty());
     CHECK (list.unknown > 0);
+    CHECK (list.unjudged.size() == list.unknown + list.not_reached);
+    for (const auto& m : list.remarks (g))
+    {
+        INFO (m.text);
+        CHECK (m.text.find (" is not judged") != std::string::npos);
+        CHECK_FALSE (m.remedy.empty());
+    }
 }
 
 TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app][limits]")
@@ -276,4 +286,19 @@ TEST_CASE ("the title of the Problems tab counts the limits that it lists", "[ap
     CHECK (comesTo ("Problems 1"));
     r.document.open (wall ("\"damping\": 1"), {}, "open");
     CHECK (comesTo ("Problems"));
+}
+
+TEST_CASE ("what is not judged is listed below the problems, and is none", "[app][limits][problems]")
+{
+    CanvasRig rig { wall ("\"damping\": 1") };
+    Look look;
+    ProblemList list (rig.document);
+    list.setLookAndFeel (&look);
+    list.setSize (600, 300);
+    list.show ({}, { Message::warning ("limit/damping", {}, "damping of A is not judged", "add it") });
+    CHECK (list.messages().empty());
+    const auto texts = readTexts (list);
+    CHECK (std::ranges::any_of (texts, [] (const SeenText& t) { return t.text.contains ("is not judged"); }));
+    CHECK (std::ranges::none_of (texts, [] (const SeenText& t) { return t.text.contains ("No problems"); }));
+    list.setLookAndFeel (nullptr);
 }
