@@ -62,7 +62,9 @@ public:
         findDepths (*c);
         for (const auto& d : depths)
             about << "\n"
-                  << filled (TRANS ("%1. Drag the ring around the knob to change this; drag it to 0 to end it."), textOf (d.modulation));
+                  << fromUtf8 (d.path) << ": " << textOf (d.modulation);
+        if (! depths.empty()) about << "\n"
+                                    << TRANS ("Drag the ring around the knob to change this; drag it to 0 to end it.");
         setTooltip (about);
         setValue (c->value, juce::dontSendNotification);
         repaint();
@@ -120,8 +122,10 @@ public:
         const bool moved = std::exchange (continues, false);
         if (std::exchange (holds_ring, false))
         {
-            if (moved && ! depths.empty() && depths.front().modulation.depth == 0.0)
-                document.perform (removeModulation (depths.front().modulation), graph::Step::joined);
+            graph::Batch ended { NEEDS_TRANS ("end the modulation"), {} };
+            for (const auto& d : depths)
+                if (moved && d.modulation.depth == 0.0 && isTurned (d)) ended.commands.push_back (removeModulation (d.modulation));
+            if (! ended.commands.empty()) document.perform (std::move (ended), graph::Step::joined);
             return;
         }
         if (! e.mods.isPopupMenu() && ! e.source.hasMovedSignificantlySincePressed() && ! field && ! has_no_effect) takeFocus (*this);   // to type a value
@@ -287,6 +291,7 @@ private:
     {
         Modulation modulation;
         double range = 1.0, part = 0.0;   ///< of the target, in SI; the depth as a part of the scale
+        std::string path {};              ///< of the target
     };
 
     void findDepths (const graph::Control& c)
@@ -297,7 +302,7 @@ private:
                 for (auto& m : modulationsAt (document.graph(), t.path, strip.catalogue))
                 {
                     const double range = param->high - param->low, part = m.depth / range;
-                    depths.push_back ({ std::move (m), range, part });
+                    depths.push_back ({ std::move (m), range, part, t.path });
                 }
     }
 
@@ -307,14 +312,20 @@ private:
         return ! depths.empty() && ! has_no_effect && std::abs (at.getDistanceFrom (middle) - ring_radius) <= 3.5f;
     }
 
+    /// True if a drag on the ring changes it: by the same source as the first one, all targets go by the same part of their ranges.
+    bool isTurned (const Depth& d) const { return d.modulation.from == depths.front().modulation.from; }
+
     void turnDepth (double pixels)
     {
         if (depths.empty()) return;
-        auto& d = depths.front();
-        const double to = draggedDepth (depth_grabbed, std::abs (d.range), pixels);
-        if (to == d.modulation.depth) return;
-        auto command = changeDepth (document.graph(), d.modulation, to);
-        if (! command || ! document.perform (std::move (*command), continues ? graph::Step::joined : graph::Step::own) || depths.empty()) return;
+        const auto& first = depths.front();
+        const double to = draggedDepth (depth_grabbed, std::abs (first.range), pixels);
+        if (to == first.modulation.depth) return;
+        graph::Batch turned { filled (NEEDS_TRANS ("change the depth of %1"), first.modulation.from).toStdString(), {} };
+        for (const auto& d : depths)
+            if (isTurned (d))
+                if (auto command = changeDepth (document.graph(), d.modulation, to * d.range / first.range)) turned.commands.push_back (std::move (*command));
+        if (turned.commands.empty() || ! document.perform (std::move (turned), continues ? graph::Step::joined : graph::Step::own) || depths.empty()) return;
         continues = true;
         if (! strip.onHint) return;
         const auto& now = depths.front();
