@@ -130,7 +130,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
         left_out += first.controls[i].value != last.controls[i].value ? 1 : 0;
     if (control.to.empty())
         return Message::error ("morph/same", {}, filled (TRANS ("snapshots %1 and %2 differ in no number that a control can move"), from, to).toStdString(),
-                               TRANS ("turn some knobs, and store a snapshot again").toStdString());
+                               TRANS ("change a number that neither a wire nor a control sets, and store a snapshot again").toStdString());
 
     const auto id = "morph_" + std::to_string (from) + "_" + std::to_string (to);
     control.id = id;

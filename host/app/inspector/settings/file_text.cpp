@@ -34,7 +34,10 @@ FileText describe (const Mesh& m)
     const Vec3 size = high - low;
     const std::string times = " \xc3\x97 ";
     const auto extent = shortText (size.x()) + times + shortText (size.y()) + times + shortText (size.z());
-    return { filled (TRANS ("%1 vertices, %2 triangles, %3 units"), m.points.size(), m.triangles.size(), extent).toStdString() };
+    auto text = filled (TRANS ("%1 vertices, %2 triangles, %3 units"), m.points.size(), m.triangles.size(), extent);
+    constexpr double longest = 5.0;   // m, of what a hand feels
+    if (size.maxCoeff() > longest) text << ". " << TRANS ("A unit is as long as Scale: 1 mm for a mesh in millimetres");
+    return { text.toStdString() };
 }
 
 template <typename T, typename F>
