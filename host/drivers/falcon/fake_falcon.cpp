@@ -146,9 +146,7 @@ bool FakeFalcon::hears (int within_ms) const
         const std::lock_guard lock (mutex);
         wait.fd = line;
     }
-    if (wait.fd >= 0) return ::poll (&wait, 1, within_ms) > 0 && (wait.revents & POLLIN) != 0;
-    std::this_thread::sleep_for (1ms);
-    return false;
+    return ::poll (&wait, 1, within_ms) > 0 && (wait.revents & POLLIN) != 0;   // unplugged, it only waits
 }
 
 void FakeFalcon::attend()
@@ -161,10 +159,7 @@ void FakeFalcon::attend()
         if (count <= 0) return;
         in.insert (in.end(), some, some + count);
     }
-    if (runs_firmware)
-        answerPackets();
-    else
-        load();
+    runs_firmware ? answerPackets() : load();
 }
 
 unsigned FakeFalcon::speed() const
@@ -260,12 +255,9 @@ void FakeFalcon::take (const std::uint8_t* p)
         largest_motor = std::max (largest_motor.load(), std::abs (values[i]));
     }
     bits = static_cast<unsigned> (p[13] - 'A');
-    if ((bits & homing) == 0)
-    {
-        ++without_homing;
-        homed = 0;
-    }
-    if (fault == Fault::forgetful) homed = 0;
+    const bool is_without = (bits & homing) == 0;
+    without_homing += is_without ? 1 : 0;
+    if (is_without || fault == Fault::forgetful) homed = 0;
     pushes += isAtRest() ? 0 : 1;
     if (isAtRest() && ! was_at_rest) zero_at = std::chrono::nanoseconds (std::chrono::steady_clock::now().time_since_epoch()).count();
     ++packets;
@@ -293,8 +285,7 @@ std::vector<std::uint8_t> FakeFalcon::answer() const
         for (int nibble = 0; nibble < 4; ++nibble)
             bytes.push_back (static_cast<std::uint8_t> ('A' + ((static_cast<unsigned> (count) >> 4 * nibble) & 0xfu)));
     bytes.push_back (static_cast<std::uint8_t> ('A' + (buttons & 0xfu) + (homed << 4)));
-    bytes.push_back ('A');
-    bytes.push_back ('>');
+    bytes.insert (bytes.end(), { 'A', '>' });
     return bytes;
 }
 

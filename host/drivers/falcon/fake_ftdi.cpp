@@ -40,6 +40,13 @@ struct Context
         return is_plain && ! has_flow && has_lines;
     }
 };
+
+template <typename T>
+int keep (T& to, T value)
+{
+    to = value;
+    return 0;
+}
 }   // namespace
 
 EXPORTED Context* ftdi_new()
@@ -75,28 +82,18 @@ EXPORTED int ftdi_set_baudrate (Context* c, int baud)
     how.c_ispeed = how.c_ospeed = static_cast<unsigned> (c->baud = baud);
     return ::ioctl (c->line, TCSETS2, &how);
 }
-EXPORTED int ftdi_set_line_property (Context* c, int bits, int stop, int parity)
-{
-    c->is_plain = bits == 8 && stop == 0 && parity == 0;
-    return 0;
-}
-EXPORTED int ftdi_setflowctrl (Context* c, int flow)
-{
-    c->has_flow = flow != 0;
-    return 0;
-}
+EXPORTED int ftdi_set_line_property (Context* c, int bits, int stop, int parity) { return keep (c->is_plain, bits == 8 && stop == 0 && parity == 0); }
+EXPORTED int ftdi_setflowctrl (Context* c, int flow) { return keep (c->has_flow, flow != 0); }
 #if ! defined(FAKE_LACKS_LATENCY)
 EXPORTED int ftdi_set_latency_timer (Context* c, unsigned char ms)
 {
-    c->latency = ms;
-    return 0;
+    return keep<int> (c->latency, ms);
 }
 #endif
 EXPORTED int ftdi_setdtr_rts (Context* c, int dtr, int rts)
 {
     c->dtr = dtr;
-    c->rts = rts;
-    return 0;
+    return keep (c->rts, rts);
 }
 EXPORTED int ftdi_usb_purge_buffers (Context* c) { return ::ioctl (c->line, TCFLSH, TCIOFLUSH); }
 

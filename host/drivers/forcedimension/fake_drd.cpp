@@ -26,23 +26,14 @@ using Clock = std::chrono::steady_clock;
 
 namespace
 {
-enum Error
-{
-    no_error = 0,
-    communication = 2,
-    no_device = 5,
-    not_available = 6,
-    expert_disabled = 9,
-    not_ready = 12,
-    invalid_index = 15,
-    not_enabled = 19,
-    in_use = 20
-};
+// Errors.
+constexpr int communication = 2, no_device = 5, invalid_index = 15, in_use = 20;
+[[maybe_unused]] constexpr int not_available = 6, expert_disabled = 9, not_ready = 12;
 
 constexpr int nothing_new = 1, saturated = 2;
 constexpr double gravity = 9.81, step_s = 250e-6, resolution = 1e-6;
 
-thread_local int last_error = no_error;
+thread_local int last_error = 0;
 
 int fail (int error)
 {
@@ -98,10 +89,17 @@ void stall (std::atomic<int>& for_ms)
         std::this_thread::sleep_for (1ms);
 }
 
+/// The arm that this id has, or had; null: it was never opened.
+Opened* everOpened (char id)
+{
+    const auto index = static_cast<std::size_t> (id < 0 ? 0 : id);
+    return index < opened.size() && opened[index].arm != nullptr ? &opened[index] : nullptr;
+}
+
 /// Without a lock: what reads and what pushes do not wait for each other.
 void stallAt (char id, std::atomic<int> Arm::*what)
 {
-    if (id >= 0 && id < 2 && opened[static_cast<std::size_t> (id)].arm != nullptr) stall (opened[static_cast<std::size_t> (id)].arm->*what);
+    if (auto* o = everOpened (id); o != nullptr) stall (o->arm->*what);
 }
 
 void switchOff (Arm& arm, int cause)
@@ -149,25 +147,12 @@ void live (Opened& o)
 /// The arm of an open id; null, with the error, if it cannot be used.
 Opened* use (char id)
 {
-    const int index = id < 0 ? 0 : id;
-    if (index > 1 || opened[static_cast<std::size_t> (index)].arm == nullptr)
-    {
-        fail (invalid_index);
-        return nullptr;
-    }
-    auto& o = opened[static_cast<std::size_t> (index)];
-    if (o.arm->is_open == 0)
-    {
-        ++o.arm->calls_after_close;
-        fail (invalid_index);
-        return nullptr;
-    }
-    if (o.arm->is_unplugged != 0 || o.arm->is_muted != 0)
-    {
-        fail (communication);
-        return nullptr;
-    }
-    return &o;
+    auto* o = everOpened (id);
+    const bool is_open = o != nullptr && o->arm->is_open != 0;
+    if (o != nullptr && ! is_open) ++o->arm->calls_after_close;
+    if (is_open && o->arm->is_unplugged == 0 && o->arm->is_muted == 0) return o;
+    fail (is_open ? communication : invalid_index);
+    return nullptr;
 }
 
 template <typename F>
@@ -196,28 +181,25 @@ int openAt (int index)
     o.moved_to = now();
     o.has_sample = false;
     arm.stopped_before_close = 0;
-    arm.is_enabled = 0;
-    arm.is_braked = 1;
-    arm.cause = 0;
+    switchOff (arm, 0);
     arm.weight_is_carried = 1;
     if (arm.must_calibrate == 0) arm.is_calibrated = 1;
     return index;
 }
 
-template <typename F>
-int openThat (F&& fits)
+[[maybe_unused]] int openThat (std::atomic<int> Arm::*what, int is, int otherwise, int more)   // `more`: of the second arm
 {
     arms = &mapped();
     for (int i = 0; i < howMany(); ++i)
-        if (fits (arms->arms[static_cast<std::size_t> (i)], i) && arms->arms[static_cast<std::size_t> (i)].is_open == 0) return openAt (i);
+        if (auto& arm = arms->arms[static_cast<std::size_t> (i)]; orElse (arm.*what, otherwise + i * more) == is && arm.is_open == 0) return openAt (i);
     return fail (no_device);
 }
 
 int closeArm (char id)
 {
-    const int index = id < 0 ? 0 : id;
-    if (index > 1 || opened[static_cast<std::size_t> (index)].arm == nullptr) return fail (invalid_index);
-    auto& arm = *opened[static_cast<std::size_t> (index)].arm;
+    auto* o = everOpened (id);
+    if (o == nullptr) return fail (invalid_index);
+    auto& arm = *o->arm;
     stall (arm.close_stall_ms);
     if (arm.is_open.exchange (0) == 0)
     {
@@ -249,10 +231,42 @@ int push (char id, std::array<double, 3> force, std::array<double, 3> torque, do
     });
 }
 
+/// Tells a value of the arm.
+template <typename To, typename T>
+int tell (char id, To* to, std::atomic<T> Arm::*what, T otherwise)
+{
+    return with (id, [&] (Opened& o) { return *to = static_cast<To> (orElse (o.arm->*what, otherwise)), 0; });
+}
+
+[[maybe_unused]] int set (char id, std::atomic<int> Arm::*what, int on)
+{
+    return with (id, [&] (Opened& o) { return o.arm->*what = on != 0 ? 1 : 0, 0; });
+}
+
 [[maybe_unused]] bool has (char id, std::atomic<int> Arm::*what)
 {
     auto* o = use (id);
     return o != nullptr && (o->arm->*what) != 0;
+}
+
+[[maybe_unused]] int tellGripper (char id, double* to, std::atomic<int> Arm::*fails, double scale)
+{
+    return with (id, [&] (Opened& o) {
+        if (o.arm->gripper == 0 || o.arm->*fails != 0) return fail (not_available);
+        *to = scale * o.arm->gripper_angle;
+        return nothing_new;   // it was read with the position
+    });
+}
+
+[[maybe_unused]] int enterExpertMode (bool is)
+{
+    is_expert = is;
+    return 0;
+}
+
+[[maybe_unused]] int violate (char id)
+{
+    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });
 }
 }   // namespace
 
@@ -300,19 +314,18 @@ EXPORTED int dhdSetForce (double x, double y, double z, char id) { return push (
 EXPORTED int dhdStop (char id)
 {
     return with (id, [&] (Opened& o) {
-        auto& arm = *o.arm;
-        switchOff (arm, 4);
-        ++arm.stops;
-        arm.stopped_before_close = 1;
+        switchOff (*o.arm, 4);
+        ++o.arm->stops;
+        o.arm->stopped_before_close = 1;
         return 0;
     });
 }
 EXPORTED int dhdGetStatus (int* status, char id)
 {
-    const int index = id < 0 ? 0 : id;
-    auto* arm = index < 2 ? opened[static_cast<std::size_t> (index)].arm : nullptr;
-    if (arm == nullptr || (arm->is_open != 0 && arm->is_muted != 0)) return fail (arm == nullptr ? invalid_index : communication);
-    if (arm->has_no_status != 0) return fail (communication);
+    const auto* o = everOpened (id);
+    if (o == nullptr) return fail (invalid_index);
+    const auto* arm = o->arm;
+    if ((arm->is_open != 0 && arm->is_muted != 0) || arm->has_no_status != 0) return fail (communication);
     const bool is_there = arm->is_unplugged == 0;
     if (is_there && with (id, [] (Opened&) { return 0; }) < 0) return -1;
 #if defined(FAKE_ANCIENT)
@@ -349,20 +362,8 @@ EXPORTED int dhdEnableForce (unsigned char on, char id)
         return 0;
     });
 }
-EXPORTED int dhdSetBrakes (int on, char id)
-{
-    return with (id, [&] (Opened& o) {
-        o.arm->is_braked = on != 0 ? 1 : 0;
-        return 0;
-    });
-}
-EXPORTED int dhdSetGravityCompensation (int on, char id)
-{
-    return with (id, [&] (Opened& o) {
-        o.arm->weight_is_carried = on != 0 ? 1 : 0;
-        return 0;
-    });
-}
+EXPORTED int dhdSetBrakes (int on, char id) { return set (id, &Arm::is_braked, on); }
+EXPORTED int dhdSetGravityCompensation (int on, char id) { return set (id, &Arm::weight_is_carried, on); }
 EXPORTED int dhdGetSystemType (char id)
 {
     return with (id, [] (Opened& o) { return orElse (o.arm->type, 33); });
@@ -394,19 +395,10 @@ dhdGetOrientationFrame
 #if ! defined(FAKE_ANCIENT) && ! defined(FAKE_OLD)
 EXPORTED int dhdOpenType (int type)
 {
-    return openThat ([&] (const Arm& arm, int) { return orElse (arm.type, 33) == type; });
+    return openThat (&Arm::type, type, 33, 0);
 }
-EXPORTED int dhdOpenSerial (int serial)
-{
-    return openThat ([&] (const Arm& arm, int index) { return orElse (arm.serial, 10001 + index) == serial; });
-}
-EXPORTED int dhdGetSerialNumber (unsigned short* to, char id)
-{
-    return with (id, [&] (Opened& o) {
-        *to = static_cast<unsigned short> (orElse (o.arm->serial, 10001 + static_cast<int> (id)));
-        return 0;
-    });
-}
+EXPORTED int dhdOpenSerial (int serial) { return openThat (&Arm::serial, serial, 10001, 1); }
+EXPORTED int dhdGetSerialNumber (unsigned short* to, char id) { return tell (id, to, &Arm::serial, 10001 + static_cast<int> (id)); }
 EXPORTED const char* dhdGetSystemName (char id)
 {
     auto* o = use (id);
@@ -415,37 +407,17 @@ EXPORTED const char* dhdGetSystemName (char id)
         if (type == orElse (o->arm->type, 33)) return name;
     return "";
 }
-EXPORTED int dhdGetVersion (double* to, char id)
-{
-    return with (id, [&] (Opened& o) {
-        *to = orElse (o.arm->firmware, 3.1);
-        return 0;
-    });
-}
+EXPORTED int dhdGetVersion (double* to, char id) { return tell (id, to, &Arm::firmware, 3.1); }
 EXPORTED bool dhdIsLeftHanded (char id) { return has (id, &Arm::left_handed); }
 EXPORTED bool dhdHasActiveWrist (char id) { return has (id, &Arm::active_wrist); }
 EXPORTED bool dhdHasGripper (char id) { return has (id, &Arm::gripper); }
 EXPORTED bool dhdHasActiveGripper (char id) { return has (id, &Arm::active_gripper); }
-EXPORTED int dhdEnableGripperForce (unsigned char, char id)
-{
-    return with (id, [] (Opened&) { return 0; });
-}
+EXPORTED int dhdEnableGripperForce (unsigned char, char id) { return use (id) != nullptr ? 0 : -1; }
 EXPORTED int dhdGetGripperAngleRad (double* to, char id)
 {
-    return with (id, [&] (Opened& o) {
-        if (o.arm->gripper == 0 || o.arm->gripper_fails != 0) return fail (not_available);
-        *to = o.arm->left_handed != 0 ? -o.arm->gripper_angle : o.arm->gripper_angle.load();
-        return nothing_new;   // it was read with the position
-    });
+    return tellGripper (id, to, &Arm::gripper_fails, has (id, &Arm::left_handed) ? -1.0 : 1.0);
 }
-EXPORTED int dhdGetGripperGap (double* to, char id)
-{
-    return with (id, [&] (Opened& o) {
-        if (o.arm->gripper == 0 || o.arm->has_no_gap != 0) return fail (not_available);
-        *to = 0.06 * o.arm->gripper_angle;
-        return nothing_new;
-    });
-}
+EXPORTED int dhdGetGripperGap (double* to, char id) { return tellGripper (id, to, &Arm::has_no_gap, 0.06); }
 EXPORTED unsigned dhdGetButtonMask (char id)
 {
     auto* o = use (id);
@@ -462,16 +434,8 @@ EXPORTED double dhdGetMaxForce (char id)
     auto* o = use (id);
     return o != nullptr && o->arm->max_force > 0.0 ? o->arm->max_force.load() : -1.0;
 }
-EXPORTED int dhdEnableExpertMode()
-{
-    is_expert = true;
-    return 0;
-}
-EXPORTED int dhdDisableExpertMode()
-{
-    is_expert = false;
-    return 0;
-}
+EXPORTED int dhdEnableExpertMode() { return enterExpertMode (true); }
+EXPORTED int dhdDisableExpertMode() { return enterExpertMode (false); }
 EXPORTED int dhdGetWatchdog (unsigned char* to, char id)
 {
     return with (id, [&] (Opened& o) {
@@ -482,18 +446,9 @@ EXPORTED int dhdGetWatchdog (unsigned char* to, char id)
     });
 }
 // Functions that the driver must not call.
-EXPORTED int dhdSetWatchdog (unsigned char, char id)
-{
-    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });
-}
-EXPORTED int dhdSetVelocityThreshold (unsigned, char id)
-{
-    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });
-}
-EXPORTED int dhdSetTimeGuard (int, char id)
-{
-    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });
-}
+EXPORTED int dhdSetWatchdog (unsigned char, char id) { return violate (id); }
+EXPORTED int dhdSetVelocityThreshold (unsigned, char id) { return violate (id); }
+EXPORTED int dhdSetTimeGuard (int, char id) { return violate (id); }
 EXPORTED int drdOpenID (char index) { return openAt (index < 0 ? 0 : index); }
 EXPORTED int drdClose (char id) { return closeArm (id); }
 EXPORTED bool drdIsInitialized (char id) { return has (id, &Arm::is_calibrated); }

@@ -19,8 +19,7 @@ struct FakeForceDimension
     static Vec3 toTactus (const Vec3& v) { return { v.y(), -v.x(), v.z() }; }
     static Vec3 force (const FakeArms::Arm& arm)
     {
-        const auto now = std::chrono::steady_clock::now().time_since_epoch();
-        const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds> (now).count();
+        const auto ns = std::chrono::nanoseconds (std::chrono::steady_clock::now().time_since_epoch()).count();
         return { FakeArms::forceAt (arm, ns, 0), FakeArms::forceAt (arm, ns, 1), FakeArms::forceAt (arm, ns, 2) };
     }
     static std::uint64_t pushes (const FakeArms::Arm& arm) { return arm.forces; }
