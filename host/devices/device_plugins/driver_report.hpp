@@ -41,7 +41,7 @@ private:
 
     tactus_plugin_report sink;
     std::size_t length = 0;
-    std::array<char, 200> said;
+    std::array<char, 1000> said;   // enough for what a system says about each name of a library that it cannot open
 };
 
 }   // namespace tactus::host

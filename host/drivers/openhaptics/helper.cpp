@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The process that owns OpenHaptics and the arms of a program: if the library crashes or hangs, the program that plays does not. Its arguments are the
-// files of the memory that it shares with the driver and of the pipe that ends with the driver. Written from a public description of the library's
-// functions; no arm has been tried. See docs/known_devices.md.
+// files of the memory that it shares with the driver and of the pipe that ends with the driver. With --library, it only says on its first line why the
+// library cannot be opened, or nothing. Written from a public description of the library's functions; no arm has been tried. See docs/known_devices.md.
 #include "hd_library.hpp"
 #include "shared_arm.hpp"
 #include "stored_names.hpp"
@@ -20,6 +20,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -402,6 +403,11 @@ private:
 int main (int count, char** arguments)
 {
     if (count < 3) return 2;
+    if (arguments[1] == std::string_view ("--library"))
+    {
+        const auto line = HdFunctions {}.load() + "\n";
+        return ::write (std::atoi (arguments[count - 1]), line.data(), line.size()) > 0 ? 0 : 1;
+    }
     const int memory = std::atoi (arguments[1]), pipe = std::atoi (arguments[2]);
     void* at = ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
     if (at == MAP_FAILED) return 2;

@@ -172,13 +172,18 @@ public:
         return touch;
     }
 
-    /// The names that the maker's setup has stored: no arm is opened, because that takes seconds and starts the library.
+    /// The names that the maker's setup has stored: no arm is opened, because that takes seconds and starts the library. Without names, the library may
+    /// still have an arm that needs none.
     static std::string find (const Found& found)
     {
-        std::string why;
-        if (findHelper (&driver, program, why).empty()) return why;
-        for (const auto& name : storedNames())
+        HelperProcess looks;
+        auto why = looks.start (&driver, program, { "--library" }, {}, plainEnvironment().data());
+        if (why.empty()) why = looks.firstLine().value_or ("the helper has died while it opened the library of OpenHaptics");
+        if (! why.empty()) return why;
+        const auto names = storedNames();
+        for (const auto& name : names)
             found (name, "An arm of 3D Systems", TACTUS_DEVICE_UNSEEN);
+        if (names.empty()) found ({}, "An arm of 3D Systems for which its setup has stored no name", TACTUS_DEVICE_UNSEEN);
         return {};
     }
 

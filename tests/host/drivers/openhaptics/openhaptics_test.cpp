@@ -201,20 +201,34 @@ TEST_CASE ("a Touch is found by name, or by the names that makers have given, or
 
 TEST_CASE ("the driver of 3D Systems' arms lists the names that their setup has stored, and opens none", "[openhaptics]")
 {
+    const auto find = [] {
+        const auto driver = host::DeviceDriver::within (host::openhaptics::driver);
+        REQUIRE (driver);
+        return (*driver)->find();
+    };
     TouchLab lab;
+    const auto nameless = find();
+    REQUIRE (nameless);
+    REQUIRE (nameless->size() == 1);
+    CHECK ((*nameless)[0].description == Json { { "driver", "openhaptics" } });
+    CHECK_FALSE ((*nameless)[0].is_seen);
     std::filesystem::create_directories (lab.folder / ".3dsystems/config");
     for (const auto* name : { "Right", "Left arm" })
         lab.folder.write (".3dsystems/config/" + std::string (name) + ".config", "");
     lab.folder.write (".3dsystems/config/notes.txt", "");
-    const auto driver = host::DeviceDriver::within (host::openhaptics::driver);
-    REQUIRE (driver);
-    const auto all = (*driver)->find();
+    const auto all = find();
     REQUIRE (all);
     REQUIRE (all->size() == 2);
     CHECK ((*all)[0].description == Json { { "driver", "openhaptics" }, { "port", "Left arm" } });
     CHECK ((*all)[1].description["port"] == Json ("Right"));
     CHECK_FALSE ((*all)[0].is_seen);
     CHECK (lab.arms->process == 0);
+
+    // Without the library, there is nothing to play on, whatever names are stored.
+    const TouchLab needy ("needy_hd");
+    const auto none = find();
+    REQUIRE_FALSE (none);
+    CHECK (contains (none.error().text, "needed_by_fake.so: cannot open shared object file"));
 }
 
 TEST_CASE ("a Touch that does not know its position has no force until it does", "[openhaptics][safety]")
