@@ -3,6 +3,7 @@
 
 #include <host/cli/report.hpp>
 #include <host/devices/device_plugins/open_plugin_device.hpp>
+#include <host/devices/hid_link/driver_ports.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -12,10 +13,25 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// What the driver finds, or else its devices at serial ports and USB, if they are known from there.
+std::vector<FoundByDriver> find (const std::string& driver)
+{
+    auto found = findDevices (driver);
+    const auto* device = hid::deviceOf (driver);
+    if (found || device == nullptr) return orFail (std::move (found));
+    std::vector<FoundByDriver> all;
+    for (const auto& port : hid::portsOf (*device, hid::serialPorts()))
+        all.push_back ({ .name = device->what, .description = { { "driver", driver }, { "port", port } } });
+    return all;
+}
+}   // namespace
+
 bool listFoundDevices (const std::string& driver, bool as_json)
 {
     if (! findDriver (driver)) return false;
-    const auto found = orFail (findDevices (driver));
+    const auto found = find (driver);
     auto json = Json::array();
     for (const auto& device : found)
     {

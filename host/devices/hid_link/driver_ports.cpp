@@ -22,6 +22,23 @@ const DriverPort* driverOf (const SerialPort& port)
     return found != std::end (known) ? found : nullptr;
 }
 
+const DriverPort* deviceOf (std::string_view driver)
+{
+    const auto* found = std::ranges::find (known, driver, [] (const auto& device) { return std::string_view (device.driver); });
+    return found != std::end (known) ? found : nullptr;
+}
+
+std::vector<std::string> portsOf (const DriverPort& device, std::span<const SerialPort> ports, const std::filesystem::path& usb)
+{
+    std::vector<std::string> all;
+    for (const auto& port : ports)
+        if (isOf (device, port)) all.push_back (port.path);
+    const auto without = all.empty() ? usbEntries (usb, device.vid, device.pid).size() : 0;
+    for (std::size_t i = 0; i < without; ++i)
+        all.push_back (i == 0 ? "usb" : "usb:" + std::to_string (i));
+    return all;
+}
+
 std::string withoutPort (std::span<const SerialPort> ports, const std::filesystem::path& usb)
 {
     std::string all;

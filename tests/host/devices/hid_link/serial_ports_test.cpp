@@ -99,4 +99,10 @@ TEST_CASE ("the port of a Falcon names its driver, and what makes it slow or hid
     CHECK (withoutPort ({}, usb).find ("echo 0403 cb48 > /sys/bus/usb-serial/drivers/ftdi_sio/new_id") != std::string::npos);
     CHECK (withoutPort ({}, usb).find ("or, with libftdi: --device ROLE=falcon:usb") != std::string::npos);
     CHECK (withoutPort (std::vector { falcon }, usb).empty());
+
+    REQUIRE (deviceOf ("falcon") != nullptr);
+    CHECK (deviceOf ("haply") == nullptr);
+    CHECK (portsOf (*deviceOf ("falcon"), std::vector { falcon, SerialPort { .path = "/dev/ttyS0" } }, usb) == std::vector { falcon.path });
+    CHECK (portsOf (*deviceOf ("falcon"), {}, usb) == std::vector<std::string> { "usb" });
+    CHECK (portsOf (*deviceOf ("falcon"), {}, folder / "none").empty());
 }
