@@ -26,10 +26,11 @@ namespace
 {
 using namespace std::chrono_literals;
 
-constexpr double push_s = 1.0, still_s = 1.0, frozen_s = 0.3, wall_below = 5e-3;   // m below the tool
-constexpr double free_push_s = 1.5, pushed_travel = 1e-2;                          // m
-constexpr double least_move = 5e-3, clear_of_others = 2.0;                         // m, and how much larger than along the other axes
-constexpr int most_tries = 3;                                                      // at homing
+constexpr double push_s = 1.0, still_s = 1.0, frozen_s = 0.3, pushes_after_s = 0.2;
+constexpr double wall_below = 5e-3;                          // m below the tool
+constexpr double free_push_s = 1.5, pushed_travel = 1e-2;    // m
+constexpr double least_move = 5e-3, clear_of_others = 2.0;   // m, and how much larger than along the other axes
+constexpr int most_tries = 3;                                // at homing
 
 /// A direction, in the words of a person.
 struct Direction
@@ -224,9 +225,9 @@ private:
         {
             if (! row.is_valid) continue;
             if (before == nullptr) origin = row.position;
-            for (int i = 0; i < 3 && before != nullptr; ++i)
-                if (const double step = std::abs (row.position[i] - before->position[i]); step > 0.0)
-                    quantum = quantum > 0.0 ? std::min (quantum, step) : step;
+            // In space: where each encoder moves the tool along all axes, the steps along one axis may be as small as one likes.
+            if (const double step = before != nullptr ? (row.position - before->position).norm() : 0.0; step > 0.0)
+                quantum = quantum > 0.0 ? std::min (quantum, step) : step;
             for (int i = 0; i < 3; ++i)
             {
                 const auto off = row.position[i] - origin[i];
@@ -379,6 +380,7 @@ private:
     void tryStops()
     {
         tryStop ("Enter", "Press Enter while it pushes up.", [this] (TrialRun& run) {
+            waitFor (run, pushes_after_s);   // whoever is quick stops a push, and not its beginning
             const bool goes_on = person.ask ("It pushes up now. Press Enter to stop it.").has_value();
             run.emergencyStop();
             if (! goes_on) throw Ended {};

@@ -5,11 +5,14 @@
 
 #include "support/waiting.hpp"
 
+#include <tactus/file/text_file.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <thread>
 
@@ -434,6 +437,33 @@ TEST_CASE ("a trial of a device that does not know its position asks for homing,
     }
 }
 
+TEST_CASE ("the quantum of a trial is the smallest step in space, where an encoder moves the tool along several axes", "[trial]")
+{
+    // Two legs, at right angles to each other and almost along x and y, whose encoders count 50 um.
+    struct Legs final : Device
+    {
+        void prepare (double) override {}
+        Reading read() noexcept override
+        {
+            constexpr double count = 50e-6, angle = 1e-3;
+            ++reads;
+            const double along = count * (reads / 2 % 2), aside = count * (reads / 3 % 3);
+            Reading reading;
+            reading.position = { along * std::cos (angle) - aside * std::sin (angle), along * std::sin (angle) + aside * std::cos (angle), 0.0 };
+            reading.valid = true;
+            return reading;
+        }
+        void write (const Effort&) noexcept override {}
+        int reads = 0;
+    };
+    Legs legs;
+    SpringDevice unused;
+    Script person (unused);
+    person.ends_at = 2;
+    const auto report = tryDevice (legs, {}, setting(), person);
+    CHECK (report.at ("numbers").at ("quantum").get<double>() == Approx (50e-6));
+}
+
 TEST_CASE ("check gets the quantum and the delay that a trial has measured, rounded up to ticks", "[trial]")
 {
     const auto numbers = [] (const char* text, double rate_hz) {
@@ -451,6 +481,29 @@ TEST_CASE ("check gets the quantum and the delay that a trial has measured, roun
     for (const auto* wrong : { R"({"delay_s": -1})", R"({"delay_s": 2})", R"({"quantum": "1 um"})", R"({"mass": 0})", R"({"damping": -1})", "[]" })
         CHECK (numbers (wrong, 1000.0).error().id == "trial/format");
     CHECK (trialNumbers (Json(), 1000.0).error().id == "trial/format");
+}
+
+TEST_CASE ("every report of a trial that somebody has sent us replays, bit for bit", "[trial]")
+{
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/tests/host/devices/trial/reports"))
+    {
+        INFO (entry.path().string());
+        const auto text = readTextFile (entry.path());
+        REQUIRE (text);
+        const auto report = Json::tryParse (*text);
+        REQUIRE (report);
+        std::size_t rows = 0;
+        for (const auto& part : report->at ("capture"))
+            rows += part.at ("rows").size();
+        CHECK (rows > 0);
+        const auto replayed = replayTrial (*report);
+        REQUIRE (replayed);
+        CHECK (*replayed == 0.0);
+        CHECK (trialNumbers (*report, 1000.0));
+        ++files;
+    }
+    CHECK (files > 0);
 }
 
 TEST_CASE ("the report of a trial that was changed does not replay, and what is no report is refused", "[trial]")

@@ -583,6 +583,7 @@ TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N
     };
     hand.press = [&] (unsigned buttons) { falcon.buttons = buttons; };
     hand.unplug = [&] { falcon.unplug(); };
+    falcon.tremor = 2e-4;
     const auto report = host::tryDevice (*desk.device, desk.limits, { .pace = 0.3 }, hand);
     INFO (host::trialText (report));
     for (const auto* step : test::steps_of_trial)
@@ -593,6 +594,9 @@ TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N
     CHECK (test::verdictOf (report, "a pulled cable") == "as expected");
     CHECK (test::verdictOf (report, "walls") == "not tried");   // the person does not let go of it
     CHECK (contains (host::trialText (report), "pressed: forward; not seen: plus, center, minus"));
+    // What a count of one leg, or of several, moves the grip: 34 to 53 um within the space.
+    CHECK (report.at ("numbers").at ("quantum").get<double>() > 30e-6);
+    CHECK (report.at ("numbers").at ("quantum").get<double>() < 60e-6);
     CHECK (hand.largest > 0.1);
     CHECK (hand.largest <= 1.05 * host::trial_push);   // as the fake computes it, from whole counts
     const auto replayed = host::replayTrial (report);
