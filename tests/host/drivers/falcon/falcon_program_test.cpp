@@ -126,7 +126,7 @@ TEST_CASE ("a computer that shuts down, and so ends all programs at once, leaves
     CHECK (falcon.isAtRest());
 }
 
-TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[.][promise]")
+TEST_CASE ("how long a force on a Falcon outlives its program, measured at the fake", "[falcon][promise][safety]")
 {
     const TemporaryFolder folder;
     folder.write ("wall.json", wall);

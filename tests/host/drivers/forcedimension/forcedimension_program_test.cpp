@@ -103,7 +103,7 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
     }
 }
 
-TEST_CASE ("how long a force on an arm of Force Dimension outlives its program, measured at the fake", "[.][promise]")
+TEST_CASE ("how long a force on an arm of Force Dimension outlives its program, measured at the fake", "[forcedimension][promise][safety]")
 {
     Played played;
     auto& arm = played.lab.arm();

@@ -84,7 +84,7 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Touch without a f
     }
 }
 
-TEST_CASE ("how long a force on a Touch outlives its program, measured at the fake", "[.][promise]")
+TEST_CASE ("how long a force on a Touch outlives its program, measured at the fake", "[openhaptics][promise][safety]")
 {
     TouchLab lab;
     auto& arm = lab.arm();
