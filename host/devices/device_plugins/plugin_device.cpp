@@ -103,7 +103,7 @@ Reading PluginDevice::read() noexcept
         const double passed = (taken.numbered - std::exchange (numbered, taken.numbered)) / (described.rate_hz > 0.0 ? described.rate_hz : 1.0);
         lag = measured (passed, 1e-9 * static_cast<double> (taken.at), reading.position);
     }
-    reading.age = from.age_s + taken.lag_s + lag + (is_new ? std::max (0.0, waited - dt) : std::max (ticks_without * dt, waited));
+    reading.age = from.age_s + taken.lag_s + lag + std::max (ticks_without * dt, waited);
     for (int i = static_cast<int> (from.axis_count) - 1; i >= 0; --i)
         reading.axes.set (i, from.axes[i]);
     for (int i = static_cast<int> (from.signal_count) - 1; i >= 0; --i)

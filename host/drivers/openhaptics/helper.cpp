@@ -105,7 +105,7 @@ public:
         const bool looks = number++ % between_looks == 0;
         if (looks) calibrate();
 
-        SharedArm::Tick tick { .number = number };
+        SharedArm::Tick tick { .number = number, .at_ns = nanosecondsNow() };
         hd.hdBeginFrame (device);
         hd.hdGetDoublev (hd::position, tick.position);
         hd.hdGetDoublev (hd::transform, tick.transform);

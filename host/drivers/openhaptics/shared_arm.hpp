@@ -35,6 +35,7 @@ struct SharedArm
     struct Tick
     {
         std::uint64_t number = 0;   // from 1
+        std::int64_t at_ns = 0;     // of the steady clock: the servo loop may stall, so a number is no time
         double position[3] {};
         double transform[16] {};    // by columns
         double temperature = 0.0;   // of the hottest motor: 0 is cold, 1 too warm; an estimate of the library

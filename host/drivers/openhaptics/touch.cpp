@@ -274,7 +274,7 @@ private:
         static constexpr const char* buttons[] { "button1", "button2", "button3", "button4" };
         nameParts (about, axes, buttons);
         about.rate_hz = arm->rate_hz;
-        about.stamps = TACTUS_DEVICE_NUMBERS;                                           // the ticks of its servo loop
+        about.stamps = TACTUS_DEVICE_NUMBERS | TACTUS_DEVICE_TIMES;                     // the ticks of its servo loop
         about.device_watchdog_s = 1e-9 * SharedArm::patience_ns + 2.0 / arm->rate_hz;   // of the helper: it does not help if the helper dies, too
         const auto locale = localeOfNumbers();
         sentence = std::string (arm->model) + (locale.empty() ? "." : ". Its library reads numbers as in C, not as in " + locale + ".");
@@ -296,6 +296,7 @@ private:
         to.buttons = tick.buttons;
         to.valid = 1;
         stamp.number = tick.number;
+        stamp.time_s = 1e-9 * static_cast<double> (tick.at_ns);
         stamp.fault = tick.fault;
     }
 

@@ -95,7 +95,7 @@ TEST_CASE ("dry wood on a Touch has the forces of its render at the positions th
         ++arm.step;
         return eventually (20us, 1'000'000, [&] { return arm.frames > frames; });
     };
-    const int readings = test::readings (2'000);   // each hands over between processes, which takes long on a busy computer: ./test.sh --long has 30 000
+    const int readings = test::readings (30'000);
     std::uint64_t more = 0;
     for (int k = 0; k < readings; ++k)
     {
@@ -346,6 +346,35 @@ TEST_CASE ("a library that stalls or dies costs a stop, and its death is told", 
         CHECK (lab.arm().force[1] == 0.0);   // before it hangs
         CHECK (::kill (process, 0) != 0);
     }
+}
+
+TEST_CASE ("each reading of a Touch says when it was taken, so a hand that moves on while the servo loop stalls does not seem to jump", "[openhaptics][safety]")
+{
+    const TouchLab lab;
+    const auto driver = host::DeviceDriver::within (host::openhaptics::driver);
+    REQUIRE (driver);
+    Messages messages;
+    const auto opened = (*driver)->open (Json { { "driver", "openhaptics" } }, messages);
+    REQUIRE (opened);
+    CHECK ((opened->about().stamps & TACTUS_DEVICE_TIMES) != 0);
+    host::DriverReport why;
+    const auto next = [&] {
+        tactus_reading reading {};
+        tactus_device_stamp stamp {};
+        REQUIRE (eventually (0ns, [&] { return opened->read (50ms, reading, stamp, why) == TACTUS_DEVICE_OK; }));
+        return stamp;
+    };
+    auto before = next();
+    lab.arms->stall_ms = 18;
+    double longest = 0.0;
+    for (int left = 20; left > 0; left -= lab.arms->stall_ms == 0 ? 1 : 0)   // the ticks before the stall, and some after it
+    {
+        const auto stamp = next();
+        CHECK (stamp.time_s > before.time_s);
+        if (stamp.number == before.number + 1) longest = std::max (longest, stamp.time_s - before.time_s);
+        before = stamp;
+    }
+    CHECK (longest >= 0.018);
 }
 
 TEST_CASE ("a Touch whose process was killed is opened again, with a force from zero", "[openhaptics][safety]")
