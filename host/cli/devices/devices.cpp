@@ -365,9 +365,7 @@ void run (const DevicesOptions& options)
     const auto known = options.probe ? std::vector<std::shared_ptr<const Profile>> {} : knownByNumbers (profiles);
     for (const auto& profile : known)
         json.push_back (numbersJsonOf (*profile));
-    if (! options.json)
-        for (const auto& profile : known)
-            std::cout << numbersTextOf (*profile);
+    if (! options.json) std::cout << numbersText (known);
     if (! options.json && ! options.probe) std::cout << driversText();
     if (options.probe && (! all.empty() || ! event_devices.empty()))
     {

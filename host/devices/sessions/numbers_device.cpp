@@ -74,7 +74,7 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
     option->description = withNumbers (std::move (option->description), numbers);
     const auto guesses = guessesOf (numbers);
     notes.push_back (Message::warning ("device/numbers_only", where,
-                                       profile->name + " has no open driver, so the role gets a simulated device with the numbers of the profile"
+                                       "the profile of " + profile->name + " has only numbers, so the role gets a simulated device with them"
                                            + (guesses.empty() ? std::string() : " (guessed: " + guesses + ")"),
                                        "the profile says where each number comes from; for a real device, write " + role + "=hid:PROFILE"));
     return option;

@@ -7,6 +7,7 @@
 #include <host/devices/hid_link/hid_device.hpp>
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/hid_link/udev_rule.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -122,10 +123,12 @@ Json numbersJsonOf (const hid::Profile& profile)
     return { { "profile", profile.id }, { "name", profile.name }, { "numbers_only", true }, { "physics", std::move (physics) } };
 }
 
-std::string numbersTextOf (const hid::Profile& profile)
+std::string numbersText (std::span<const std::shared_ptr<const hid::Profile>> profiles)
 {
-    return printableName (profile.id) + "   " + printableName (profile.name) + "\n    numbers only, no open driver; simulate it: --device ROLE="
-           + printableName (profile.id) + "\n";
+    std::string all;
+    for (const auto& profile : profiles)
+        addToList (all, printableName (profile->id) + " (" + printableName (profile->name) + ")");
+    return all.empty() ? all : "devices known by their numbers only: " + all + "\n    simulate one, or check a graph with its numbers: --device ROLE=PROFILE\n";
 }
 
 Json listedJson (const hid::LoadedProfiles& profiles)

@@ -7,6 +7,7 @@
 #include <tactus/text/json.hpp>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,7 @@ std::vector<std::shared_ptr<const hid::Profile>> knownByNumbers (const hid::Load
 /// Id, name and numbers of a profile, in SI units; each number with its source.
 Json numbersJsonOf (const hid::Profile&);
 
-/// Two lines about a profile, for the list of devices.
-std::string numbersTextOf (const hid::Profile&);
+/// These profiles, which have only numbers, for the list of devices; empty if there are none.
+std::string numbersText (std::span<const std::shared_ptr<const hid::Profile>>);
 
 }   // namespace tactus::host

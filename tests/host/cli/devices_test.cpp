@@ -121,19 +121,34 @@ TEST_CASE ("a graph that names a real device runs on any machine, opens nothing,
 TEST_CASE ("a device that is known only by its numbers is listed, simulated on request, and never opened", "[cli][hid]")
 {
     const auto listed = runTactus ({ "devices" });
-    CHECK (holds (listed.out, "phantom_1_0"));
-    CHECK (holds (listed.out, "numbers only, no open driver; simulate it: --device ROLE=pantograph_mk2"));
+    CHECK (holds (listed.out, "phantom_1_0 (PHANTOM 1.0)"));
+    CHECK (holds (listed.out, "simulate one, or check a graph with its numbers: --device ROLE=PROFILE"));
     const auto json = Json::parse (runTactus ({ "devices", "--json" }).out);
     const auto phantom = std::find_if (json.begin(), json.end(), [] (const Json& d) { return d.value ("profile", "") == "phantom_1_0"; });
     REQUIRE (phantom != json.end());
     CHECK (phantom->at ("physics").at ("first_mode").at ("value").get<double>() == 30.0);
     CHECK_FALSE (phantom->at ("physics").at ("first_mode").at ("guess").get<bool>());
 
+    // The arms that labs own, which have drivers as well. Each number has a source, or is a guess and says what it is based on.
+    for (const auto* id : { "omega_3", "delta_3", "sigma_7", "lambda_7", "touch", "touch_x", "phantom_premium_1_5", "novint_falcon" })
+    {
+        INFO (id);
+        const auto arm = std::find_if (json.begin(), json.end(), [id] (const Json& d) { return d.value ("profile", "") == id; });
+        REQUIRE (arm != json.end());
+        for (const auto& [key, number] : arm->at ("physics").items())
+            CHECK_FALSE (number.value ("source", "").empty());
+        CHECK (arm->at ("physics").contains ("damping"));
+        CHECK_FALSE (arm->at ("physics").at ("peak_force").at ("guess").get<bool>());
+        const auto checked = runTactus ({ "check", wood, "--device", "stylus=" + std::string (id) });
+        CHECK (holds (checked.out, "stylus on " + std::string (id)));
+        CHECK (holds (checked.out, " N*s/m (guess)"));
+    }
+
     Scratch scratch;
     const auto rendered = runTactus ({ "render", wood, "--duration", "0.05", "--device", "stylus=phantom_1_0", "--out", scratch.path ("out.csv") });
     CHECK (rendered.status == 0);
     CHECK (holds (rendered.err, "device/numbers_only"));
-    CHECK (holds (rendered.err, "PHANTOM 1.0 has no open driver"));
+    CHECK (holds (rendered.err, "the profile of PHANTOM 1.0 has only numbers"));
 
     const auto opened = runTactus ({ "play", wood, "--osc", "off", "--duration", "1", "--device", "stylus=hid:phantom_1_0" });
     CHECK (opened.status == 1);
