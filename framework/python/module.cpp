@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "graph.hpp"
 #include "logs.hpp"
-#include "points.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>

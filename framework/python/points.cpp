@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "points.hpp"
-
-#include "assets.hpp"
-#include "graph.hpp"
 #include "run.hpp"
 
 #include <pybind11/stl.h>
 
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/kit/state_archive.hpp>
-#include <tactus/node/catalogue.hpp>
 #include <tactus/node/node_fault.hpp>
 #include <tactus/plan/flat/make_node.hpp>
 #include <tactus/plan/prepared_shelf.hpp>
 #include <tactus/plan/rules/examine.hpp>
-#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,25 +24,23 @@ constexpr double most_ticks = 1e10;
 
 /// A run that renders one point after another. The graph is compiled for the first one. For each other point, the run goes back to before its first
 /// tick, and the parameters that differ are set; a graph whose state cannot be saved is compiled again. Both give the same bits and messages.
-class Points final : RunListener
+class Points
 {
 public:
     using Rows = PythonRun::Rows;
     using Values = std::vector<std::string>;   // as JSON
-    using FeedTable = std::optional<std::pair<std::vector<std::string>, Rows>>;
 
     /// common: values that all points share, by parameter. names: what varies. seconds: of each render; 0: as long as the table, or the longest path of a
     /// hand.
     Points (const EditedGraph& g, double hz, std::vector<std::string> records, const std::map<std::string, std::string>& common, Values n,
-            const FeedTable& table, py::object own_assets, double s)
-        : graph (g.graph()), names (std::move (n)), seconds (s), reader (std::move (own_assets)), assets (reader.reader())
+            const std::optional<PythonRun::FeedTable>& table, py::object own_assets, double s)
+        : graph (g.graph()), names (std::move (n)), seconds (s), assets (std::move (own_assets))
     {
-        options = { .rate_hz = hz, .records = std::move (records), .assets = &assets, .services = { .nearest_triangle = nearestByBoxes } };
+        options = { .rate_hz = hz, .records = std::move (records), .services = { .nearest_triangle = nearestByBoxes } };
         for (const auto& [name, value] : common)
             options.overrides.push_back ({ name, jsonOf (value) });
         if (! table) return;
-        Table rows { .columns = table->first, .values = std::vector<double> (table->second.data(), table->second.data() + table->second.size()) };
-        auto made = Feed::make (std::move (rows), "feed", hz, graph.rate_hz);
+        auto made = feedOf (*table, hz, graph.rate_hz);
         if (! made) fail (std::move (made).error());
         options.feeds = made->drives();
         options.rate_hz = made->rate();
@@ -75,11 +67,7 @@ public:
                 std::fill_n (all.mutable_data(), all.size(), std::numeric_limits<double>::quiet_NaN());
             }
             if (static_cast<std::size_t> (all.size()) != points.size() * width) throw std::length_error ("a point has other columns than those before it");
-            row = all.mutable_data() + k * width;
-            withoutGil ([&] {
-                for (std::size_t i = 0; i < count; ++i)
-                    run->tick();
-            });
+            withoutGil ([&, row = all.mutable_data() + k * width] { tactus_run_steps (run.get(), count, nullptr, row); });
         }
         return py::make_tuple (all, errors, warnings);
     }
@@ -90,21 +78,15 @@ public:
     std::size_t count = 0;   // ticks
 
 private:
-    void after (const Plan& plan, std::uint64_t, bool) noexcept override
-    {
-        for (const auto& tap : plan.taps())
-            *row++ = *tap.value;
-    }
-
     template <typename F>
     void withoutGil (F&& f)
     {
         {
             const py::gil_scoped_release without_gil;
             f();
-            reader.release();
+            assets.release();
         }
-        reader.raiseFailure();
+        assets.raiseFailure();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }
 
@@ -131,10 +113,7 @@ private:
         if (! goBack (at, messages)) compile (at, messages);
         if (hasErrors (messages)) return;
         if (first_feed) *feed = *first_feed;
-        double length_s = seconds;
-        if (length_s <= 0.0 && ! feed)
-            for (const auto& [role, d] : run->devices())
-                length_s = std::max (length_s, d.device ? d.device->duration() : 0.0);
+        const double length_s = seconds > 0.0 || feed ? seconds : tactus_run_duration (run.get());
         const double ticks = std::ceil (length_s * rate_hz - 1e-6);
         count = ticks >= 1.0 && ticks <= most_ticks ? static_cast<std::size_t> (ticks) : 0;
         if (feed) count = length_s <= 0.0 ? feed->ticks() : std::min (count, feed->ticks());
@@ -144,30 +123,18 @@ private:
 
     void compile (const CompileOptions& at, Messages& messages)
     {
-        const auto open = [] (const std::string& role, const graph::Graph& g, const Plan&, Messages& found) {
-            auto made = makeDevice (describedByGraph (g.device (role), role, found), g.folder);
-            for (auto& m : made.messages)
-                m.where = "/devices/" + role + m.where;
-            std::ranges::move (made.messages, std::back_inserter (found));
-            return Run::RoleDevice { std::move (made.device), made.limits };
-        };
         state.clear();
-        run.emplace (catalogue(), at, open, Run::Queries::within_tick);
-        messages = run->load (graph);
-        if (! hasErrors (messages)) run->openDevices (graph, messages);
-        if (hasErrors (messages)) return run.reset();
-        columns.clear();
-        units.clear();
-        for (const auto& tap : run->engine().newest().taps())
-        {
-            columns.push_back (tap.name);
-            units.push_back (tap.unit);
-        }
-        rate_hz = run->rate();
-        if (first_feed) run->add (feed.emplace (*first_feed));
-        run->add (*this);
+        tactus_messages found;
+        run.reset (capi::makeRun (graph, at, assets.reader(), catalogue(), &found));
+        if (run) tactus_run_open (run.get(), &found);
+        messages = std::move (found.list);
+        if (! run || ! run->is_open) return run.reset();
+        columns = run->names;
+        units = run->units;
+        rate_hz = run->run->rate();
+        if (first_feed) run->run->add (feed.emplace (*first_feed));
         if (! goes_back) return;
-        if (auto saved = run->save (graph)) state = std::move (*saved);
+        if (auto saved = run->run->save (graph)) state = std::move (*saved);
         goes_back = ! state.empty();
     }
 
@@ -181,12 +148,12 @@ private:
     /// Goes back to before the first tick, with the values of another point. False if the graph must be compiled for it.
     bool goBack (const CompileOptions& at, Messages& messages)
     {
-        if (! run || state.empty() || ! run->restore (state, graph)) return false;
+        if (! run || state.empty() || ! run->run->restore (state, graph)) return false;
         try
         {
-            auto found = plan::examine (graph, catalogue(), setupAt (rate_hz), at.overrides, at.assets).flattened;
+            auto found = plan::examine (graph, catalogue(), setupAt (rate_hz), at.overrides, &run->assets).flattened;
             const auto& flat = found.flat;
-            const auto& before = run->engine().newest().flat();
+            const auto& before = run->run->engine().newest().flat();
             if (flat.values.size() != before.values.size() || flat.nodes.size() != before.nodes.size()) return false;
             messages = std::move (found.flat.messages);
             if (hasErrors (messages)) return true;
@@ -208,7 +175,7 @@ private:
     bool set (const plan::Flat& flat, std::size_t i)
     {
         const auto& now = flat.nodes[i];
-        const auto& plan = run->engine().newest();
+        const auto& plan = run->run->engine().newest();
         const auto& instance = plan.instances()[i];
         const auto& type = *now.type;
         if (type.bind || type.serialize == nullptr || ! instance.knobs) return false;
@@ -242,13 +209,11 @@ private:
     CompileOptions options {};   // with the values that all points share
     Values names;
     double seconds;
-    PythonAssets reader;
-    capi::CallerAssets assets;
+    PythonAssets assets;
     bool goes_back = true;   // worth a try
     std::optional<Feed> first_feed {}, feed {};
-    std::vector<std::byte> state {};   // before the first tick; empty: none could be saved
-    double* row = nullptr;             // of the records, for the next tick
-    std::optional<Run> run {};         // declared last, so that it is destroyed first
+    std::vector<std::byte> state {};                                                        // before the first tick; empty: none could be saved
+    std::unique_ptr<tactus_run, void (*) (tactus_run*)> run { nullptr, tactus_run_free };   // declared last, because it uses the others
 };
 }   // namespace
 
@@ -261,7 +226,7 @@ void bindPoints (py::module_& module)
     });
     py::class_<Points> (module, "Points")
         .def (py::init<const EditedGraph&, double, std::vector<std::string>, const std::map<std::string, std::string>&, Points::Values,
-                       const Points::FeedTable&, py::object, double>())
+                       const std::optional<PythonRun::FeedTable>&, py::object, double>())
         .def ("render", &Points::render)
         .def_readonly ("columns", &Points::columns)
         .def_readonly ("units", &Points::units)

@@ -19,14 +19,15 @@ constexpr std::size_t ticks_at_a_time = 256;
 
 constexpr double recorded_s = 10.0;   // how much stepFor() keeps for collect(), as much as Engine.start does by itself
 
-Result<Feed> feedOf (const std::pair<std::vector<std::string>, PythonRun::Rows>& from, double rate_hz, double graph_rate_hz)
+}   // namespace
+
+Result<Feed> feedOf (const PythonRun::FeedTable& from, double rate_hz, double graph_rate_hz)
 {
     Table table;
     table.columns = from.first;
     table.values.assign (from.second.data(), from.second.data() + from.second.size());
     return Feed::make (std::move (table), "feed", rate_hz, graph_rate_hz);
 }
-}   // namespace
 
 /// The turn of one thread to use the run. While it exists, calls from other threads wait, and this thread does not hold the GIL. The GIL is released
 /// before the lock is taken, so that a thread which holds the lock can always get the GIL.
@@ -73,7 +74,7 @@ void PythonRun::call (const char* what, F&& f)
                           "an engine ticks either in your loop or live; a live run starts once, and is over when it is stopped"));
 }
 
-PythonRun::PythonRun (const EditedGraph& graph, Options given, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table,
+PythonRun::PythonRun (const EditedGraph& graph, Options given, const py::list& own_nodes, const std::optional<FeedTable>& table,
                       py::object own_assets)
     : own (own_nodes), assets (std::move (own_assets))
 {

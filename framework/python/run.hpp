@@ -36,9 +36,10 @@ public:
         std::map<std::string, std::string> sets {};   ///< values as JSON, by parameter
     };
 
+    using FeedTable = std::pair<std::vector<std::string>, Rows>;   ///< names of columns, and their rows
+
     /// A table of feeds makes the run as long as the table; its columns replace Options::feeds.
-    PythonRun (const EditedGraph&, Options, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table,
-               py::object assets);
+    PythonRun (const EditedGraph&, Options, const py::list& own_nodes, const std::optional<FeedTable>& table, py::object assets);
     ~PythonRun();
     PythonRun (const PythonRun&) = delete;
     PythonRun& operator= (const PythonRun&) = delete;
@@ -102,6 +103,11 @@ private:
     std::set<std::string, std::less<>> told;   // roles whose stop was told   [with the GIL]
 };
 
+Result<Feed> feedOf (const PythonRun::FeedTable&, double rate_hz, double graph_rate_hz);
+
 void bindRun (py::module_&);
+
+/// Renders of one graph with many sets of values: a call of Python for many of them, and none in a tick. The bits are those of PythonRun.
+void bindPoints (py::module_&);
 
 }   // namespace tactus::python

@@ -377,9 +377,9 @@ class Report(Quiet):
 
     def test_a_map_shows_each_cell_at_its_place(self):
         results = wall().run(self.folder / "out")
-        axis = _study_report._Axis.of(results, "wall.stiffness")
+        axis = _study_report._Axis.of(results, "wall.stiffness", [results["wall.stiffness"]])
         self.assertEqual(list(axis.middles), sorted(set(results["wall.stiffness"])))
-        self.assertEqual(list(axis.middles[axis.cell]), list(results["wall.stiffness"]))
+        self.assertEqual(list(axis.middles[axis.cells(results["wall.stiffness"])]), list(results["wall.stiffness"]))
         self.assertTrue(np.allclose(axis.at(np.array([1000.0, 1400.0, 5000.0])), [0.5, 1.0, 5.5]))
         colours = _study_report._colour(np.array([0.0, 1.0, np.nan]))
         self.assertEqual([tuple(c) for c in colours], [(68, 1, 84), (253, 231, 37), _study_report.GREY])
@@ -416,7 +416,7 @@ class Killed(Quiet):
         """The points with results; each has one."""
         if not (self.folder / "out/parts").exists():
             return set()
-        keys = _results.Held(self.prepared, self.folder / "out", False, set()).keys[:-1].tolist()
+        keys = _results.Held(self.prepared, self.folder / "out", False, set()).index["key"][:-2].tolist()
         self.assertEqual(len(set(keys)), len(keys), "a point was rendered twice")
         return set(keys)
 

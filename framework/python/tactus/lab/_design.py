@@ -90,9 +90,9 @@ def text_of(value: Any) -> str:
 class Design:
     """Points by their number. They are made when they are asked for, so a large grid or sequence takes no memory."""
 
-    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], levels: Sequence[Sequence[str]]):
-        """levels: of each factor, the values that it may have; none for a range."""
-        self.names, self.count, self.at, self.repeats = list(names), count, at, all(levels)   # repeats: some points may be equal
+    def __init__(self, names: Sequence[str], count: int, at: Callable[[int], Point], levels: Sequence[Sequence[str]], repeats: bool):
+        """levels: of each factor, the values that it may have; none for a range. repeats: some points may be equal."""
+        self.names, self.count, self.at, self.repeats = list(names), count, at, repeats
         self._levels = {name: {text: json.loads(text) for text in texts} for name, texts in zip(names, levels)}
 
     def values(self, name: str) -> List[Any]:
@@ -123,20 +123,21 @@ def make(kind: Kind, factors: Sequence[Factor], folder: str) -> Design:
             fail("study/value", f"/factors/{i}", f"'{name}' varies twice", "name each factor once")
     if isinstance(kind, FromTable):
         cells = _table(kind, names, folder)
-        return Design(names, len(cells[0]), lambda index: tuple([column[index] for column in cells]), cells)
+        return Design(names, len(cells[0]), lambda index: tuple([column[index] for column in cells]), cells, True)
     levels = [[text_of(value) for value in _levels(factor, f"/factors/{i}", folder)] for i, factor in enumerate(factors)]
     if isinstance(kind, Grid):
         steps = [each or [_between(factor, k / (factor.count - 1)) for k in range(factor.count)] for each, factor in zip(levels, factors)]
         sizes = [len(each) for each in steps]
         parts = [(each, math.prod(sizes[k + 1:]), len(each)) for k, each in enumerate(steps)]
-        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), levels)
+        return Design(names, math.prod(sizes), lambda index: tuple([each[index // step % size] for each, step, size in parts]), levels,
+                      any(len(set(each)) < len(each) for each in steps))
     columns = _latin(kind, len(factors)) if isinstance(kind, Latin) else _sobol(len(factors))
 
     def at(index: int) -> Point:
         return tuple([each[min(int(u * len(each)), len(each) - 1)] if each else _between(factor, u)
                       for each, factor, u in zip(levels, factors, columns(index))])
 
-    return Design(names, kind.points, at, levels)
+    return Design(names, kind.points, at, levels, all(levels))
 
 
 def _levels(factor: Factor, where: str, folder: str) -> List[Any]:

@@ -54,7 +54,7 @@ class Progress:
     def chunk(self, left: int, workers: int) -> int:
         """How many of the points that are left the next chunk gets."""
         size = min(int(SECONDS * self.fresh / max(self.seconds, 1e-9)), 8 * self.fresh)   # a few cheap points do not tell what all others cost
-        return max(1, min(size, left // (2 * workers) + 1 if workers > 1 else left))   # all workers end at about the same time
+        return max(1, min(size, BLOCK, left // (2 * workers) + 1 if workers > 1 else left))   # all workers end at about the same time
 
 
 def drive(prepared: "Prepared", out: Path, make: Optional[Callable[[], Any]] = None, workers: int = 1, shard: Tuple[int, int] = (0, 1),
@@ -98,8 +98,8 @@ def missing(prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set
     for first in range(0, len(wanted), BLOCK):
         numbers = wanted[first:first + BLOCK]
         keys = prepared.keys([design.at(i) for i in numbers])
-        known, places = held.find(keys)
-        bad += int((known & places["bad"]).sum())
+        known, rows = held.find(keys)
+        bad += int(held.rows(rows[known])["bad"].sum())
         for number, key in ((numbers[k], keys[k]) for k in np.flatnonzero(~known)):
             if key not in seen:
                 todo.append(number)

@@ -39,7 +39,7 @@ from ._results import Chunk, Stamp, row_type
 if TYPE_CHECKING:
     from ._study import Prepared
 
-ROOM = 2**18   # numbers of records that are held at the same time, if more than one point has them
+ROOM = 2**16   # numbers of records that are held at the same time, if more than one point has them
 Kind = Literal["peak", "max", "min", "mean", "rms", "last", "work", "given", "reach", "misfit", "band", "stable", "function"]
 NEEDS: Dict[str, List[str]] = {**dict.fromkeys(("work", "given"), ["port", "position"]), "misfit": ["port", "column"], "stable": [], "function": ["function"]}
 
@@ -279,7 +279,8 @@ class Worker:
             except Error as why:
                 for i in members:
                     self._fail(made, i, why.id, why.where, why.text)
-        rows["numbers"][list(map(bool, made.error))] = np.nan
+        rows["bad"] = list(map(bool, made.error))
+        rows["numbers"][rows["bad"]] = np.nan
         rows["ticks"] = list(map(len, made.traces)) or 0
         return made
 

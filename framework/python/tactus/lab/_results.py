@@ -29,12 +29,12 @@ from ._journal import Journal
 if TYPE_CHECKING:
     from ._study import Prepared
 
-BLOCK = 4096   # points of a large study that are in memory at a time
+BLOCK = 4096   # points that are in memory at a time
 Path = Union[str, "os.PathLike[str]"]
 Stamp = Tuple[str, str]   # the version of Tactus, and the mark of the computer
-PLACE = np.dtype([("chunk", "<i4"), ("row", "<i4"), ("bad", "?")])
+ENTRY = np.dtype([("key", "S16"), ("row", ">u4")])   # its bytes are in the order of addresses and rows
 _load: Any = np.load   # numpy has no types for these
-_header: Any = np.lib.format.write_array_header_1_0
+_format: Any = np.lib.format
 
 
 def disk(folder: pathlib.Path, why: OSError, kept: str) -> NoReturn:
@@ -43,8 +43,8 @@ def disk(folder: pathlib.Path, why: OSError, kept: str) -> NoReturn:
 
 
 def row_type(columns: int) -> Any:
-    """The type of the rows of a chunk. ticks: of the traces of the point."""
-    return np.dtype([("key", "S16"), ("seconds", "<f8"), ("ticks", "<i8"), ("numbers", "<f8", (columns,))])
+    """The type of the rows of a chunk. ticks: of the traces of the point. bad: it has an error."""
+    return np.dtype([("key", "S16"), ("seconds", "<f8"), ("ticks", "<i8"), ("bad", "?"), ("numbers", "<f8", (columns,))])
 
 
 @dataclass
@@ -110,12 +110,12 @@ def accept(folder: pathlib.Path, stamps: Set[Stamp], mixed: bool) -> None:
 
 
 class Held:
-    """The results in a folder. Of each result, its address and its place are in memory (25 bytes), sorted by address; its values are read when they are
-    asked for."""
+    """The results in a folder. Their rows, and where the row of each address is, are in two files that vanish. They are mapped, some points at a time, so a
+    process of any number of points has the same memory."""
 
     def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set[Stamp]):
         """stamps: of the process that will add to them."""
-        self._columns = len(prepared.study.columns)
+        self._folder, self._measures, self._type = folder, prepared.study.columns, row_type(len(prepared.study.columns))
         self.kept: List[str] = []   # the columns of traces
         if not (folder / "parts").is_dir():
             fail("study/no_results", str(folder), "the folder has no results", "run the study first, or name its --out")
@@ -124,65 +124,87 @@ class Held:
             fail("study/other", str(folder), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
                  "choose another folder with --out")
         parts = sorted(((header["tactus"], header["computer"]), path) for header, path in headers)   # the results of equal computers follow each other
-        self.stamps = {stamp for stamp, _ in parts}
-        accept(folder, self.stamps | stamps, mixed)
-        self._chunks: List[Tuple[Stamp, pathlib.Path, int]] = []
-        keys, places = [np.array([b"\xff" * 16])], [np.zeros(1, PLACE)]   # a last address, so that each search finds one
-        for stamp, path, at, data in ((stamp, path, at, data) for stamp, path in parts for at, data in lines(path) if at > 0):
-            chunk = Chunk.of_json(data, stamp, self._columns)
-            place = np.zeros(len(chunk.rows), PLACE)
-            place["chunk"], place["row"] = len(self._chunks), np.arange(len(place))
-            place["bad"] = list(map(bool, chunk.error))
-            self._chunks.append((stamp, path, at))
-            keys.append(chunk.rows["key"])
-            places.append(place)
-            self.kept = self.kept or chunk.kept
-        all_keys = np.concatenate(keys)
-        order = np.argsort(all_keys, kind="stable")
-        self.keys, self.places = all_keys[order], np.concatenate(places)[order]
-        self.chunk = functools.lru_cache(4)(self._read)   # points that follow each other are often in one chunk
-
-    def _read(self, number: int) -> Chunk:
-        stamp, path, at = self._chunks[number]
-        with open(path, "rb") as file:
-            file.seek(at)
-            return Chunk.of_json(json.loads(file.readline()), stamp, self._columns)
+        accept(folder, {stamp for stamp, _ in parts} | stamps, mixed)
+        self._chunks: List[Tuple[Stamp, pathlib.Path, int, str]] = []   # of whom, in which file, where, by which worker
+        self._ends = [0]   # where the rows of each chunk end
+        self.chunk = functools.lru_cache(4)(self._chunk)   # points that follow each other are often in one chunk
+        try:
+            self._rows, self._index = (tempfile.TemporaryFile(dir=folder) for _ in range(2))
+            for stamp, path, at, data in ((stamp, path, at, data) for stamp, path in parts for at, data in lines(path) if at > 0):
+                chunk = Chunk.of_json(data, stamp, len(self._measures))
+                entries = np.zeros(len(chunk.rows), ENTRY)
+                entries["key"], entries["row"] = chunk.rows["key"], np.arange(self.count, self.count + len(entries))
+                self._rows.write(chunk.rows.tobytes())
+                self._index.write(entries.tobytes())
+                self._chunks.append((stamp, path, at, chunk.worker))
+                self._ends.append(self.count + len(entries))
+                self.kept = self.kept or chunk.kept
+            self._rows.write(bytes(self._type.itemsize))
+            self._index.write(b"\xff" * 2 * ENTRY.itemsize)   # each search finds an address, and one after it
+            self._rows.flush()
+            self._index.flush()
+            np.memmap(self._index, f"S{ENTRY.itemsize}", "r+").sort()
+        except OSError as why:
+            disk(folder, why, "none is lost")
 
     @property
     def count(self) -> int:
         """The number of results."""
-        return len(self.keys) - 1
+        return self._ends[-1]
+
+    @property
+    def index(self) -> Any:
+        """The address and the row of each result, sorted, and two more."""
+        return np.memmap(self._index, ENTRY, "r")
+
+    def _chunk(self, number: int) -> Chunk:
+        stamp, path, at, _ = self._chunks[number]
+        with open(path, "rb") as file:
+            file.seek(at)
+            return Chunk.of_json(json.loads(file.readline()), stamp, len(self._measures))
+
+    def _result(self, row: int) -> Tuple[Chunk, int]:
+        number = int(np.searchsorted(self._ends, row, "right")) - 1
+        return self.chunk(number), row - self._ends[number]
 
     def find(self, keys: Any) -> Tuple[Any, Any]:
-        """By key: whether there is a result, and its place; of several, the first one."""
-        at = np.searchsorted(self.keys, keys)
-        return self.keys[at] == keys, self.places[at]
+        """By key: whether there is a result, and its row; of several, the first one, if those of equal computers are equal."""
+        index = self.index
+        at = np.searchsorted(index["key"], keys)
+        known = index["key"][at] == keys
+        for k in at[known & (index["key"][at + 1] == keys)].tolist():
+            seen: Dict[Stamp, Any] = {}
+            for entry in itertools.takewhile(lambda entry: entry["key"] == index["key"][k], index[k:]):
+                chunk, row = self._result(int(entry["row"]))
+                if seen.setdefault(chunk.stamp, chunk.result(row)) != chunk.result(row):
+                    fail("study/differs", str(self._folder), f"a point was rendered twice, and its results differ (key {entry['key'].hex()})",
+                         "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
+        return known, np.where(known, index["row"][at], self.count).astype(int)
 
-    def check_equal(self, folder: pathlib.Path) -> None:
-        """Refuses two results of one point, on equal computers, that differ."""
-        for k in np.flatnonzero(self.keys[1:] == self.keys[:-1]).tolist():
-            (a, row_a), (b, row_b) = ((self.chunk(int(place["chunk"])), int(place["row"])) for place in self.places[k:k + 2])
-            if a.stamp == b.stamp and a.result(row_a) != b.result(row_b):
-                fail("study/differs", str(folder), f"a point was rendered twice, and its results differ (key {self.keys[k].hex()})",
-                     "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
+    def rows(self, numbers: Any) -> Any:
+        """Some rows."""
+        return np.asarray(np.memmap(self._rows, self._type, "r")[numbers])
 
-    def rows(self, keys: Any) -> Tuple[Any, Dict[str, Any], Any]:
-        """The results of some points: rows, columns of texts by name, and traces, tick by tick."""
-        (known, places), rows = self.find(keys), np.zeros(len(keys), row_type(self._columns))
-        rows["numbers"], rows["seconds"] = np.nan, np.nan
-        texts = {name: np.full(len(keys), "", object) for name in ("error", "error_place", "origin", "worker", "part")}
+    def columns(self, keys: Any) -> Dict[str, Any]:
+        """The results of some points by column."""
+        known, numbers = self.find(keys)
+        rows, chunks = self.rows(numbers), np.searchsorted(self._ends, numbers, "right") - 1
+        rows["numbers"][~known], rows["seconds"][~known] = np.nan, np.nan
+        texts = {name: np.full(len(keys), "", object) for name in ("worker", "part", "error", "error_place", "origin")}
         texts["error"][~known] = "study/missing: the point has no result yet"
+        for number in np.unique(chunks[known]).tolist():
+            stamp, path, _, worker = self._chunks[number]
+            for name, text in (("worker", worker), ("part", path.name), ("origin", " on ".join(stamp))):
+                texts[name][chunks == number] = text
         traces = [np.zeros((0, len(self.kept)))] * len(keys)
-        for number in np.unique(places["chunk"][known]).tolist():
-            chunk, mine = self.chunk(number), np.flatnonzero((places["chunk"] == number) & known)
-            row = places["row"][mine]
-            rows[mine] = chunk.rows[row]
-            for name, text in (("origin", " on ".join(chunk.stamp)), ("worker", chunk.worker), ("part", self._chunks[number][1].name),
-                               ("error", np.array(chunk.error, object)[row]), ("error_place", np.array(chunk.error_place, object)[row])):
-                texts[name][mine] = text
-            for i, k in zip(mine, row) if chunk.traces else ():
-                traces[i] = chunk.traces[k]
-        return rows, texts, np.concatenate(traces)
+        for k in np.flatnonzero(known if self.kept else known & rows["bad"]).tolist():
+            chunk, row = self._result(int(numbers[k]))
+            texts["error"][k], texts["error_place"][k] = chunk.error[row], chunk.error_place[row]
+            traces[k] = chunk.traces[row] if chunk.traces else traces[k]
+        joined = np.concatenate(traces)
+        return {"seconds": rows["seconds"], "worker": texts.pop("worker"), "part": texts.pop("part"),
+                **{name: rows["numbers"][:, i] for i, name in enumerate(self._measures)}, **texts, **({"ticks": rows["ticks"]} if self.kept else {}),
+                **{f"trace:{name}": joined[:, i] for i, name in enumerate(self.kept)}}
 
 
 # ---------------------------------------------------------------------------- The table
@@ -215,7 +237,7 @@ class Writer:
             for name, (like, file) in self._columns.items():
                 with made.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as member:
                     shape = (file.tell() // max(1, like.dtype.itemsize * int(np.prod(like.shape[1:]))), *like.shape[1:])
-                    _header(member, {"descr": like.dtype.str, "fortran_order": False, "shape": shape})
+                    _format.write_array_header_1_0(member, {"descr": like.dtype.str, "fortran_order": False, "shape": shape})
                     file.seek(0)
                     shutil.copyfileobj(file, member)
 
@@ -237,19 +259,15 @@ def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = 
     """Makes results.npz, sorted by point, and times.npz. partial: also if points are missing; they have the error study/missing."""
     folder, study, count, missing = pathlib.Path(out), prepared.study, prepared.design.count, 0
     held = Held(prepared, folder, mixed, set())
-    held.check_equal(folder)
-    results, times = Writer(folder), Writer(folder)
     try:
+        results, times = Writer(folder), Writer(folder)
         for first in range(0, count, BLOCK):
             points = [prepared.design.at(i) for i in range(first, min(first + BLOCK, count))]
             keys = prepared.keys(points)
-            rows, texts, traces = held.rows(keys)
-            missing += int((texts["origin"] == "").sum())
-            times.add({"seconds": rows["seconds"], "worker": texts["worker"], "part": texts["part"]})
-            results.add({"key": keys.view("|u1").reshape(-1, 16), **prepared.design.columns(points),
-                         **{name: rows["numbers"][:, i] for i, name in enumerate(study.columns)},
-                         **{name: texts[name] for name in ("error", "error_place", "origin")}, **({"ticks": rows["ticks"]} if held.kept else {}),
-                         **{f"trace:{name}": traces[:, i] for i, name in enumerate(held.kept)}})
+            found = held.columns(keys)
+            missing += int((found["origin"] == "").sum())
+            times.add({name: found.pop(name) for name in ("seconds", "worker", "part")})
+            results.add({"key": keys.view("|u1").reshape(-1, 16), **prepared.design.columns(points), **found})
         if missing and not partial:
             fail("study/missing", str(folder), f"{missing} of {count} points have no results yet",
                  "go on with --resume, or merge what is there with --partial")
@@ -261,31 +279,54 @@ def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = 
     return Results(folder)
 
 
-class Results(Dict[str, Any]):
-    """The merged results of a study: columns by name, one row for each point. Texts are an array of str. Records, "trace:PORT", are a list of arrays, which
-    are read when they are asked for, as is "key". about: the header of the file."""
+class Results(Mapping[str, Any]):
+    """The merged results of a study: columns by name, one row for each point, read when they are asked for. Texts are an array of str. "key" and records,
+    "trace:PORT", which are a list of arrays, are not in the list of names. about: the header of the file."""
 
     def __init__(self, path: Path):
         """path: the folder of a study, or the file."""
-        super().__init__()
         given = pathlib.Path(path)
         self.path = given / "results.npz" if given.is_dir() else given
-        try:
+        with self._readable():
             self._file = _load(self.path)
             self.about: Dict[str, Any] = json.loads(self._file["about.json"])
-            texts = self.about["texts"]
-            for name in self._file.files[1:]:   # the first one is the header
-                if name != "key" and not name.startswith("trace:"):
-                    self[name] = np.array(texts[name], object)[self._file[name]] if name in texts else self._file[name]
-        except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as why:
+            self._texts = {name: np.array(texts, object) for name, texts in self.about["texts"].items()}
+        self._names = [name for name in self._file.files[1:] if name != "key" and not name.startswith("trace:")]   # the first one is the header
+        self._read: Dict[str, Any] = {}
+
+    @contextlib.contextmanager
+    def _readable(self) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, ValueError, AttributeError, LookupError, EOFError, zipfile.BadZipFile) as why:
             fail("study/unreadable", str(self.path), f"the results cannot be read: {why}", "merge the study again")
 
-    def __missing__(self, name: str) -> Any:
-        values = self._file[name]
-        self[name] = np.split(values, np.cumsum(self["ticks"])[:-1]) if name.startswith("trace:") else values
-        return self[name]
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._file:
+            raise KeyError(name)
+        if name not in self._read:
+            with self._readable():
+                values = self._file[name]
+                self._read[name] = (np.split(values, np.cumsum(self["ticks"])[:-1]) if name.startswith("trace:") else
+                                    self._texts[name][values] if name in self._texts else values)
+        return self._read[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
 
     @property
     def rows(self) -> int:
         """The number of points."""
         return int(self.about["rows"])
+
+    def blocks(self, *names: str) -> Iterator[Tuple[int, Tuple[Any, ...]]]:
+        """Some columns, so many rows at a time that they need little memory: the number of the first row, and the values."""
+        with self._readable(), contextlib.ExitStack() as used:
+            files = [used.enter_context(self._file.zip.open(f"{name}.npy")) for name in names]
+            kinds = [_format.read_magic(file) and _format.read_array_header_1_0(file)[2] for file in files]
+            for first in range(0, self.rows, BLOCK):
+                found = [np.frombuffer(file.read(BLOCK * kind.itemsize), kind) for file, kind in zip(files, kinds)]
+                yield first, tuple(self._texts[name][values] if name in self._texts else values for name, values in zip(names, found))

@@ -10,14 +10,14 @@ import string
 import struct
 import zlib
 from html import escape
-from typing import Any, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
 from .._checks import Array
 from .._messages import Error
 from .._reports import limits
-from ._results import Results, replace
+from ._results import BLOCK, Results, replace
 from ._study import Map, Prepared
 
 MOST_CELLS, BINS, LINES, WORST, PROBLEMS = 400, 24, 300, 10, 20
@@ -63,30 +63,49 @@ class _Axis(NamedTuple):
     title: str
     middles: Array   # of texts, their numbers
     texts: List[str]
-    cell: Any   # of each point
+    edges: Array   # where each cell begins
+    ends: Array   # the lowest and the highest value
 
     @staticmethod
-    def of(results: Results, name: str, rows: Any = slice(None)) -> "_Axis":
-        values, unit = results[name][rows], results.about["units"].get(name)
-        edges = different = np.unique(values)
-        many = len(different)
-        if values.dtype != object and many > BINS and (many > MOST_CELLS or many**1.5 > len(values) + 8):
-            edges = np.linspace(different[0], different[-1], BINS + 1)[:-1]
-            different = edges + (edges[1] - edges[0]) / 2
-        cell = (np.searchsorted(edges, values, "right") - 1).astype(np.int32)
-        return _Axis(f"{name} ({unit})" if unit else name, np.arange(many) if values.dtype == object else different, [_short(v) for v in different], cell)
+    def of(results: Results, name: str, values: Iterable[Array]) -> "_Axis":
+        """values: of the column, some rows at a time."""
+        edges, count, many, unit = np.zeros(0), 0, False, results.about["units"].get(name)
+        for some in values:
+            edges, count = np.unique(np.concatenate([edges.astype(some.dtype), some])), count + len(some)
+            if edges.dtype != object and len(edges) > MOST_CELLS:
+                edges, many = edges[[0, -1]], True
+        middles, ends = edges, edges[[0, -1]] if len(edges) else edges
+        if edges.dtype != object and (many or len(edges) > BINS and len(edges)**1.5 > count + 8):
+            edges = np.linspace(*ends, BINS + 1)[:-1]
+            middles = edges + (edges[1] - edges[0]) / 2
+        return _Axis(f"{name} ({unit})" if unit else name, np.arange(len(edges)) if edges.dtype == object else middles, list(map(_short, middles)), edges, ends)
+
+    def cells(self, values: Array) -> Array:
+        """The cells of values."""
+        return np.searchsorted(self.edges, values, "right") - 1
 
     def at(self, values: Array) -> Array:
         """The places of values, in cells from the low end."""
         return np.interp(values, self.middles, np.arange(len(self.texts)) + 0.5, left=np.nan, right=np.nan)
 
 
+def _picked(results: Results, rows: Any, names: Sequence[str]) -> Dict[str, Array]:
+    """Some columns of some points."""
+    order = np.argsort(rows)
+    parts = [[values[rows[order][(rows[order] >= first) & (rows[order] < first + BLOCK)] - first] for values in block]
+             for first, block in results.blocks(*names)]
+    return {name: np.concatenate(values)[np.argsort(order)] for name, values in zip(names, zip(*parts))}
+
+
 def _heat_map(each: Map, results: Results, limits: Sequence[Tuple[str, Array, Array]], note: str) -> str:
-    x, y, values = _Axis.of(results, each.x), _Axis.of(results, each.y), results[each.of]
-    good, shape = np.isfinite(values), (len(y.texts), len(x.texts))
-    cell = (y.cell * shape[1] + x.cell)[good]
-    count, total = np.bincount(cell, minlength=shape[0] * shape[1]), np.bincount(cell, values[good], shape[0] * shape[1])
-    means = (total / np.where(count > 0, count, np.nan)).reshape(shape)
+    x, y = (_Axis.of(results, name, (values for _, (values,) in results.blocks(name))) for name in (each.x, each.y))
+    shape = len(y.texts), len(x.texts)
+    count, total = np.zeros(shape), np.zeros(shape)
+    for _, (at_x, at_y, values) in results.blocks(each.x, each.y, each.of):
+        cells, good = y.cells(at_y) * shape[1] + x.cells(at_x), np.isfinite(values)
+        for sums, weights in ((count, good), (total, np.where(good, values, 0.0))):
+            sums += np.bincount(cells, weights, sums.size).reshape(shape)
+    means = total / np.where(count > 0, count, np.nan)
     low, high = (float(np.nanmin(means)), float(np.nanmax(means))) if count.any() else (0.0, 0.0)
     w, h, left, top = 460.0, 340.0, 80.0, 10.0
     parts = [_image(left, top, w, h, _colour((means - low) / (high - low) if high > low else means * 0.0 + 0.5)[::-1]),
@@ -103,7 +122,7 @@ def _heat_map(each: Map, results: Results, limits: Sequence[Tuple[str, Array, Ar
         parts.append(_text(left + (k + 0.5) / shape[1] * w, top + h + 16, x.texts[k], "middle"))
     for k in np.unique(np.linspace(0, shape[0] - 1, min(6, shape[0])).astype(int)):
         parts.append(_text(left - 6, top + h - (k + 0.5) / shape[0] * h + 4, y.texts[k], "end"))
-    said = f"The mean of up to {count.max()} points in a cell. " if count.max() > 1 else ""
+    said = f"The mean of up to {count.max():.0f} points in a cell. " if count.max() > 1 else ""
     unit = results.about["units"].get(each.of)
     return (f'<h2>{escape(each.of)}{f" ({escape(unit)})" if unit else ""}</h2><svg viewBox="0 0 740 {top + h + 44}" width="740" role="img" aria-label="'
             f'{escape(each.of)} over {escape(each.x)} and {escape(each.y)}, from {_short(low)} to {_short(high)}">{"".join(parts)}</svg>'
@@ -114,10 +133,10 @@ def limits_of(prepared: Prepared, results: Results, each: Map) -> Tuple[List[Tup
     """The limits that `tactus limits` computes over two parameters: name, x, y; and a sentence about them."""
     if any(":" in name or "." not in name and name != "rate" for name in (each.x, each.y)):
         return [], "The limits are not drawn: they are known over parameters and the rate only."
-    good = results["error"] == ""
-    if any(results[name].dtype == object or np.ptp(results[name][good]) == 0.0 for name in (each.x, each.y)):
+    axes = {name: _Axis.of(results, name, (values[errors == ""] for _, (values, errors) in results.blocks(name, "error"))) for name in (each.x, each.y)}
+    if any(axis.edges.dtype == object or len(axis.texts) < 2 for axis in axes.values()):
         return [], "The limits are not drawn: they need two different numbers along each axis."
-    x, y = (f"{name}={results[name][good].min():.12g}:{results[name][good].max():.12g}" for name in (each.x, each.y))
+    x, y = (f"{name}={axis.ends[0]:.12g}:{axis.ends[1]:.12g}" for name, axis in axes.items())
     try:
         rate = prepared.study.rate if prepared.study.rate and "rate" not in (each.x, each.y) else None
         known = limits(prepared.graph, set=prepared.study.set, rate=rate, x=x, y=y, steps=20)
@@ -139,32 +158,34 @@ def limits_of(prepared: Prepared, results: Results, each: Map) -> Tuple[List[Tup
 
 def _parallel(results: Results, column: str, names: List[str]) -> str:
     """Parallel coordinates of some points, coloured by a column."""
-    rows = np.unique(np.linspace(0, results.rows - 1, min(LINES, results.rows)).astype(int))
-    rows = rows[np.isfinite(results[column][rows])]
-    if len(rows) < 2 or len(names) < 2:
+    picked = _picked(results, np.unique(np.linspace(0, results.rows - 1, min(LINES, results.rows)).astype(int)), list(dict.fromkeys([*names, column])))
+    good = np.isfinite(picked[column])
+    if good.sum() < 2 or len(names) < 2:
         return ""
     w, h, left, top = 900.0, 260.0, 60.0, 24.0
     places, parts = [], []
     for k, name in enumerate(names):
-        axis, x = _Axis.of(results, name, rows), left + k * w / (len(names) - 1)
-        numbers = axis.cell.astype(float) if results[name].dtype == object else results[name][rows]
+        values = picked[name][good]
+        axis, x = _Axis.of(results, name, [values]), left + k * w / (len(names) - 1)
+        numbers = axis.cells(values).astype(float) if values.dtype == object else values
         low, high = np.nanmin(numbers, initial=np.inf), np.nanmax(numbers, initial=-np.inf)
         places.append([f"{x:.1f},{y:.1f}" for y in np.where(np.isfinite(numbers), top + h - (numbers - low) / (high - low or 1.0) * h, top + h + 14)])
-        ends = (axis.texts[0], axis.texts[-1]) if results[name].dtype == object else (_short(low), _short(high))
+        ends = (axis.texts[0], axis.texts[-1]) if values.dtype == object else (_short(low), _short(high))
         parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top}" y2="{top + h}" stroke="#888"/>{_text(x, top - 8, axis.title, "middle")}'
                      f'{_text(x + 4, top + 10, ends[1])}{_text(x + 4, top + h, ends[0])}')
-    values = results[column][rows]
+    values = picked[column][good]
     lines = [f'<polyline fill="none" stroke="rgb({r},{g},{b})" stroke-opacity="0.6" points="{" ".join(line)}"/>'
              for (r, g, b), line in zip(_colour((values - values.min()) / (np.ptp(values) or 1.0)), zip(*places))]
-    said = f"{len(rows)} of {results.rows} points, coloured by {column}. A line that leaves an axis below it has no number there."
+    said = f"{len(values)} of {results.rows} points, coloured by {column}. A line that leaves an axis below it has no number there."
     return (f'<h2>All factors</h2><svg viewBox="0 0 1020 {top + h + 24}" width="1020" role="img" aria-label="Parallel coordinates">'
             f"{''.join(lines + parts)}</svg><p>{escape(said)}</p>")
 
 
-def _table(title: str, prepared: Prepared, results: Results, rows: Any, words: Sequence[str]) -> str:
+def _table(title: str, prepared: Prepared, results: Results, rows: List[int], words: Sequence[str]) -> str:
     """Some points, with the command that renders each of them."""
-    names = [*prepared.names, *prepared.study.columns, *(["error", "error_place"] if (results["error"][rows] != "").any() else [])]
-    lines = [[str(i), *(_short(results[name][i]) for name in names), shlex.join([*words, "--point", str(i)])] for i in rows]
+    picked = _picked(results, np.array(rows, int), [*prepared.names, *prepared.study.columns, "error", "error_place"])
+    names = [name for name in picked if not name.startswith("error") or (picked["error"] != "").any()]
+    lines = [[str(i), *(_short(picked[name][k]) for name in names), shlex.join([*words, "--point", str(i)])] for k, i in enumerate(rows)]
     body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in line[:-1]) + f"<td><code>{escape(line[-1])}</code></td></tr>" for line in lines)
     return f'<h2>{escape(title)}</h2><table><tr>{"".join(f"<th>{escape(name)}</th>" for name in ["point", *names, "render it"])}</tr>{body}</table>'
 
@@ -172,17 +193,18 @@ def _table(title: str, prepared: Prepared, results: Results, rows: Any, words: S
 def page(prepared: Prepared, results: Results, words: Sequence[str]) -> str:
     """The page. words: the command that renders the study."""
     study, names = prepared.study, prepared.names
-    bad = np.flatnonzero(results["error"] != "")
     maps = study.maps or [Map(column, names[0], names[1]) for column in study.columns if len(names) > 1 and not column.endswith("_margin")]
     body = [_heat_map(each, results, *(limits_of(prepared, results, each) if each.limits else ((), ""))) for each in maps]
     if study.columns:
-        least, column = study.worst.startswith("-"), study.worst.lstrip("-") or study.columns[-1]
+        sign, column, worst = 1.0 if study.worst.startswith("-") else -1.0, study.worst.lstrip("-") or study.columns[-1], list[Tuple[float, int]]()
         body.append(_parallel(results, column, [*names, *study.columns][:10]))
-        values = np.where(np.isfinite(results[column]), results[column] if least else -results[column], np.inf)
-        worst = np.argsort(values, kind="stable")[:min(WORST, np.isfinite(values).sum())]
-        body += [_table(f"The points with the {'smallest' if least else 'largest'} {column}", prepared, results, worst, words),
+        for first, (values,) in results.blocks(column):
+            some = [(sign * values[k], first + k) for k in np.argsort(sign * values, kind="stable")[:WORST].tolist() if np.isfinite(values[k])]
+            worst = sorted([*worst, *some])[:WORST]
+        body += [_table(f"The points with the {'smallest' if sign > 0 else 'largest'} {column}", prepared, results, [row for _, row in worst], words),
                  "<p>The command writes the records of the point and its graph, and prints how to open that in the window.</p>"]
-    if len(bad):
+    bad = [first + k for first, (errors,) in results.blocks("error") for k in np.flatnonzero(errors != "").tolist()]
+    if bad:
         body.append(_table(f"{len(bad)} points with errors", prepared, results, bad[:PROBLEMS], words))
     origins: List[str] = sorted(filter(None, results.about["texts"]["origin"]))
     mixed = f" The results come from {len(origins)} kinds of computers or versions; the column origin tells them apart." if len(origins) > 1 else ""
