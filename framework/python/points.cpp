@@ -134,7 +134,9 @@ private:
         rate_hz = run->run->rate();
         if (first_feed) run->run->add (feed.emplace (*first_feed));
         if (! goes_back) return;
-        if (auto saved = run->run->save (graph)) state = std::move (*saved);
+        StateArchive saving { state };
+        run->run->serialize (saving);
+        if (saving.isRefused()) state.clear();
         goes_back = ! state.empty();
     }
 
@@ -148,7 +150,10 @@ private:
     /// Goes back to before the first tick, with the values of another point. False if the graph must be compiled for it.
     bool goBack (const CompileOptions& at, Messages& messages)
     {
-        if (! run || state.empty() || ! run->run->restore (state, graph)) return false;
+        if (! run || state.empty() || run->run->engine().isEmergency()) return false;
+        StateArchive restoring { std::span<const std::byte> (state) };
+        run->run->serialize (restoring);
+        if (restoring.isRefused() || ! restoring.isAtEnd()) return false;
         try
         {
             auto found = plan::examine (graph, catalogue(), setupAt (rate_hz), at.overrides, &run->assets).flattened;

@@ -225,6 +225,9 @@ public:
     /// one of another version), state/damaged, state/graph (of another graph), state/stopped, state/log (a log could not replay it). [tick thread]
     Result<> restore (std::span<const std::byte>, const graph::Graph&, const MoreState& = {});
 
+    /// The state alone, in both directions: for a run that goes back to a state of its own. What save() refuses must not be the case. [tick thread]
+    void serialize (StateArchive&, const MoreState& = {});
+
     //==========================================================================
     // Observing.
 
@@ -267,7 +270,6 @@ private:
     GuardLimits asksFor (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const RoleDevice&, Messages&) const;
     const RoleDevice* deviceOf (const std::string& role) const;
     std::optional<Message> cannotSave() const;
-    void serialize (StateArchive&, const MoreState&);
     const std::string& hashOf (const graph::Graph&);
     void logNext (const std::shared_ptr<Plan>&, const graph::Graph&, const std::vector<std::pair<std::string, RoleDevice>>& joining);
 

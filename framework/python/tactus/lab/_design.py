@@ -221,8 +221,3 @@ def _cell(text: str) -> str:
     with contextlib.suppress(ValueError):
         return text_of(json.loads(text, parse_constant=str))
     return text_of(text)
-
-
-def values_of(names: Sequence[str], point: Point) -> Dict[str, Any]:
-    """The values of a point by factor."""
-    return {name: json.loads(text) for name, text in zip(names, point)}

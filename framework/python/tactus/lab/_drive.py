@@ -62,23 +62,39 @@ def drive(prepared: "Prepared", out: Path, make: Optional[Callable[[], Any]] = N
     """Renders the points that have no result yet.
 
     make: gives an executor; it is called again if that one breaks. None: this process. shard: (i, n): only each n-th point, from the i-th on."""
-    folder, wanted, tries = pathlib.Path(out), range(shard[0], prepared.design.count, shard[1]), 0
-    try:
-        (folder / "parts").mkdir(parents=True, exist_ok=True)
-        file = open(folder / "lock", "ab")
-    except OSError as why:
-        disk(folder, why, "the study has not begun")
-    with file, contextlib.closing(_Driver(prepared, folder, mixed, workers)) as driver:
+    folder, wanted, tries, told = pathlib.Path(out), range(shard[0], prepared.design.count, shard[1]), 0, set[str]()
+    parts: Dict[Stamp, Journal] = {}
+
+    def keep(made: Chunk) -> None:
+        try:
+            if made.stamp not in parts:
+                accept(folder, {stamp(), made.stamp}, mixed)
+                parts[made.stamp] = used.enter_context(contextlib.closing(part(folder, prepared.context, made.stamp)))
+            parts[made.stamp].add(made.to_json())
+        except OSError as why:
+            disk(folder, why, f"{progress.fresh} points of this process are on the disk")
+        for kind in [kind for kind in made.warnings if kind not in told][:20 - len(told)]:
+            told.add(kind)
+            print(f"warning: {made.warnings[kind]}", file=sys.stderr)
+        progress.add(len(made.rows), len(made.errors), float(made.rows["seconds"].sum()))
+
+    with contextlib.ExitStack() as used:
+        try:
+            (folder / "parts").mkdir(parents=True, exist_ok=True)
+            file = used.enter_context(open(folder / "lock", "ab"))
+        except OSError as why:
+            disk(folder, why, "the study has not begun")
         if not lock(file, is_shared=shard != (0, 1)):   # two processes do not render the same points; shards are different points
             fail("study/busy", str(folder), "another process is working on this study", "wait until it ends, or end it")
         todo, bad, count = missing(prepared, folder, mixed, {stamp()}, wanted)
         if count and not resume and shard == (0, 1):
             fail("study/exists", str(folder), f"the folder has the results of {count} points", "go on with --resume, or choose another folder with --out")
-        progress = driver.progress = Progress(len(wanted), len(wanted) - len(todo), bad, report)
+        progress = Progress(len(wanted), len(wanted) - len(todo), bad, report)
         while len(todo):
             done = progress.done
             try:
-                driver.run(todo, make() if make else None)
+                for made in _rendered(prepared, _chunks(prepared, todo, progress, workers), make() if make else None, workers):
+                    keep(made)
                 break
             except BrokenExecutor as why:
                 tries = 1 if progress.done > done else tries + 1
@@ -108,76 +124,42 @@ def missing(prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set
     return todo, bad, held.count
 
 
-class _Driver:
-    def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, workers: int):
-        self.prepared, self.folder, self.mixed, self.workers = prepared, folder, mixed, workers
-        self.progress = Progress(0, 0, 0, None)
-        self.parts: Dict[Stamp, Journal] = {}
-        self.told: Set[str] = set()
-
-    def close(self) -> None:
-        for each in self.parts.values():
-            each.close()
-
-    def run(self, todo: Sequence[int], executor: Any) -> None:
-        """Renders points on an executor until none is left, or until it breaks. None: in this process."""
-        chunks = self._chunks(todo)
-        flying: Dict["Future[Optional[Chunk]]", List[Point]] = {}
-        if executor is None:
-            worker = Worker(self.prepared, is_far=False)
-            for points in chunks:
-                self._keep(worker.render(points))
-            return
-        context, pickled = self.prepared.context, pickle.dumps(self.prepared, 4)
-        try:
-            while True:
-                while len(flying) < 2 * self.workers and (points := next(chunks, [])):
-                    flying[executor.submit(work, context, None, points)] = points
-                if not flying:
-                    return
-                for future in self._done(executor, flying):
-                    points, made = flying.pop(future), _result(future)
-                    if made is None:   # this worker has not got the study yet
-                        flying[executor.submit(work, context, pickled, points)] = points
-                    else:
-                        self._keep(made)
-        finally:
-            for future in flying:
-                future.cancel()
-
-    def _chunks(self, todo: Sequence[int]) -> Iterator[List[Point]]:
-        at = 0
-        while at < len(todo):
-            size = self.progress.chunk(len(todo) - at, self.workers)
-            yield [self.prepared.design.at(i) for i in todo[at:at + size]]
-            at += size
-
-    def _done(self, executor: Any, flying: Dict["Future[Optional[Chunk]]", List[Point]]) -> "Set[Future[Optional[Chunk]]]":
-        """The chunks that have come back, at least one. A pool of processes that breaks while it is given a chunk forgets that chunk (before Python 3.12),
-        but it refuses the next one."""
-        while not (done := concurrent.futures.wait(flying, PATIENCE, concurrent.futures.FIRST_COMPLETED).done):
-            executor.submit(int)
-        return done
-
-    def _keep(self, made: Chunk) -> None:
-        try:
-            if made.stamp not in self.parts:
-                accept(self.folder, {stamp(), made.stamp}, self.mixed)
-                self.parts[made.stamp] = part(self.folder, self.prepared.context, made.stamp)
-            self.parts[made.stamp].add(made.to_json())
-        except OSError as why:
-            disk(self.folder, why, f"{self.progress.fresh} points of this process are on the disk")
-        for kind, text in made.warnings.items():
-            if kind not in self.told and len(self.told) < 20:
-                self.told.add(kind)
-                print(f"warning: {text}", file=sys.stderr)
-        self.progress.add(len(made.rows), sum(map(bool, made.error)), float(made.rows["seconds"].sum()))
+def _chunks(prepared: "Prepared", todo: Sequence[int], progress: Progress, workers: int) -> Iterator[List[Point]]:
+    at = 0
+    while at < len(todo):
+        size = progress.chunk(len(todo) - at, workers)
+        yield [prepared.design.at(i) for i in todo[at:at + size]]
+        at += size
 
 
-def _result(future: "Future[Optional[Chunk]]") -> Optional[Chunk]:
+def _rendered(prepared: "Prepared", chunks: Iterator[List[Point]], executor: Any, workers: int) -> Iterator[Chunk]:
+    """The results of chunks of points, as they come, until an executor breaks. None: in this process."""
+    if executor is None:
+        yield from map(Worker(prepared, is_far=False).render, chunks)
+        return
+    context, pickled = prepared.context, pickle.dumps(prepared, 4)
+    flying: Dict["Future[Optional[Chunk]]", List[Point]] = {}
     try:
-        return future.result()
-    except (Error, MemoryError):
-        raise
-    except Exception as why:   # it was killed or cancelled; each executor has its own exceptions for that
-        raise BrokenExecutor(f"{type(why).__name__}: {why}") from why
+        while True:
+            while len(flying) < 2 * workers and (points := next(chunks, [])):
+                flying[executor.submit(work, context, None, points)] = points
+            if not flying:
+                return
+            # A pool of processes that breaks while it is given a chunk forgets that chunk (before Python 3.12), but it refuses the next one.
+            while not (done := concurrent.futures.wait(flying, PATIENCE, concurrent.futures.FIRST_COMPLETED).done):
+                executor.submit(int)
+            for future in done:
+                points = flying.pop(future)
+                try:
+                    made = future.result()
+                except (Error, MemoryError):
+                    raise
+                except Exception as why:   # it was killed or cancelled; each executor has its own exceptions for that
+                    raise BrokenExecutor(f"{type(why).__name__}: {why}") from why
+                if made is None:   # this worker has not got the study yet
+                    flying[executor.submit(work, context, pickled, points)] = points
+                else:
+                    yield made
+    finally:
+        for future in flying:
+            future.cancel()

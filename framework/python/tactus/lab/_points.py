@@ -32,7 +32,7 @@ from .._graph import Graph, _restored
 from .._messages import Error, TactusWarning, fail
 from .._records import Layout, Records, table_of
 from .._reports import check
-from ._design import Point, text_of, values_of
+from ._design import Point, text_of
 from ._procedures import note
 from ._results import Chunk, Stamp, row_type
 
@@ -77,12 +77,10 @@ class Measure:
 
 def checked(measures: List[Measure]) -> None:
     """Refuses measures that lack something."""
-    seen: List[str] = []
+    names = [name for measure in measures for name in measure.columns]
     for i, measure in enumerate(measures):
-        for name in measure.columns:
-            if not name or name in seen:
-                fail("study/value", f"/measures/{i}", f"the column '{name}' is there twice" if name else "a measure has no name", "give each measure a name")
-            seen.append(name)
+        if any(not name or names.count(name) > 1 for name in measure.columns):
+            fail("study/value", f"/measures/{i}", f"the column '{measure.name}' has no name, or is there twice", "give each measure a name of its own")
         for key in NEEDS.get(measure.kind, ["port"]):
             if not getattr(measure, key):
                 fail("study/missing", f"/measures/{i}/{key}", f"the measure '{measure.name}' ({measure.kind}) needs `{key}`", "add it")
@@ -107,10 +105,8 @@ class Block(NamedTuple):
 
     def component(self, port: str) -> Array:
         """The only component of a port."""
-        found = self.components(port)
-        if len(found) > 1:
-            fail("study/measure", port, f"'{port}' is a vector", f"name a component, such as {port}.z")
-        return found[0]
+        first, *others = self.components(port)
+        return fail("study/measure", port, f"'{port}' is a vector", f"name a component, such as {port}.z") if others else first
 
 
 # The bits of a number must not depend on how many points are in its block. So sums are made tick by tick, and numpy may choose the order of no other sum.
@@ -180,16 +176,6 @@ def stable(graph: Graph, values: Dict[str, Any], rate: float, duration: float) -
     ranks = [RANKS.get(c.verdict, np.nan) for c in judged] or [np.nan]
     margins = [np.nan if c.margin is None else c.margin for c in judged] or [np.nan]
     return 0.0 if 0.0 in ranks else float(np.min(ranks)), float(np.fmin.reduce(margins))   # what swings is certain, whatever else is unknown
-
-
-def returned(measure: Measure, records: Records, point: Dict[str, Any], functions: Mapping[str, Any]) -> List[float]:
-    """The numbers that a function of the user returns."""
-    given = functions[measure.function](records, point)
-    numbers = [float(each) for each in given] if measure.outputs else [float(given)]
-    if len(numbers) != len(measure.columns):
-        fail("study/function", measure.function, f"the function has returned {len(numbers)} numbers, and {len(measure.columns)} have names",
-             "return as many numbers as `outputs` names")
-    return numbers
 
 
 # ---------------------------------------------------------------------------- Renders
@@ -264,7 +250,7 @@ class Worker:
         """The results of some points, in their order."""
         rows = np.zeros(len(points), row_type(len(self.study.columns)))
         rows["key"], rows["numbers"] = self.prepared.keys(points), np.nan
-        made = Chunk(rows, stamp(), f"{socket.gethostname()} {os.getpid()}", [""] * len(points), [""] * len(points))
+        made = Chunk(rows, stamp(), f"{socket.gethostname()} {os.getpid()}")
         made.traces = [np.zeros(0)] * len(points) if self.study.keep else []
         groups: Dict[Tuple[str, ...], List[int]] = {}
         for i, point in enumerate(points):
@@ -279,7 +265,7 @@ class Worker:
             except Error as why:
                 for i in members:
                     self._fail(made, i, why.id, why.where, why.text)
-        rows["bad"] = list(map(bool, made.error))
+        rows["bad"][list(map(int, made.errors))] = True
         rows["numbers"][rows["bad"]] = np.nan
         rows["ticks"] = list(map(len, made.traces)) or 0
         return made
@@ -287,7 +273,7 @@ class Worker:
     def _fail(self, made: Chunk, i: int, name: str, where: str, text: str) -> None:
         for folder in sorted(filter(None, self.hidden), key=len, reverse=True):   # so that the text is the same on each worker
             text, where = text.replace(folder + os.sep, ""), where.replace(folder + os.sep, "")
-        made.error[i], made.error_place[i] = (made.error[i], made.error_place[i]) if made.error[i] else (f"{name}: {text}", where)
+        made.errors.setdefault(str(i), [f"{name}: {text}", where])
 
     def _made(self, slow: Tuple[str, ...]) -> _Group:
         graph, rate, devices = _restored(*self._parts), self.study.rate, dict(self.prepared.devices)
@@ -347,13 +333,10 @@ class Worker:
                 fail("study/recording", name, f"the recording has no column '{column}'", f"its columns: {', '.join(columns)}")
         return {column: rows[:, i] for i, column in enumerate(columns)}
 
-    def _values(self, point: Point) -> List[str]:
-        return [point[k] for k in self.prepared.fast]
-
     def one(self, point: Point) -> Tuple[Graph, Records]:
         """One point to look at: the graph with its settings and devices, and the records of its ports and sinks."""
         group = self._group(tuple([point[k] for k in self.prepared.slow]))
-        rows, errors, _ = group.run.render([self._values(point)])
+        rows, errors, _ = group.run.render([[point[k] for k in self.prepared.fast]])
         for _, name, where, text in errors:
             fail(name, where, text, "this point of the study has an error; correct the study, or leave it as it is")
         return group.graph, self._records(group, rows[0])
@@ -363,14 +346,14 @@ class Worker:
 
     def _some(self, group: _Group, points: Sequence[Point], members: List[int], made: Chunk) -> None:
         """Renders points of one group."""
-        begin, at, keep = time.perf_counter(), 0, self.study.keep
-        rows, errors, told = group.run.render([self._values(points[i]) for i in members])
+        begin, at, keep, fast = time.perf_counter(), 0, self.study.keep, self.prepared.fast
+        rows, errors, told = group.run.render([[points[i][k] for k in fast] for i in members])
         made.warnings.update(told)
         for k, name, where, text in errors:
             if name == "api/no_memory":   # another try may not have it
                 raise MemoryError(text)
             self._fail(made, members[k], name, where, text)
-        good = [(k, i) for k, i in enumerate(members) if not made.error[i]]
+        good = [(k, i) for k, i in enumerate(members) if str(i) not in made.errors] if made.errors else list(enumerate(members))
         block = Block(rows, group.run.columns, group.run.rate, group.recording)
         numbers = np.full((len(members), len(self.study.columns)), np.nan)
         for m in self.study.measures if good else ():
@@ -391,9 +374,13 @@ class Worker:
         """The numbers of a measure that is not computed for many points at once."""
         try:
             if m.kind == "function":
-                return returned(m, self._records(group, rows), values_of(self.prepared.names, point), self.prepared.functions)
-            values = values_of([self.prepared.names[k] for k in self.prepared.fast], tuple(self._values(point)))
-            return stable(group.graph, {**self.study.set, **values}, group.run.rate, self.study.duration)
+                given = self.prepared.functions[m.function](self._records(group, rows), self.prepared.values(point))
+                numbers = [float(each) for each in given] if m.outputs else [float(given)]
+                if len(numbers) != len(m.columns):
+                    fail("study/function", m.function, f"the function has returned {len(numbers)} numbers, and {len(m.columns)} have names",
+                         "return as many numbers as `outputs` names")
+                return numbers
+            return stable(group.graph, {**self.study.set, **self.prepared.values(point, self.prepared.fast)}, group.run.rate, self.study.duration)
         except Error as why:
             self._fail(made, i, why.id, why.where, why.text)
         except (MemoryError, KeyboardInterrupt):

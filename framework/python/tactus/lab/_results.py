@@ -54,40 +54,36 @@ class Chunk:
     rows: Any   # one of row_type() for each point
     stamp: Stamp
     worker: str   # host and process
-    error: List[str]   # by row: id and text; or nothing
-    error_place: List[str]
+    errors: Dict[str, List[str]] = field(default_factory=dict)   # by row: id and text, and the place
     kept: List[str] = field(default_factory=list)   # the columns of traces
     traces: List[Any] = field(default_factory=list)   # by row: shape (ticks, columns); or none at all
     warnings: Dict[str, str] = field(default_factory=dict)   # one of each kind and place
 
     def to_json(self) -> Any:
         """What is written of it."""
-        packed = {name: base64.b64encode(b"".join(each.tobytes() for each in arrays)).decode() for name, arrays in
-                  (("rows", [self.rows]), ("traces", self.traces))}
-        data = {**packed, "worker": self.worker, "error": self.error, "error_place": self.error_place, "kept": self.kept}
-        return {**data, "check": check(data)}
+        rows, traces = (base64.b64encode(b"".join(each.tobytes() for each in arrays)).decode() for arrays in ([self.rows], self.traces))
+        return checked({"rows": rows, "traces": traces, "worker": self.worker, "errors": self.errors, "kept": self.kept})
 
     @staticmethod
     def of_json(data: Any, stamp: Stamp, columns: int) -> "Chunk":
         """A chunk that was written."""
         rows, kept = np.frombuffer(base64.b64decode(data["rows"]), row_type(columns)), data["kept"]
         traces = np.split(np.frombuffer(base64.b64decode(data["traces"])).reshape(-1, len(kept)), np.cumsum(rows["ticks"])[:-1]) if kept else []
-        return Chunk(rows, stamp, data["worker"], data["error"], data["error_place"], kept, traces)
+        return Chunk(rows, stamp, data["worker"], data["errors"], kept, traces)
 
     def result(self, row: int) -> Tuple[Any, ...]:
         """The values that must be the same in two results of one point."""
-        return self.rows["numbers"][row].tobytes(), self.error[row], self.traces[row].tobytes() if self.traces else b""
+        return self.rows["numbers"][row].tobytes(), self.errors.get(str(row)), self.traces[row].tobytes() if self.traces else b""
+
+
+def checked(data: Any) -> Dict[str, Any]:
+    """A line of a part, with a checksum."""
+    return {"data": data, "check": zlib.crc32(json.dumps(data).encode())}
 
 
 def part(folder: pathlib.Path, context: bytes, stamp: Stamp) -> Journal:
     """A part that this process adds to."""
-    header = {"study": context.hex(), "tactus": stamp[0], "computer": stamp[1]}
-    return Journal(folder / "parts" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex}.part", {**header, "check": check(header)})
-
-
-def check(data: Mapping[str, Any]) -> int:
-    """The CRC-32 of what a line holds."""
-    return zlib.crc32(json.dumps([each for each in sorted(data.items()) if each[0] not in ("check", "format", "version")]).encode())
+    return Journal(folder / "parts" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex}.part", checked([context.hex(), *stamp]))
 
 
 def lines(path: pathlib.Path) -> Iterator[Tuple[int, Any]]:
@@ -95,10 +91,10 @@ def lines(path: pathlib.Path) -> Iterator[Tuple[int, Any]]:
     at = 0
     with open(path, "rb") as file:
         for line in file:
-            with contextlib.suppress(ValueError):
-                data = json.loads(line)
-                if data.get("check") == check(data):
-                    yield at, data
+            with contextlib.suppress(ValueError, LookupError):
+                found = json.loads(line)
+                if checked(found["data"]).items() <= found.items():
+                    yield at, found["data"]
             at += len(line)
 
 
@@ -110,8 +106,8 @@ def accept(folder: pathlib.Path, stamps: Set[Stamp], mixed: bool) -> None:
 
 
 class Held:
-    """The results in a folder. Their rows, and where the row of each address is, are in two files that vanish. They are mapped, some points at a time, so a
-    process of any number of points has the same memory."""
+    """The results in a folder. Their rows, and where the row of each address is, are in two files that vanish, so any number of points needs the same
+    memory."""
 
     def __init__(self, prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set[Stamp]):
         """stamps: of the process that will add to them."""
@@ -119,24 +115,23 @@ class Held:
         self.kept: List[str] = []   # the columns of traces
         if not (folder / "parts").is_dir():
             fail("study/no_results", str(folder), "the folder has no results", "run the study first, or name its --out")
-        headers = [(first[1], path) for path in sorted((folder / "parts").glob("*.part")) for first in [next(lines(path), None)] if first and first[0] == 0]
-        if any(header["study"] != prepared.context.hex() for header, _ in headers):
+        headers = sorted((first[1], path) for path in (folder / "parts").glob("*.part") for first in [next(lines(path), (-1, []))] if first[0] == 0)
+        if any(study != prepared.context.hex() for (study, *_), _ in headers):
             fail("study/other", str(folder), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
                  "choose another folder with --out")
-        parts = sorted(((header["tactus"], header["computer"]), path) for header, path in headers)   # the results of equal computers follow each other
+        parts = [((version, computer), path) for (_, version, computer), path in headers]   # the results of equal computers follow each other
         accept(folder, {stamp for stamp, _ in parts} | stamps, mixed)
         self._chunks: List[Tuple[Stamp, pathlib.Path, int, str]] = []   # of whom, in which file, where, by which worker
         self._ends = [0]   # where the rows of each chunk end
         self.chunk = functools.lru_cache(4)(self._chunk)   # points that follow each other are often in one chunk
         try:
             self._rows, self._index = (tempfile.TemporaryFile(dir=folder) for _ in range(2))
-            for stamp, path, at, data in ((stamp, path, at, data) for stamp, path in parts for at, data in lines(path) if at > 0):
-                chunk = Chunk.of_json(data, stamp, len(self._measures))
+            for chunk, path, at in ((Chunk.of_json(data, stamp, len(self._measures)), path, at) for stamp, path in parts for at, data in lines(path) if at > 0):
                 entries = np.zeros(len(chunk.rows), ENTRY)
                 entries["key"], entries["row"] = chunk.rows["key"], np.arange(self.count, self.count + len(entries))
                 self._rows.write(chunk.rows.tobytes())
                 self._index.write(entries.tobytes())
-                self._chunks.append((stamp, path, at, chunk.worker))
+                self._chunks.append((chunk.stamp, path, at, chunk.worker))
                 self._ends.append(self.count + len(entries))
                 self.kept = self.kept or chunk.kept
             self._rows.write(bytes(self._type.itemsize))
@@ -152,16 +147,11 @@ class Held:
         """The number of results."""
         return self._ends[-1]
 
-    @property
-    def index(self) -> Any:
-        """The address and the row of each result, sorted, and two more."""
-        return np.memmap(self._index, ENTRY, "r")
-
     def _chunk(self, number: int) -> Chunk:
         stamp, path, at, _ = self._chunks[number]
         with open(path, "rb") as file:
             file.seek(at)
-            return Chunk.of_json(json.loads(file.readline()), stamp, len(self._measures))
+            return Chunk.of_json(json.loads(file.readline())["data"], stamp, len(self._measures))
 
     def _result(self, row: int) -> Tuple[Chunk, int]:
         number = int(np.searchsorted(self._ends, row, "right")) - 1
@@ -169,7 +159,7 @@ class Held:
 
     def find(self, keys: Any) -> Tuple[Any, Any]:
         """By key: whether there is a result, and its row; of several, the first one, if those of equal computers are equal."""
-        index = self.index
+        index = np.memmap(self._index, ENTRY, "r")
         at = np.searchsorted(index["key"], keys)
         known = index["key"][at] == keys
         for k in at[known & (index["key"][at + 1] == keys)].tolist():
@@ -181,7 +171,7 @@ class Held:
                          "a function of the study may depend on more than its arguments; correct it, and begin in another folder")
         return known, np.where(known, index["row"][at], self.count).astype(int)
 
-    def rows(self, numbers: Any) -> Any:
+    def rows(self, numbers: Any = slice(-1)) -> Any:
         """Some rows."""
         return np.asarray(np.memmap(self._rows, self._type, "r")[numbers])
 
@@ -199,7 +189,7 @@ class Held:
         traces = [np.zeros((0, len(self.kept)))] * len(keys)
         for k in np.flatnonzero(known if self.kept else known & rows["bad"]).tolist():
             chunk, row = self._result(int(numbers[k]))
-            texts["error"][k], texts["error_place"][k] = chunk.error[row], chunk.error_place[row]
+            texts["error"][k], texts["error_place"][k] = chunk.errors.get(str(row), ["", ""])
             traces[k] = chunk.traces[row] if chunk.traces else traces[k]
         joined = np.concatenate(traces)
         return {"seconds": rows["seconds"], "worker": texts.pop("worker"), "part": texts.pop("part"),

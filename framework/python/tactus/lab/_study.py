@@ -195,7 +195,11 @@ class Prepared:
                  [{k: v for k, v in _schema.write(m).items() if k != "unit"} for m in s.measures], code, hashlib.sha256(held).hexdigest()]
         return hashlib.blake2b(_design.text_of(parts).encode(), digest_size=16).digest()
 
-    def key(self, point: Tuple[str, ...]) -> bytes:
+    def values(self, point: _design.Point, factors: Optional[Sequence[int]] = None) -> Dict[str, Any]:
+        """The values of a point, of all factors or some."""
+        return {self.names[k]: json.loads(point[k]) for k in (range(len(point)) if factors is None else factors)}
+
+    def key(self, point: _design.Point) -> bytes:
         """The address of the result of a point, 16 bytes."""
         if self.recordings:
             point = *point, self.recordings[json.loads(point[self.names.index("recording")])]

@@ -22,7 +22,6 @@ from typing import Any, Callable, Iterator, List, Optional, Tuple
 from .._graph import Graph
 from .._messages import fail
 from . import _study_report
-from ._design import values_of
 from ._drive import drive, missing
 from ._protocol import set_param
 from ._results import Held, merge
@@ -66,7 +65,10 @@ def run(given: argparse.Namespace) -> int:
     prepared = Study.load(given.file).prepare(functions)
     out = pathlib.Path(given.out or prepared.study.name)
     if given.status:
-        return _status(prepared, out, given.mixed)
+        count = prepared.design.count
+        todo, bad, held = missing(prepared, out, given.mixed, set(), range(count))
+        print(f"{out}: {count - len(todo)} of {count} points, {bad} with errors; the folder has {held} results")
+        return 0
     if given.point >= 0:
         return _point(prepared, out, given.point)
     if given.executor == "slurm" and not given.merge and not given.shard:
@@ -88,24 +90,16 @@ def run(given: argparse.Namespace) -> int:
     return 0
 
 
-def _status(prepared: Prepared, out: pathlib.Path, mixed: bool) -> int:
-    count = prepared.design.count
-    todo, bad, held = missing(prepared, out, mixed, set(), range(count))
-    print(f"{out}: {count - len(todo)} of {count} points, {bad} with errors; the folder has {held} results")
-    return 0
-
-
 def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
     """Writes the records of one point, and its graph for the window."""
     if number >= prepared.design.count:
         raise ValueError(f"--point: there is no point {number}; they are 0 to {prepared.design.count - 1}")
-    point = prepared.design.at(number)
-    worker = Worker(prepared, is_far=False)
+    point, worker = prepared.design.at(number), Worker(prepared, is_far=False)
     graph, records = worker.one(point)
     out.mkdir(parents=True, exist_ok=True)
     table_of(records).write(out / f"point-{number}.csv")
     data = json.loads(graph.text)
-    values = {**prepared.study.set, **values_of([prepared.names[k] for k in prepared.fast], tuple(point[k] for k in prepared.fast))}
+    values = {**prepared.study.set, **prepared.values(point, prepared.fast)}
     for name in [name for name in values if name in data.get("controls", {})]:
         data["controls"][name]["value"] = values.pop(name)
     data["rate_hz"] = records.rate_hz
@@ -113,7 +107,7 @@ def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
     for name, value in values.items():
         set_param(made, name, value)
     made.save(out / f"point-{number}.json")
-    print(f"{out}/point-{number}.csv: {len(records['t'])} ticks of {json.dumps(values_of(prepared.names, point))}")
+    print(f"{out}/point-{number}.csv: {len(records['t'])} ticks of {json.dumps(prepared.values(point))}")
     print(f"open it in the window: tactus-host {out}/point-{number}.json")
     return 0
 
@@ -132,9 +126,16 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[
         yield None, 1
     elif kind == "local":
         pools: List[ProcessPoolExecutor] = []
+
+        def pool() -> ProcessPoolExecutor:
+            _end_children(0.0)   # a pool that is broken may wait for them
+            pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
+            return pools[-1]
+
         try:
-            yield lambda: _pool(workers, pools), workers
-            pools[-1].shutdown(wait=False, cancel_futures=True) if pools else None
+            yield pool, workers
+            for each in pools:
+                each.shutdown(wait=False, cancel_futures=True)
             _end_children(5.0)   # so that a worker removes its files; a pool that broke at the very end would wait for ever
         finally:
             _end_children(0.0)
@@ -147,12 +148,6 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[
         MPI, futures = (_imported(name, "python3-mpi4py") for name in ("mpi4py.MPI", "mpi4py.futures"))
         with futures.MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
             yield lambda: executor, max(1, MPI.COMM_WORLD.Get_size() - 1) if executor else 0
-
-
-def _pool(workers: int, pools: List[ProcessPoolExecutor]) -> ProcessPoolExecutor:
-    _end_children(0.0)   # a pool that is broken may wait for them
-    pools.append(ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=end_with_parent))
-    return pools[-1]
 
 
 def _end_children(patience: float) -> None:
