@@ -57,7 +57,9 @@ public:
         for (std::size_t k = 0; k < points.size(); ++k)
         {
             Messages messages;
-            const auto at = optionsOf (points[k]);
+            auto at = options;
+            for (std::size_t i = 0; i < points[k].size(); ++i)
+                at.overrides.push_back ({ names[i], jsonOf (points[k][i]) });
             withoutGil ([&] { begin (at, messages); });
             if (tell (messages, k, errors, warnings)) continue;
             const auto width = count * columns.size();
@@ -98,14 +100,6 @@ private:
         for (const auto& m : messages)
             if (const auto kind = py::str (m.id + ' ' + m.where); m.severity != Message::Severity::error && ! warnings.contains (kind)) warnings[kind] = m.text;
         return first != messages.end();
-    }
-
-    CompileOptions optionsOf (const Values& point) const
-    {
-        auto at = options;
-        for (std::size_t i = 0; i < point.size(); ++i)
-            at.overrides.push_back ({ names[i], jsonOf (point[i]) });
-        return at;
     }
 
     void begin (const CompileOptions& at, Messages& messages)

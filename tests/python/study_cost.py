@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a study costs beside a plain loop in C over the same renders. Measures processor times in turn, and judges none.
+"""What a study costs beside a plain loop in C over the same renders, in memory and in processor time, in turn. Judges nothing.
 
     PYTHONPATH=build/release/python python3 tests/python/study_cost.py build/release [POINTS [ROUNDS]]"""
 
@@ -23,15 +23,14 @@ int main (int count, char** words)
 {
     tactus_messages* messages = tactus_messages_create();
     tactus_graph* graph = tactus_graph_load (words[1], messages);
-    const char* ports[] = { "motor.force", "hand.position" };
     char a[64], b[64];
-    const char* sets[] = { a, b };
+    const char *ports[] = { "motor.force", "hand.position" }, *sets[] = { a, b };
     tactus_run_options options = TACTUS_RUN_OPTIONS;
     options.rate_hz = 1000.0;
     options.records = ports;
     options.sets = sets;
     options.record_count = options.set_count = 2;
-    const int n = atoi (words[2]);
+    const int n = atoi (words[2]) * (count == 3);
     double sum = 0.0;
     for (int i = 0; i < n; ++i)
     {
@@ -53,8 +52,7 @@ int main (int count, char** words)
         tactus_run_free (run);
         tactus_messages_clear (messages);
     }
-    printf ("%.17g\n", sum);
-    return count < 0;
+    return ! (sum > 0.0);
 }
 """
 
@@ -69,13 +67,13 @@ def spent(words, **environment):
     return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
-def main(build, count=10000, rounds=5):
+def main(build, count=100000, rounds=5):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         compiled = {"PYTHONPYCACHEPREFIX": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": ""}   # as in an installed package
         numbers = iter(range(10**6))
 
-        def study(points, duration, executor="serial"):
+        def study(points, duration=0.25, executor="serial"):
             file = folder / f"{points}-{duration}.json"
             file.write_text(lab.Study(
                 name="cost", graph=str(GRAPH), duration=duration, rate=1000.0,
@@ -84,26 +82,23 @@ def main(build, count=10000, rounds=5):
             return spent([sys.executable, "-m", "tactus.lab", "study", file, "--out", folder / f"out{next(numbers)}", "--executor", executor, "--workers", 2],
                          **compiled)
 
+        def compare(what, measure):
+            ratios = []
+            for _ in range(rounds):
+                ours, alone = measure()
+                ratios.append(ours / alone)
+                print(f"{what}: {ours:.2f} s, alone {alone:.2f} s, ratio {ratios[-1]:.3f}; load {os.getloadavg()[0]:.1f}", flush=True)
+            print(f"{what}: median ratio {statistics.median(ratios):.3f}")
+
         (folder / "loop.c").write_text(LOOP)
         subprocess.run(["cc", "-O2", "-o", folder / "loop", folder / "loop.c", f"-I{build}/include", f"-L{build}", "-ltactus", "-lm",
                         f"-Wl,-rpath,{pathlib.Path(build).resolve()}"], check=True)
-        start, _ = min(study(200, 0.25) for _ in range(3))
-        ratios = []
-        for _ in range(rounds):
-            loop, _ = spent([folder / "loop", GRAPH, count])
-            whole, memory = study(count, 0.25)
-            ratios.append(whole / loop)
-            print(f"{count} renders: loop in C {loop:.2f} s, study {whole:.2f} s, of which start {start:.2f} s; ratio {ratios[-1]:.3f}; {memory:.0f} MB",
-                  flush=True)
-        few = study(count // 5, 0.25)[1]
-        print(f"median ratio {statistics.median(ratios):.3f}; most memory with {count // 5} points {few:.0f} MB, with {count} {memory:.0f} MB")
-        for executor in ("local", "dask"):
-            ratios = []
-            for _ in range(rounds):
-                few, many, plain_few, plain_many = (study(points, 25.0, by)[0] for by in (executor, "serial") for points in (1000, 5000))
-                ratios.append((many - few) / (plain_many - plain_few))
-                print(f"{executor}: 4000 more renders take {many - few:.2f} s, alone {plain_many - plain_few:.2f} s; ratio {ratios[-1]:.3f}", flush=True)
-            print(f"{executor}: median ratio {statistics.median(ratios):.3f}")
+        study(200)   # compiles Python
+        for points in (1000, 10000, 100000):
+            print(f"{points} points: {study(points)[1]:.1f} MB")
+        compare(f"{count} renders, and a loop in C", lambda: (study(count)[0], spent([folder / "loop", GRAPH, count])[0]))
+        for by in ("local", "dask"):   # 25 s of a wall, 4000 of them more
+            compare(by, lambda: [study(5000, 25.0, each)[0] - study(1000, 25.0, each)[0] for each in (by, "serial")])
 
 
 if __name__ == "__main__":

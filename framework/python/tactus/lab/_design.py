@@ -166,11 +166,8 @@ def _between(factor: Factor, u: float) -> str:
 
 
 def _latin(kind: Latin, width: int) -> Callable[[int], List[float]]:
-    columns = []
-    for k in range(width):
-        draw = Draw("study", kind.seed, k)
-        order = np.array(draw.order(range(kind.points)), float)
-        columns.append((order + np.array([draw.uniform() for _ in range(kind.points)])) / kind.points)
+    draws = [Draw("study", kind.seed, k) for k in range(width)]
+    columns = [(np.array(draw.order(range(kind.points)), float) + [draw.uniform() for _ in range(kind.points)]) / kind.points for draw in draws]
     return lambda index: [float(column[index]) for column in columns]
 
 
@@ -183,21 +180,17 @@ _BITS = 30
 def _sobol(width: int) -> Callable[[int], List[float]]:
     if width > len(_DIRECTIONS) + 1:
         fail("study/value", "/design", f"a Sobol sequence of {width} factors is not known", f"use at most {len(_DIRECTIONS) + 1}, or the design latin")
-    table = [[1 << (_BITS - 1 - k) for k in range(_BITS)]]
+    table = [[1] * _BITS]
     for degree, polynomial, first in _DIRECTIONS[:width - 1]:
         m = list(first)
         for k in range(degree, _BITS):
-            new = m[k - degree] ^ (m[k - degree] << degree)
-            for j in range(1, degree):
-                if polynomial >> (degree - 1 - j) & 1:
-                    new ^= m[k - j] << j
-            m.append(new)
-        table.append([value << (_BITS - 1 - k) for k, value in enumerate(m)])
+            terms = (m[k - j] << j for j in range(1, degree) if polynomial >> (degree - 1 - j) & 1)
+            m.append(functools.reduce(operator.xor, terms, m[k - degree] ^ (m[k - degree] << degree)))
+        table.append(m)
 
     def at(index: int) -> List[float]:
-        gray = index ^ (index >> 1)
-        chosen = [k for k in range(_BITS) if gray >> k & 1]
-        return [functools.reduce(operator.xor, (directions[k] for k in chosen), 0) / 2.0**_BITS for directions in table]
+        chosen = [k for k in range(_BITS) if (index ^ (index >> 1)) >> k & 1]
+        return [functools.reduce(operator.xor, (m[k] << (_BITS - 1 - k) for k in chosen), 0) / 2.0**_BITS for m in table]
 
     return at
 
@@ -208,12 +201,10 @@ def _table(kind: FromTable, names: Sequence[str], folder: str) -> List[List[str]
             rows = list(csv.DictReader(file))
     except (OSError, ValueError, csv.Error) as why:
         fail("study/unreadable", "/design/path", f"the table '{kind.path}' cannot be read: {why}", "give a CSV file, relative to the study")
-    lacks = next((f"column '{name}'" for name in names if name not in rows[0]), "") if rows else "rows"
-    if lacks:
-        fail("study/value", "/design/path", f"the table '{kind.path}' has no {lacks}", "give a header with the names of the factors, and a row for each point")
-    for number, row in enumerate(rows, 2):
-        if None in row or None in row.values():
-            fail("study/value", f"{kind.path}:{number}", "the row has more or fewer values than the header", "correct the row")
+    for number, row in enumerate(rows or [{}], 2):
+        if None in row or None in row.values() or not set(names) <= set(row):
+            fail("study/value", f"{kind.path}:{number}", f"the row has more or fewer values than the header, or none for one of {', '.join(names)}",
+                 "give a header with the names of the factors, and a row for each point")
     return [[_cell(row[name]) for row in rows] for name in names]
 
 

@@ -7,6 +7,7 @@ import array
 import concurrent.futures
 import contextlib
 import datetime
+import itertools
 import pathlib
 import pickle
 import sys
@@ -66,24 +67,20 @@ def drive(prepared: "Prepared", out: Path, make: Optional[Callable[[], Any]] = N
     parts: Dict[Stamp, Journal] = {}
 
     def keep(made: Chunk) -> None:
-        try:
+        with disk(folder, f"{progress.fresh} points of this process are on the disk"):
             if made.stamp not in parts:
                 accept(folder, {stamp(), made.stamp}, mixed)
                 parts[made.stamp] = used.enter_context(contextlib.closing(part(folder, prepared.context, made.stamp)))
             parts[made.stamp].add(made.to_json())
-        except OSError as why:
-            disk(folder, why, f"{progress.fresh} points of this process are on the disk")
         for kind in [kind for kind in made.warnings if kind not in told][:20 - len(told)]:
             told.add(kind)
             print(f"warning: {made.warnings[kind]}", file=sys.stderr)
         progress.add(len(made.rows), len(made.errors), float(made.rows["seconds"].sum()))
 
     with contextlib.ExitStack() as used:
-        try:
+        with disk(folder, "the study has not begun"):
             (folder / "parts").mkdir(parents=True, exist_ok=True)
             file = used.enter_context(open(folder / "lock", "ab"))
-        except OSError as why:
-            disk(folder, why, "the study has not begun")
         if not lock(file, is_shared=shard != (0, 1)):   # two processes do not render the same points; shards are different points
             fail("study/busy", str(folder), "another process is working on this study", "wait until it ends, or end it")
         todo, bad, count = missing(prepared, folder, mixed, {stamp()}, wanted)
@@ -102,7 +99,7 @@ def drive(prepared: "Prepared", out: Path, make: Optional[Callable[[], Any]] = N
                     fail("study/workers", str(folder), f"workers have ended {TRIES} times without a result in between: {why}",
                          "look whether memory is short or a plugin crashes; then go on with --resume")
                 todo, _, _ = missing(prepared, folder, mixed, {stamp()}, wanted)
-        return progress
+    return progress
 
 
 def missing(prepared: "Prepared", folder: pathlib.Path, mixed: bool, stamps: Set[Stamp], wanted: range) -> Tuple[Sequence[int], int, int]:
@@ -141,7 +138,7 @@ def _rendered(prepared: "Prepared", chunks: Iterator[List[Point]], executor: Any
     flying: Dict["Future[Optional[Chunk]]", List[Point]] = {}
     try:
         while True:
-            while len(flying) < 2 * workers and (points := next(chunks, [])):
+            for points in itertools.islice(chunks, 2 * workers - len(flying)):
                 flying[executor.submit(work, context, None, points)] = points
             if not flying:
                 return

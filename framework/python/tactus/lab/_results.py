@@ -19,7 +19,7 @@ import uuid
 import zipfile
 import zlib
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, IO, Any, BinaryIO, Callable, Dict, Iterator, List, Mapping, NoReturn, Set, Tuple, Union
+from typing import TYPE_CHECKING, IO, Any, BinaryIO, Callable, Dict, Iterator, List, Mapping, Set, Tuple, Union
 
 import numpy as np
 
@@ -37,9 +37,13 @@ _load: Any = np.load   # numpy has no types for these
 _format: Any = np.lib.format
 
 
-def disk(folder: pathlib.Path, why: OSError, kept: str) -> NoReturn:
-    """Raises an Error about results that cannot be written."""
-    fail("study/disk", str(folder), f"the results cannot be written: {why.strerror}; {kept}", "make room, and go on with --resume")
+@contextlib.contextmanager
+def disk(folder: pathlib.Path, kept: str) -> Iterator[None]:
+    """What cannot be written is an Error."""
+    try:
+        yield
+    except OSError as why:
+        fail("study/disk", str(folder), f"the results cannot be written: {why.strerror}; {kept}", "make room, and go on with --resume")
 
 
 def row_type(columns: int) -> Any:
@@ -115,7 +119,7 @@ class Held:
         self.kept: List[str] = []   # the columns of traces
         if not (folder / "parts").is_dir():
             fail("study/no_results", str(folder), "the folder has no results", "run the study first, or name its --out")
-        headers = sorted((first[1], path) for path in (folder / "parts").glob("*.part") for first in [next(lines(path), (-1, []))] if first[0] == 0)
+        headers = sorted((data, path) for path in (folder / "parts").glob("*.part") for at, data in itertools.islice(lines(path), 1) if at == 0)
         if any(study != prepared.context.hex() for (study, *_), _ in headers):
             fail("study/other", str(folder), "the folder has results of another study: the graph, its files, the measures or the names of factors differ",
                  "choose another folder with --out")
@@ -124,7 +128,7 @@ class Held:
         self._chunks: List[Tuple[Stamp, pathlib.Path, int, str]] = []   # of whom, in which file, where, by which worker
         self._ends = [0]   # where the rows of each chunk end
         self.chunk = functools.lru_cache(4)(self._chunk)   # points that follow each other are often in one chunk
-        try:
+        with disk(folder, "none is lost"):
             self._rows, self._index = (tempfile.TemporaryFile(dir=folder) for _ in range(2))
             for chunk, path, at in ((Chunk.of_json(data, stamp, len(self._measures)), path, at) for stamp, path in parts for at, data in lines(path) if at > 0):
                 entries = np.zeros(len(chunk.rows), ENTRY)
@@ -139,8 +143,6 @@ class Held:
             self._rows.flush()
             self._index.flush()
             np.memmap(self._index, f"S{ENTRY.itemsize}", "r+").sort()
-        except OSError as why:
-            disk(folder, why, "none is lost")
 
     @property
     def count(self) -> int:
@@ -249,7 +251,7 @@ def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = 
     """Makes results.npz, sorted by point, and times.npz. partial: also if points are missing; they have the error study/missing."""
     folder, study, count, missing = pathlib.Path(out), prepared.study, prepared.design.count, 0
     held = Held(prepared, folder, mixed, set())
-    try:
+    with disk(folder, "none is lost"):
         results, times = Writer(folder), Writer(folder)
         for first in range(0, count, BLOCK):
             points = [prepared.design.at(i) for i in range(first, min(first + BLOCK, count))]
@@ -264,8 +266,6 @@ def merge(prepared: "Prepared", out: Path, mixed: bool = False, partial: bool = 
         times.close("times.npz", {"format": "tactus-study-times", "rows": count, "units": {"seconds": "s"}})
         results.close("results.npz", {"format": "tactus-study-results", "version": 2, "name": study.name, "study": prepared.context.hex(), "rows": count,
                                       "factors": prepared.names, "measures": study.columns, "units": study.units})
-    except OSError as why:
-        disk(folder, why, "none is lost")
     return Results(folder)
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from .. import _tactus
 from .._assets import Assets, reader
 from .._graph import Graph
+from .._library import live
 from .._messages import fail
 from .._presets import graph_file
 from . import _design, _points, _schema
@@ -136,6 +137,8 @@ class Prepared:
             fail("study/value", "/rate", "a misfit compares tick by tick, so the rate is that of the recording", "leave `rate` out")
         if "recording" in names and not study.feed:
             fail("study/missing", "/feed", "recordings drive no port", "add `feed`: {\"drag.position.x\": \"x\"}")
+        if any(measure.kind == "stable" for measure in study.measures):
+            live()   # the library that judges; an error at once, if it is missing
         for measure in study.measures:
             if measure.kind == "function" and not callable(self.functions.get(measure.function)):
                 fail("study/no_function", f"/measures/{measure.name}", f"there is no function '{measure.function}'",

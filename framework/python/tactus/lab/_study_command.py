@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import importlib
 import json
 import multiprocessing
 import multiprocessing.connection
@@ -21,6 +20,7 @@ from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from .._graph import Graph
 from .._messages import fail
+from .._records import imported
 from . import _study_report
 from ._drive import drive, missing
 from ._protocol import set_param
@@ -55,8 +55,9 @@ def run(given: argparse.Namespace) -> int:
     """Runs the command."""
     if given.workers < 1:
         raise ValueError(f"--workers: {given.workers} is not a number of processes; give 1 or more")
-    shard = re.fullmatch(r"(\d{1,9})/(\d{1,9})", given.shard or "0/1")
-    if not shard or not int(shard[1]) < int(shard[2]):
+    found = re.fullmatch(r"(\d{1,9})/(\d{1,9})", given.shard or "0/1")
+    shard = (int(found[1]), int(found[2])) if found else (0, 0)
+    if shard[0] >= shard[1]:
         raise ValueError(f"--shard: '{given.shard}' is not a shard; write I/N, such as 0/8 for the first of eight")
     try:
         functions = Source(pathlib.Path(given.functions).read_text(encoding="utf-8")) if given.functions else None
@@ -77,7 +78,7 @@ def run(given: argparse.Namespace) -> int:
         with _executor("serial" if given.shard else given.executor, given.workers, given.dask) as (make, workers):
             if workers == 0:
                 return 0   # a worker of MPI, whose work is over
-            progress = drive(prepared, out, make, workers, (int(shard[1]), int(shard[2])), given.resume or bool(given.shard), given.mixed, sys.stderr)
+            progress = drive(prepared, out, make, workers, shard, given.resume or bool(given.shard), given.mixed, sys.stderr)
         if given.shard:
             print(f"shard {given.shard}: {progress.line()}")
             return 0
@@ -140,14 +141,14 @@ def _executor(kind: str, workers: int, address: str) -> Iterator[Tuple[Optional[
         finally:
             _end_children(0.0)
     elif kind == "dask":
-        distributed, config = (_imported(name, "python3-distributed") for name in ("distributed", "dask.config"))
+        distributed, config = imported("distributed", "--executor dask"), imported("dask", "--executor dask").config
         made: Any = {"address": address} if address else {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
         with config.set(QUIET), distributed.Client(**made) as client:
             yield client.get_executor, max(1, sum(client.ncores().values()))
     else:
-        MPI, futures = (_imported(name, "python3-mpi4py") for name in ("mpi4py.MPI", "mpi4py.futures"))
-        with futures.MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
-            yield lambda: executor, max(1, MPI.COMM_WORLD.Get_size() - 1) if executor else 0
+        _, mpi, futures = (imported(name, "--executor mpi") for name in ("mpi4py", "mpi4py.MPI", "mpi4py.futures"))
+        with futures.MPICommExecutor(mpi.COMM_WORLD, root=0) as executor:
+            yield lambda: executor, max(1, mpi.COMM_WORLD.Get_size() - 1) if executor else 0
 
 
 def _end_children(patience: float) -> None:
@@ -159,18 +160,10 @@ def _end_children(patience: float) -> None:
 def end_with_parent() -> None:
     """A worker ends when the process that started it ends, also if that is killed."""
     def end() -> None:
-        multiprocessing.connection.wait([parent.sentinel] if parent else [])
+        multiprocessing.connection.wait([process.sentinel for process in [multiprocessing.parent_process()] if process])
         os._exit(1)
 
-    parent = multiprocessing.parent_process()
     threading.Thread(target=end, daemon=True).start()
-
-
-def _imported(module: str, debian: str) -> Any:
-    try:
-        return importlib.import_module(module)
-    except ImportError as why:
-        fail("study/no_package", module, f"the package {module.partition('.')[0]} cannot be imported: {why}", f"install it; on Debian, {debian}")
 
 
 SCRIPT = """#!/bin/sh

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-import base64
 import pathlib
 import shlex
 import string
-import struct
-import zlib
 from html import escape
 from typing import Any, Dict, Iterable, List, NamedTuple, Sequence, Tuple
 
@@ -20,12 +17,12 @@ from .._reports import limits
 from ._results import BLOCK, Results, replace
 from ._study import Map, Prepared
 
-MOST_CELLS, BINS, LINES, WORST, PROBLEMS = 400, 24, 300, 10, 20
+MOST_CELLS, BINS, LINES, WORST, PROBLEMS = 100, 24, 300, 10, 20
 # Seven colours of the map viridis of matplotlib, which stays readable in grey and for the colour-blind.
 COLOURS = np.array([(68, 1, 84), (68, 57, 131), (49, 104, 142), (33, 145, 140), (53, 183, 121), (144, 215, 67), (253, 231, 37)], float)
 GREY = (225, 225, 225)
 PAGE = string.Template("""<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'"><title>$name</title><style>
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'"><title>$name</title><style>
 body {font: 15px sans-serif; margin: 2em auto; max-width: 1060px; color: #222} svg text, code {font-size: 12px}
 table {border-collapse: collapse} td, th {padding: 2px 8px; border-bottom: 1px solid #ddd; text-align: left}
 </style></head><body><h1>$name</h1><p>$about</p><p>$said</p>$body</body></html>
@@ -39,14 +36,12 @@ def _colour(part: Array) -> Array:
     return np.where(np.isnan(part)[..., None], np.array(GREY, float), mixed).round().astype(np.uint8)
 
 
-def _image(x: float, y: float, w: float, h: float, pixels: Array) -> str:
-    """Pixels, shape (rows, columns, 3), as a picture in the page."""
-    rows, columns, _ = pixels.shape
-    data = zlib.compress(b"".join(b"\0" + row.tobytes() for row in pixels), 9)
-    chunks = ((b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)), (b"IDAT", data), (b"IEND", b""))
-    png = b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in chunks)
-    return (f'<image x="{x}" y="{y}" width="{w}" height="{h}" preserveAspectRatio="none" style="image-rendering:pixelated" '
-            f'href="data:image/png;base64,{base64.b64encode(png).decode()}"/>')
+def _image(x: float, y: float, w: float, h: float, colours: Array) -> str:
+    """Rectangles of colours, shape (rows, columns, 3)."""
+    rows, columns, _ = colours.shape
+    return (f'<g transform="translate({x} {y}) scale({w / columns:.6g} {h / rows:.6g})" shape-rendering="crispEdges">'
+            + "".join(f'<rect x="{k % columns}" y="{k // columns}" width="1" height="1" fill="#{bytes(colour).hex()}"/>'
+                      for k, colour in enumerate(colours.reshape(-1, 3))) + "</g>")
 
 
 def _short(value: Any) -> str:
@@ -55,6 +50,11 @@ def _short(value: Any) -> str:
 
 def _text(x: float, y: float, text: str, anchor: str = "start", more: str = "") -> str:
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(text)}</text>'
+
+
+def _some(count: int, most: int) -> Any:
+    """Numbers below `count`, evenly, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(most, count)).astype(int))
 
 
 class _Axis(NamedTuple):
@@ -69,18 +69,19 @@ class _Axis(NamedTuple):
     @staticmethod
     def of(results: Results, name: str, values: Iterable[Array]) -> "_Axis":
         """values: of the column, some rows at a time."""
-        edges, count, many, unit = np.zeros(0), 0, False, results.about["units"].get(name)
+        edges: Any = np.zeros(0)
+        count, many, unit = 0, False, results.about["units"].get(name)
         for some in values:
             edges, count = np.unique(np.concatenate([edges.astype(some.dtype), some])), count + len(some)
             if edges.dtype != object and len(edges) > MOST_CELLS:
                 edges, many = edges[[0, -1]], True
         middles, ends = edges, edges[[0, -1]] if len(edges) else edges
         if edges.dtype != object and (many or len(edges) > BINS and len(edges)**1.5 > count + 8):
-            edges = np.linspace(*ends, BINS + 1)[:-1]
+            edges = np.linspace(ends[0], ends[1], BINS + 1)[:-1]
             middles = edges + (edges[1] - edges[0]) / 2
         return _Axis(f"{name} ({unit})" if unit else name, np.arange(len(edges)) if edges.dtype == object else middles, list(map(_short, middles)), edges, ends)
 
-    def cells(self, values: Array) -> Array:
+    def cells(self, values: Array) -> Any:
         """The cells of values."""
         return np.searchsorted(self.edges, values, "right") - 1
 
@@ -118,10 +119,8 @@ def _heat_map(each: Map, results: Results, limits: Sequence[Tuple[str, Array, Ar
         line, dash = f'<polyline points="{points}" fill="none"', ("", ' stroke-dasharray="6 4"')[k % 2]
         parts.append(f'{line} stroke="white" stroke-width="4"/>{line} stroke="#c00" stroke-width="2"{dash}/>'
                      + _text(left + w + 90, top + 40 + 18 * k, f'{"- - " if k % 2 else "—— "}{name}', more=' fill="#c00"'))
-    for k in np.unique(np.linspace(0, shape[1] - 1, min(6, shape[1])).astype(int)):
-        parts.append(_text(left + (k + 0.5) / shape[1] * w, top + h + 16, x.texts[k], "middle"))
-    for k in np.unique(np.linspace(0, shape[0] - 1, min(6, shape[0])).astype(int)):
-        parts.append(_text(left - 6, top + h - (k + 0.5) / shape[0] * h + 4, y.texts[k], "end"))
+    parts += [_text(left + (k + 0.5) / shape[1] * w, top + h + 16, x.texts[k], "middle") for k in _some(shape[1], 6)]
+    parts += [_text(left - 6, top + h - (k + 0.5) / shape[0] * h + 4, y.texts[k], "end") for k in _some(shape[0], 6)]
     said = f"The mean of up to {count.max():.0f} points in a cell. " if count.max() > 1 else ""
     unit = results.about["units"].get(each.of)
     return (f'<h2>{escape(each.of)}{f" ({escape(unit)})" if unit else ""}</h2><svg viewBox="0 0 740 {top + h + 44}" width="740" role="img" aria-label="'
@@ -158,7 +157,7 @@ def limits_of(prepared: Prepared, results: Results, each: Map) -> Tuple[List[Tup
 
 def _parallel(results: Results, column: str, names: List[str]) -> str:
     """Parallel coordinates of some points, coloured by a column."""
-    picked = _picked(results, np.unique(np.linspace(0, results.rows - 1, min(LINES, results.rows)).astype(int)), list(dict.fromkeys([*names, column])))
+    picked = _picked(results, _some(results.rows, LINES), list(dict.fromkeys([*names, column])))
     good = np.isfinite(picked[column])
     if good.sum() < 2 or len(names) < 2:
         return ""
