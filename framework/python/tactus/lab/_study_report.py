@@ -14,7 +14,7 @@ import numpy as np
 from .._checks import Array
 from .._messages import Error
 from .._reports import limits
-from ._results import BLOCK, Results, replace
+from ._results import Results, replace
 from ._study import Map, Prepared
 
 MOST_CELLS, BINS, LINES, WORST, PROBLEMS = 100, 24, 300, 10, 20
@@ -93,7 +93,7 @@ class _Axis(NamedTuple):
 def _picked(results: Results, rows: Any, names: Sequence[str]) -> Dict[str, Array]:
     """Some columns of some points."""
     order = np.argsort(rows)
-    parts = [[values[rows[order][(rows[order] >= first) & (rows[order] < first + BLOCK)] - first] for values in block]
+    parts = [[values[rows[order][(rows[order] >= first) & (rows[order] < first + len(values))] - first] for values in block]
              for first, block in results.blocks(*names)]
     return {name: np.concatenate(values)[np.argsort(order)] for name, values in zip(names, zip(*parts))}
 
