@@ -11,7 +11,12 @@
 
 #include <cerrno>
 #include <system_error>
+#elif defined(_WIN32)
+#include <windows.h>
 #endif
+
+#include <algorithm>
+#include <thread>
 
 namespace tactus
 {
@@ -59,6 +64,31 @@ std::optional<std::string> lockMemory()
     return "memory is not locked (" + reason (errno) + "), so a tick may wait for the disk: allow locking with memlock in /etc/security/limits.conf";
 }
 
+#elif defined(_WIN32)
+
+std::optional<std::string> raisePriority (int) noexcept
+{
+    if (::SetThreadPriority (::GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL) != 0) return std::nullopt;
+    return "error " + std::to_string (::GetLastError()) + " of Windows";
+}
+
+std::vector<std::string> becomeRealTime (std::optional<int> core)
+{
+    std::vector<std::string> refused;
+    using Join = HANDLE (WINAPI*) (LPCWSTR, LPDWORD);
+    static const auto library = ::LoadLibraryW (L"avrt.dll");
+    const auto join = library != nullptr ? reinterpret_cast<Join> (reinterpret_cast<void*> (::GetProcAddress (library, "AvSetMmThreadCharacteristicsW"))) : nullptr;
+    DWORD task = 0;
+    if (join == nullptr || join (L"Pro Audio", &task) == nullptr)
+        refused.push_back ("the tick thread is not in the class \"Pro Audio\" of the multimedia scheduler, so other programs can delay it");
+    if (const auto why = raisePriority (priority::tick)) refused.push_back ("the tick thread has no high priority (" + *why + ")");
+    if (core && (*core < 0 || *core > 63 || ::SetThreadAffinityMask (::GetCurrentThread(), DWORD_PTR { 1 } << *core) == 0))
+        refused.push_back ("the tick thread could not be pinned to core " + std::to_string (*core) + ": choose another core");
+    return refused;
+}
+
+std::optional<std::string> lockMemory() { return "memory is not locked on this system, so a tick may wait for the disk"; }
+
 #else
 
 std::optional<std::string> raisePriority (int) noexcept
@@ -71,8 +101,29 @@ std::vector<std::string> becomeRealTime (std::optional<int>)
     return { "the tick thread has no real-time priority on this system" };
 }
 
-std::optional<std::string> lockMemory() { return std::nullopt; }
+std::optional<std::string> lockMemory() { return "memory is not locked on this system, so a tick may wait for the disk"; }
 
 #endif
+
+void sleepUntil (std::chrono::steady_clock::time_point until) noexcept
+{
+#if defined(_WIN32)
+    constexpr DWORD high_resolution = 2;   // CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, which older headers do not have
+    struct Timer
+    {
+        HANDLE handle = ::CreateWaitableTimerExW (nullptr, nullptr, high_resolution, TIMER_ALL_ACCESS);
+        ~Timer() { ::CloseHandle (handle); }
+    };
+    thread_local const Timer timer;
+    LARGE_INTEGER due;   // negative: from now on, in 100 ns
+    due.QuadPart = -std::max<LONGLONG> (0, (until - std::chrono::steady_clock::now()) / std::chrono::nanoseconds (100));
+    if (timer.handle != nullptr && ::SetWaitableTimer (timer.handle, &due, 0, nullptr, nullptr, FALSE) != 0)
+    {
+        ::WaitForSingleObject (timer.handle, INFINITE);
+        return;
+    }
+#endif
+    std::this_thread::sleep_until (until);
+}
 
 }   // namespace tactus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,12 +18,15 @@ namespace priority
 inline constexpr int messages = 60, devices = 65, tick = 70, stop = 71;
 }
 
+/// Sleeps until then, with the finest timer that the system has: std::this_thread::sleep_until wakes up to 16 ms late on Windows. [any thread]
+void sleepUntil (std::chrono::steady_clock::time_point) noexcept;
+
 /// Requests a real-time priority for the calling thread. If the system refuses it, returns the reason, and the thread keeps its
 /// priority. [the thread itself]
 std::optional<std::string> raisePriority (int) noexcept;
 
-/// Requests what helps the calling thread to be on time: priority over everything that is not real-time (SCHED_FIFO), a fixed
-/// core if one is given, and no timer slack. Returns a sentence for each request that is refused; the thread runs anyway. [the
+/// Requests what helps the calling thread to be on time: priority over everything that is not real-time (SCHED_FIFO; on Windows, the class "Pro Audio"), a
+/// fixed core if one is given, and no timer slack. Returns a sentence for each request that is refused; the thread runs anyway. [the
 /// thread itself, before its first tick]
 std::vector<std::string> becomeRealTime (std::optional<int> core);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "realtime.hpp"
+
 #include <algorithm>
 #include <chrono>
-#include <thread>
 
 namespace tactus
 {
@@ -98,7 +99,7 @@ private:
         const auto until = deadline - (wait == Wait::punctual ? std::min (wakeup.expected(), longestSpin()) : Clock::duration {});
         if (until > at)
         {
-            std::this_thread::sleep_until (until);
+            sleepUntil (until);
             wakeup.note (Clock::now() - until);
         }
         while ((at = Clock::now()) < deadline)
