@@ -23,7 +23,8 @@ bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.wher
 class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    Row (ProblemList& l, Message m, bool remark) : list (l), message (std::move (m)), is_remark (remark), text (fromUtf8 (message.text)), remedy (fromUtf8 (withoutOptions (message.remedy)))
+    Row (ProblemList& l, Message m, bool remark)
+        : list (l), message (std::move (m)), is_remark (remark), text (fromUtf8 (message.text)), remedy (fromUtf8 (withoutOptions (message.remedy)))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path
