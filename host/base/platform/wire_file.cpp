@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "wire_file.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #if defined(__linux__)
 #include <asm/termbits.h>   // termios2, which takes any baud rate; <termios.h> must not be included with it
 #include <fcntl.h>
@@ -19,7 +22,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <memory>
-#include <system_error>
 #endif
 
 namespace tactus::host
@@ -234,7 +236,7 @@ void WireFile::signal (bool is_ready) noexcept
     static_cast<void> (::ioctl (file, TIOCMBIS, &on));
 }
 
-#else
+#elif ! defined(_WIN32)   // windows_wires.cpp
 
 namespace
 {
@@ -254,6 +256,18 @@ void WireFile::dropInput() noexcept {}
 void WireFile::change (int, Latency) noexcept {}
 void WireFile::signal (bool) noexcept {}
 
+#endif
+
+#if ! defined(_WIN32)
+std::vector<std::string> WireFile::portNames()
+{
+    return {};
+}
+bool WireFile::isThere (const std::string& port)
+{
+    std::error_code unseen;
+    return std::filesystem::exists (port, unseen);
+}
 #endif
 
 }   // namespace tactus::host

@@ -8,15 +8,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tactus::host
 {
 
 /// An open serial line or UDP socket, or the far end of one. Nothing blocks except read(), and nothing allocates or throws once it is open. Works
-/// only on Linux. Id: device/wire; its text is the reason. [one thread may read while another writes]
+/// only on Linux and Windows, which has no far end of a serial line. Id: device/wire; its text is the reason. [one thread may read while another writes]
 class WireFile
 {
 public:
@@ -39,6 +41,12 @@ public:
 
     /// A serial line that passes all bytes unchanged: 8 bits, no parity, no flow control. Also works on a pseudo-terminal.
     static Result<WireFile> openSerial (const std::string& path, int baud, Others = Others::excluded);
+
+    /// The names of the serial ports that are not files, as on Windows: "COM3". [any thread]
+    static std::vector<std::string> portNames();
+
+    /// True if there is a serial port of this name. [any thread]
+    static bool isThere (const std::string& port);
 
     /// Checks that an address is one for connectUdp(): numbers, with a port from 1 to 65535.
     static Result<> checkUdp (const std::string& address);
@@ -98,12 +106,14 @@ private:
     {
         std::swap (file, other.file);
         std::swap (kept_open, other.kept_open);
+        std::swap (kept, other.kept);
         std::swap (kind, other.kind);
         std::swap (peer, other.peer);
         std::swap (peer_size, other.peer_size);
     }
 
     int file = -1, kept_open = -1;   // kept_open: the near end of a terminal, so that the far end lives while no program has it open
+    std::shared_ptr<void> kept;      // what Windows needs for a line: it has other calls for lines than for sockets
     Kind kind = Kind::line;
     alignas (8) std::array<std::uint8_t, 128> peer {};   // a sockaddr: the sender of the last datagram
     std::uint32_t peer_size = 0;

@@ -85,7 +85,9 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
     std::unique_ptr<HidPort> port (new HidPort (system, device, std::move (profile), options));
     if (const auto woken = port->wake (**opened); ! woken && woken.error().id == "device/failsafe")
         return Message::error (woken.error().id, device.path, device.path + " (" + device.product + "): " + woken.error().text,
-                               "install Tactus with the program force-guardian, and open devices only in a process that was not forked from one with open devices");
+                               ! woken.error().remedy.empty()
+                                   ? woken.error().remedy
+                                   : "install Tactus with the program force-guardian, and open devices only in a process that was not forked from one with open devices");
     else if (! woken)
         return Message::error (woken.error().id, device.path,
                                device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,

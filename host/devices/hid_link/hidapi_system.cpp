@@ -2,12 +2,15 @@
 #include "transport.hpp"
 
 #include <host/base/platform/device_file.hpp>
+#include <host/base/platform/home_folder.hpp>
+#include <host/base/platform/private_folder.hpp>
 #include <host/devices/failsafe/failsafe.hpp>
 
 #include <hidapi.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -208,6 +211,14 @@ public:
 
 Result<std::optional<FileLock>> lockDevice (const std::string& path)
 {
+    if constexpr (FileLock::open_is_locked)   // a lock would keep the device itself from being opened, so a file stands for it
+    {
+        const auto folder = runFolder();
+        if (folder.empty() || ! needOwnFolder (folder)) return std::optional<FileLock> {};
+        auto lock = FileLock::take (folder / ("device " + std::to_string (std::hash<std::string> {}(path)) + ".lock"));
+        if (! lock) return inUse (path);
+        return lock;
+    }
     auto alone = FileLock::takeExisting (path);
     std::error_code unseen;
     const bool is_used = ! alone && std::filesystem::exists (path, unseen) && ! std::filesystem::is_directory (path, unseen) && ! isForbidden (path);

@@ -141,8 +141,7 @@ bool isThere (const Json& description)
 {
     if (wireOf (description) != Wire::serial) return true;
     const auto port = description.find ("port");
-    std::error_code unseen;
-    return port != description.end() && port->is_string() && std::filesystem::exists (port->asString(), unseen);
+    return port != description.end() && port->is_string() && WireFile::isThere (port->asString());
 }
 
 std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>& listed, const LoadedProfiles& all)
@@ -192,7 +191,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         if (hasErrors (found.messages)) return found;
         if (! isThere (description))
             return refuse ("hid/not_connected", "there is no port " + quote (wanted.port),
-                           "plug the device in, and look for its port with: ls /dev/serial/by-id /dev/ttyACM* /dev/ttyUSB*");
+                           "plug the device in, and look for its port with: tactus devices");
         found.device.wire = wanted.wire;
         found.device.path = wanted.wire == Wire::serial ? lastingNameOf (wanted.port) : wanted.port;
         found.device.product = named->name;

@@ -3,12 +3,14 @@
 #include "wires.hpp"
 
 #include <host/base/platform/device_file.hpp>
+#include <host/base/platform/wire_file.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace tactus::host::hid
 {
@@ -37,6 +39,12 @@ bool isReal (const fs::path& entry)
 std::vector<SerialPort> serialPorts (const fs::path& system, const fs::path& files)
 {
     std::vector<SerialPort> all;
+    if (auto names = system == "/sys/class/tty" ? WireFile::portNames() : std::vector<std::string>(); ! names.empty())
+    {
+        for (auto& name : names)
+            all.push_back ({ .path = std::move (name) });
+        return all;
+    }
     std::error_code failed;
     for (fs::directory_iterator it (system, failed), end; ! failed && it != end; it.increment (failed))
     {

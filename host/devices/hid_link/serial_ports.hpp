@@ -21,7 +21,7 @@ struct SerialPort
     bool may_open = true;         ///< by this user
 };
 
-/// The serial ports of this computer, sorted by name; empty on systems other than Linux. Nothing is opened. [any thread]
+/// The serial ports of this computer, sorted by name; empty on systems other than Linux and Windows. Nothing is opened. [any thread]
 std::vector<SerialPort> serialPorts (const std::filesystem::path& system = "/sys/class/tty", const std::filesystem::path& files = "/dev");
 
 /// True if the profile fits the USB device of this port, by vendor and product. [any thread]
