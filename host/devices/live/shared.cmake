@@ -9,6 +9,10 @@ set_target_properties (tactus_live_shared PROPERTIES
 target_include_directories (tactus_live_shared INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
 target_link_libraries (tactus_live_shared PRIVATE tactus_reports PkgConfig::hidapi Threads::Threads ${CMAKE_DL_LIBS})
 add_dependencies (tactus_live_shared force-guardian)
+if (MINGW)   # as for libtactus.dll
+    target_link_options (tactus_live_shared PRIVATE LINKER:--output-def,${PROJECT_BINARY_DIR}/tactus_live.def)
+    set_target_properties (tactus_live_shared PROPERTIES VERSION "" SOVERSION "" PREFIX "" ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+endif ()
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports only the C API, and what fused code calls.
     set (exports ${CMAKE_CURRENT_LIST_DIR}/exports.map)
