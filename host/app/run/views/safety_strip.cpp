@@ -224,9 +224,9 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
             const auto event = role.latestEvent();
             const bool is_over = Guard::latches (role.latest) && ! role.is_latched;   // somebody has seen it, and rearmed
             const bool is_stopped = role.stop != Guard::Stop::none, is_meant = event.why == Guard::Stop::stale && event.fault == ReadingFault::moved;
-            // No device has a reading before its first one, or after it is closed.
-            const bool is_unread = event.why == Guard::Stop::stale && ! event.valid && event.fault == ReadingFault::none;
-            if (is_over || (is_meant && ! is_stopped) || (is_unread && ! (is_stopped && now.running && ! halting))) continue;
+            // This stop ends by itself. No device has a reading before its first one, or after it is closed.
+            const bool is_past = event.why == Guard::Stop::stale && ! (is_stopped && now.running && ! halting);
+            if (is_over || (is_meant && ! is_stopped) || is_past) continue;
             const bool is_from_before = event.why == Guard::Stop::emergency && run.beganHeld();
             const auto why = is_from_before ? TRANS ("stopped before this graph began; REARM gives it forces") : fromUtf8 (describe (event));
             now.guard = juce::String (std::string (role.name)) + ": " + why;
