@@ -31,7 +31,7 @@ Remark DeviceRemarks::fit (const std::string& role) const
     if (const auto* choice = bindings.choiceNow (role); choice != nullptr && ! choice->numbers.empty())
         if (const auto profile = hid::profileNamed (setup.profiles(), choice->numbers))
         {
-            addLine (filled (TRANS ("Only simulated: Tactus has no driver for %1, but knows its numbers."), profile->name));
+            addLine (filled (TRANS ("Only simulated, with the numbers of %1."), profile->name));
             if (const auto guesses = guessesOf (hid::numbersOf (*profile)); ! guesses.empty()) addLine (filled (TRANS ("Guessed: %1."), guesses));
         }
     if (run.isMovedOtherwise (role))
