@@ -48,10 +48,21 @@ TEST_CASE ("the time that passes is the wall time, in periods as far as it can b
         }
     });
 
-    test::property ("with jitter of less than a period, each tick takes one period, to the last bit", [] {
+    test::property ("with jitter of less than a quarter of a period, each tick takes one period, to the last bit", [] {
         PassedTime passed { dt };
         for (int k = 0; k < 1000; ++k)
-            RC_ASSERT (passed ((k + (k > 0 ? *rc::gen::inRange (0, 1000) / 1000.0 : 0.0)) * dt, 0.0) == dt);
+            RC_ASSERT (passed ((k + (k > 0 ? *rc::gen::inRange (0, 250) / 1000.0 : 0.0)) * dt, 0.0) == dt);
+    });
+
+    test::property ("with more of it, no more than a quarter of a period is left to later ticks", [] {
+        PassedTime passed { dt };
+        double wall = 0.0, sum = -dt;
+        for (int k = 0; k < 1000; ++k)
+        {
+            sum += passed (wall, 0.0);
+            RC_ASSERT (sum >= wall - 0.25 * dt - 1e-9);
+            wall += *rc::gen::inRange (0, 2000) / 1000.0 * dt;
+        }
     });
 
     SECTION ("in the blocks of a sound card, each tick takes one period, even if each block comes half a block late or early")
