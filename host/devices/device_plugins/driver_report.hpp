@@ -24,10 +24,12 @@ public:
     const tactus_plugin_report* to() const noexcept { return &sink; }
     void clear() noexcept { length = 0; }
 
-    /// The text of the driver, or another one if it said nothing.
+    /// The text of the driver, in one line, or another one if it said nothing.
     std::string text (std::string_view otherwise = "it does not say why") const
     {
-        return length == 0 ? std::string (otherwise) : printableName ({ said.data(), length });
+        auto all = length == 0 ? std::string (otherwise) : printable ({ said.data(), length });
+        std::ranges::replace (all, '\n', ' ');
+        return all;
     }
 
 private:
