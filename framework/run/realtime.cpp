@@ -77,7 +77,8 @@ std::vector<std::string> becomeRealTime (std::optional<int> core)
     std::vector<std::string> refused;
     using Join = HANDLE (WINAPI*) (LPCWSTR, LPDWORD);
     static const auto library = ::LoadLibraryW (L"avrt.dll");
-    const auto join = library != nullptr ? reinterpret_cast<Join> (reinterpret_cast<void*> (::GetProcAddress (library, "AvSetMmThreadCharacteristicsW"))) : nullptr;
+    auto* const found = library != nullptr ? reinterpret_cast<void*> (::GetProcAddress (library, "AvSetMmThreadCharacteristicsW")) : nullptr;
+    const auto join = reinterpret_cast<Join> (found);
     DWORD task = 0;
     if (join == nullptr || join (L"Pro Audio", &task) == nullptr)
         refused.push_back ("the tick thread is not in the class \"Pro Audio\" of the multimedia scheduler, so other programs can delay it");

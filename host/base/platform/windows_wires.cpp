@@ -29,7 +29,10 @@ constexpr std::string_view before_name = R"(\\.\)";
 
 Outcome failure (int error) noexcept { return { .what = Outcome::Kind::failure, .error = error }; }
 
-Message failed (const std::string& where, DWORD error) { return Message::error ("device/wire", where, std::system_category().message (static_cast<int> (error))); }
+Message failed (const std::string& where, DWORD error)
+{
+    return Message::error ("device/wire", where, std::system_category().message (static_cast<int> (error)));
+}
 
 /// The milliseconds until then, at least one.
 DWORD untilThen (WireFile::Clock::time_point until) noexcept
@@ -244,7 +247,7 @@ Result<WireFile> WireFile::connectUdp (const std::string& address)
 
 Result<WireFile> WireFile::makeTerminal (std::string&)
 {
-    return Message::error ("device/wire", {}, "Windows has no pseudo-terminals that a program could take for a serial port", "choose another wire, such as UDP");
+    return Message::error ("device/wire", {}, "Windows has no far end of a serial port", "choose another wire, such as UDP");
 }
 
 Result<WireFile> WireFile::listenUdp (int& port)
@@ -318,9 +321,9 @@ WireFile::Sent WireFile::write (std::span<const std::uint8_t> bytes) noexcept
         return { .size = size };
     }
     if (kind == Kind::listener && peer_size == 0) return { .size = bytes.size() };
-    const int put = kind == Kind::listener ? ::sendto (socketOf (file), text, static_cast<int> (bytes.size()), 0, reinterpret_cast<const sockaddr*> (peer.data()),
-                                                       static_cast<int> (peer_size))
-                                           : ::send (socketOf (file), text, static_cast<int> (bytes.size()), 0);
+    const bool listens = kind == Kind::listener;   // a connected socket knows the address
+    const int put = ::sendto (socketOf (file), text, static_cast<int> (bytes.size()), 0,
+                              listens ? reinterpret_cast<const sockaddr*> (peer.data()) : nullptr, listens ? static_cast<int> (peer_size) : 0);
     return put >= 0 ? Sent { .size = static_cast<std::size_t> (put) } : Sent { .error = errorOfSocket() };
 }
 

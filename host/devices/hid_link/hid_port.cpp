@@ -87,7 +87,8 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
         return Message::error (woken.error().id, device.path, device.path + " (" + device.product + "): " + woken.error().text,
                                ! woken.error().remedy.empty()
                                    ? woken.error().remedy
-                                   : "install Tactus with the program force-guardian, and open devices only in a process that was not forked from one with open devices");
+                                   : "install Tactus with the program force-guardian, and open devices only in a process that was not forked from one with "
+                                     "open devices");
     else if (! woken)
         return Message::error (woken.error().id, device.path,
                                device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,
