@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if defined(_WIN32)
+#include "windows_helper.hpp"
+#else
+#include "helper_side.hpp"
+
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>   // NOLINT: sigset_t
 #include <spawn.h>
 #include <sys/stat.h>
@@ -125,11 +129,7 @@ public:
         return std::nullopt;
     }
 
-    bool hasEnded (int wait_ms) const
-    {
-        pollfd end { from_helper, POLLIN, 0 };
-        return ::poll (&end, 1, wait_ms) > 0;
-    }
+    bool hasEnded (int wait_ms) const { return pipeEnds (from_helper, wait_ms); }
 
     void kill() const
     {
@@ -142,3 +142,4 @@ private:
 };
 
 }   // namespace tactus::host
+#endif

@@ -6,21 +6,20 @@
 #include "shared_arm.hpp"
 #include "stored_names.hpp"
 
+#include <host/drivers/helper_side.hpp>
 #include <tactus/tactus_device.h>
-
-#include <poll.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace
@@ -278,7 +277,7 @@ public:
                 attend (i, why_not);
         shared.is_ending = 1;
         if (is_running) halt();
-        ::alarm (until_killed_s);
+        tactus::host::endProcessAfter (until_killed_s);
         for (auto& arm : arms)
             arm.reset();
         return has_failed ? 1 : 0;
@@ -286,11 +285,7 @@ public:
 
 private:
     /// True if the driver is gone, or wants this process to end.
-    bool hasEnded (int wait_ms) const
-    {
-        pollfd of_driver { pipe, POLLIN, 0 };
-        return ::poll (&of_driver, 1, wait_ms) > 0;
-    }
+    bool hasEnded (int wait_ms) const { return tactus::host::pipeEnds (pipe, wait_ms); }
 
     template <typename F>
     bool any (F&& so) const
@@ -322,7 +317,7 @@ private:
         }
         shared.is_joining = 1;
         if (is_running) halt();
-        ::alarm (until_joined_s);
+        tactus::host::endProcessAfter (until_joined_s);
         for (std::size_t k = 0; k < arms.size(); ++k)
             if (arms[k] != nullptr && ! arms[k]->isWanted())
             {
@@ -337,7 +332,7 @@ private:
                 arm->fail (why);
         }
         if (any ([] (const OpenArm&) { return true; })) start();
-        ::alarm (0);
+        tactus::host::endProcessAfter (0);
         shared.is_joining = 0;
     }
 
@@ -363,8 +358,8 @@ private:
     {
         ending = true;
         for (int waited = 0; ! is_zero && waited < until_zero_ms; ++waited)
-            ::usleep (1000);
-        ::alarm (until_killed_s);
+            std::this_thread::sleep_for (std::chrono::milliseconds (1));
+        tactus::host::endProcessAfter (until_killed_s);
         hd.hdStopScheduler();
         hd.hdUnschedule (scheduled);
         is_running = false;
@@ -404,12 +399,9 @@ int main (int count, char** arguments)
 {
     if (count < 3) return 2;
     if (arguments[1] == std::string_view ("--library"))
-    {
-        const auto line = HdFunctions {}.load() + "\n";
-        return ::write (std::atoi (arguments[count - 1]), line.data(), line.size()) > 0 ? 0 : 1;
-    }
+        return tactus::host::writePipe (std::atoi (arguments[count - 1]), HdFunctions {}.load() + "\n") ? 0 : 1;
     const int memory = std::atoi (arguments[1]), pipe = std::atoi (arguments[2]);
-    void* at = ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
-    if (at == MAP_FAILED) return 2;
+    void* at = tactus::host::mapShared (memory, sizeof (SharedArms));
+    if (at == nullptr) return 2;
     return Helper (*static_cast<SharedArms*> (at), pipe).run();
 }

@@ -3,17 +3,22 @@
 
 #include <tactus/kit/threads/snapshot.hpp>
 
+#if defined(__linux__)
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <ctime>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <ctime>
 #include <string>
+#include <thread>
 
 namespace tactus::host::openhaptics
 {
@@ -88,11 +93,10 @@ inline void put (char* to, std::size_t size, const std::string& text)
 
 inline std::int64_t nanosecondsNow() noexcept
 {
-    timespec t {};
-    ::clock_gettime (CLOCK_MONOTONIC, &t);
-    return t.tv_sec * std::int64_t { 1'000'000'000 } + t.tv_nsec;
+    return std::chrono::nanoseconds (std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+#if defined(__linux__)
 /// Waits while the count is still this one, but not longer than this. May return early.
 inline void waitWhile (std::atomic<std::uint32_t>& count, std::uint32_t is, std::int64_t ns) noexcept
 {
@@ -101,5 +105,14 @@ inline void waitWhile (std::atomic<std::uint32_t>& count, std::uint32_t is, std:
 }
 
 inline void wake (std::atomic<std::uint32_t>& count) noexcept { ::syscall (SYS_futex, &count, FUTEX_WAKE, 1, nullptr, nullptr, 0); }
+#else
+/// Lets other threads run, because no wait of this system is for a count that two processes share.
+inline void waitWhile (std::atomic<std::uint32_t>& count, std::uint32_t is, std::int64_t) noexcept
+{
+    if (count == is) std::this_thread::yield();
+}
+
+inline void wake (std::atomic<std::uint32_t>&) noexcept {}
+#endif
 
 }   // namespace tactus::host::openhaptics

@@ -10,10 +10,6 @@
 #include <host/drivers/read_keys.hpp>
 #include <host/drivers/rotation_of.hpp>
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -26,7 +22,9 @@
 #include <utility>
 #include <vector>
 
+#if ! defined(_WIN32)
 extern char** environ;
+#endif
 
 namespace tactus::host::openhaptics
 {
@@ -42,6 +40,12 @@ constexpr double to_m = 1e-3, most_torque = 0.188;     // N m: that of a Premium
 constexpr const char* program = "openhaptics-helper";
 constexpr const char* may_push = ". The arm may still push: switch it off";
 
+#if defined(_WIN32)
+std::vector<char*> plainEnvironment()
+{
+    return { nullptr };
+}   // no locale comes from it
+#else
 /// The environment of this program, with numbers as in C: with another locale, the maker's setup reads wrong numbers.
 std::vector<char*> plainEnvironment()
 {
@@ -53,6 +57,7 @@ std::vector<char*> plainEnvironment()
     all.push_back (nullptr);
     return all;
 }
+#endif
 
 /// The locale that this environment has for numbers; empty if they are as in C.
 std::string localeOfNumbers()
@@ -87,7 +92,7 @@ public:
     Owner& operator= (const Owner&) = delete;
     ~Owner()   // the helper, which has the memory as well, sends zeros, ends the library, and then itself
     {
-        if (shared != nullptr) ::munmap (shared, sizeof (SharedArms));
+        if (shared != nullptr) unmapShared (shared, sizeof (SharedArms));
     }
 
     /// A place for an arm, which the helper opens; null: all are taken.
@@ -118,14 +123,11 @@ public:
 private:
     std::string launch()
     {
-        const int memory = ::memfd_create ("tactus-openhaptics", MFD_CLOEXEC);
-        void* at = MAP_FAILED;
-        if (memory >= 0 && ::ftruncate (memory, sizeof (SharedArms)) == 0)
-            at = ::mmap (nullptr, sizeof (SharedArms), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
-        if (at != MAP_FAILED) shared = static_cast<SharedArms*> (at);
+        const int memory = makeShared (sizeof (SharedArms));
+        if (memory != -1) shared = static_cast<SharedArms*> (mapShared (memory, sizeof (SharedArms)));
         auto why = shared == nullptr ? "no memory for the helper: " + std::generic_category().message (errno)
                                      : process.start (&driver, program, {}, { memory }, plainEnvironment().data());
-        if (memory >= 0) ::close (memory);
+        if (memory != -1) closeShared (memory);
         return why;
     }
 
