@@ -3,11 +3,20 @@
 
 #include <cstdio>
 
+#if ! defined(_WIN32)
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 namespace tactus::test
 {
+
+#if defined(_WIN32)
+ChildEnd inChild (const std::function<int()>&)
+{
+    return {};
+}   // there is no fork
+#else
 
 ChildEnd inChild (const std::function<int()>& run)
 {
@@ -19,5 +28,6 @@ ChildEnd inChild (const std::function<int()>& run)
     if (waitpid (child, &status, 0) != child) return {};
     return { WIFEXITED (status) ? WEXITSTATUS (status) : -1, WIFSIGNALED (status) ? WTERMSIG (status) : 0 };
 }
+#endif
 
 }   // namespace tactus::test

@@ -7,9 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#if ! defined(_WIN32)
 #include <sys/wait.h>
-#endif
 
 namespace tactus::test
 {
@@ -43,15 +41,17 @@ Ran runProgram (const std::string& program, const std::vector<std::string>& argu
         command += " '" + a + "'";
     command += " > '" + scratch.path ("out") + "' 2> '" + scratch.path ("err") + "' < /dev/null";
     const int result = std::system (command.c_str());
-#if defined(_WIN32)
-    const int status = result;
-#else
     const int status = WIFEXITED (result) ? WEXITSTATUS (result) : -WTERMSIG (result);
-#endif
     return { status, textOf (scratch.path ("out")), textOf (scratch.path ("err")) };
 }
 
-Ran runTactus (const std::vector<std::string>& arguments) { return runProgram (TACTUS_PROGRAM, arguments); }
+std::string testedProgram()
+{
+    const char* other = std::getenv ("TACTUS_TESTED_PROGRAM");
+    return other != nullptr ? other : TACTUS_PROGRAM;
+}
+
+Ran runTactus (const std::vector<std::string>& arguments) { return runProgram (testedProgram(), arguments); }
 
 void checkRefused (const std::vector<std::string>& arguments, int status, const std::string& words, const std::string& unwritten)
 {

@@ -27,6 +27,9 @@ struct Ran
     std::string out, err;
 };
 
+/// `tactus`, or the program that TACTUS_TESTED_PROGRAM names: ./test.sh --windows tests tactus.exe in wine by the same tests.
+std::string testedProgram();
+
 /// Runs `tactus` or another program with these arguments.
 Ran runTactus (const std::vector<std::string>& arguments);
 Ran runProgram (const std::string& program, const std::vector<std::string>& arguments);

@@ -12,7 +12,7 @@ class Running
 {
 public:
     Running (const std::string& program, const std::vector<std::string>& arguments);
-    explicit Running (const std::vector<std::string>& arguments) : Running (TACTUS_PROGRAM, arguments) {}
+    explicit Running (const std::vector<std::string>& arguments) : Running (testedProgram(), arguments) {}
     ~Running();
     Running (const Running&) = delete;
     Running& operator= (const Running&) = delete;
