@@ -31,7 +31,7 @@
 #   ./test.sh --site    builds the site with all presets, and uses its playground in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --windows builds for Windows with mingw-w64, and runs what it built in wine (docs/windows.md): all presets give the same bits, files with
-#                       other names and line ends
+#                       other names and line ends, plugins, devices on serial ports and behind fake libraries, and the tests
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds the libraries as part of another project, and all nodes as plugins, and examines these
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
@@ -251,8 +251,8 @@ if [ "$mode" = --figures ]; then
 fi
 
 if [ "$mode" = --windows ]; then
-    build release tactus
-    build windows tactus tactus_shared render_dll
+    build release tactus plugin_in_c tactus_cli_tests
+    build windows tried_in_wine
     say "In wine"
     xvfb-run -a /usr/bin/python3 -B tests/windows/run.py build/release/bin/tactus build/windows
     exit

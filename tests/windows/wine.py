@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""The server of wine, which programs of Windows need. It stays, so that they start at once."""
+
+import pathlib
+import subprocess
+
+
+def restart(wine, environment=None):
+    """Starts it again, with all that it starts: these would hold the pipes of the first program."""
+    server = pathlib.Path(wine).with_name("wineserver64")
+    for command in ([server, "-k"], [server, "-p"], [wine, "hostname"]):
+        subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, check=False)
+
+
+def end(wine, environment=None):
+    subprocess.run([pathlib.Path(wine).with_name("wineserver64"), "-k"], env=environment, check=False)
