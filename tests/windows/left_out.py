@@ -23,7 +23,6 @@ LEFT_OUT = {
                     "a full disk ends a log after a complete line, but does not end the run": FULL},
     "fuse_test": {"": "graphs are fused on Linux only"},
     "killed_test": {"a recording and a log survive kill -9 up to their last second, and the next run neither overwrites nor hides them": SLASH},
-    "limits_test": {"": "it takes too long: it has not run to its end"},
     "lone_key_test": {"": TERMINAL},
     "pipes_test": {"": PIPES},
     "preset_name_test": {"every command that takes a graph file takes the name of a preset": SLASH, "a mistyped preset or file gets a suggestion": SLASH},
