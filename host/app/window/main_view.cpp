@@ -171,6 +171,12 @@ bool MainView::keyStateChanged (bool is_down)
 
 void MainView::timerCallback()
 {
+    // JUCE sees what the user does only while no timer is due. After a refresh that took longer than the time until the next one, as on a busy computer,
+    // that one is left out, else clicks would wait for as long as the computer is busy.
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    const bool is_late = now - std::exchange (refreshed_at, now) > 2.0 * getTimerInterval();
+    leaves_out = is_late && ! leaves_out;
+    if (leaves_out) return;
     auto& playback = parts.playback;
     auto& strip = parts.strip;
     auto& status = parts.status;

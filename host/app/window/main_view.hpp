@@ -124,6 +124,8 @@ private:
     bool was_dragging = false;                                    // something was being dragged on the canvas
     const void* const first_identity = parts.edited.identity();   // of the empty document that the window begins with
     const void* shown_identity = nullptr;                         // identity of the document that is shown
+    double refreshed_at = 0.0;                                    // ms
+    bool leaves_out = false;                                      // the last refresh was left out
     int awake_for = 0;                                            // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;                  // only while the window is awake, because it looks for the pointer all the time
 };
