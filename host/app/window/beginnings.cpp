@@ -65,6 +65,8 @@ void Beginnings::feel (const std::filesystem::path& preset, bool by_pointer)
     parts.turnTo (parts.hand);
     if (parts.files.isSafe())
         parts.status.notify (TRANS ("Safe mode: press START or F5, then press and drag on the surface of the hand."));
+    else if (waitsForStart())
+        parts.status.notify (TRANS ("You have stopped the device: press START or F5 to feel this graph on it."));
     else if (parts.hasBoundRole() && parts.hand.chosen().kind == LiveRun::Hand::Kind::described)
         parts.status.notify (TRANS ("The device chosen in the Devices panel moves the tool. Press and drag on the surface of the hand, and the mouse does."));
     else
@@ -72,8 +74,25 @@ void Beginnings::feel (const std::filesystem::path& preset, bool by_pointer)
                                         : TRANS ("The hand moves by itself. Press and drag on its surface, and the mouse is your hand."));
 }
 
+void Beginnings::stop()
+{
+    noteStops();
+    parts.playback.run().stop();
+    own_stops = parts.playback.stopSwitch().personStops();
+}
+
+void Beginnings::noteStops()
+{
+    const auto& stops = parts.playback.stopSwitch();
+    was_stopped = ! stops.mayStart() && (was_stopped || stops.personStops() != own_stops);
+}
+
+bool Beginnings::waitsForStart() const { return was_stopped && parts.hasBoundRole(); }
+
 void Beginnings::run (bool by_pointer)
 {
+    noteStops();
+    if (waitsForStart()) return;   // the panel of the hand says that nothing runs
     const auto& chosen = parts.hand.chosen();
     if (chosen.kind != LiveRun::Hand::Kind::described && hasTool (parts.edited.graph())) return parts.playback.startOther (chosen);
     parts.playback.startOther (by_pointer && ! parts.hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {});

@@ -20,13 +20,20 @@ public:
     void feel (const std::filesystem::path& preset, bool by_pointer);
 
     /// Runs the graph that has just been opened. The mouse or the gesture that the user has chosen goes on to the next graph. A device does only if the
-    /// session binds it to a role of that name.
+    /// session binds it to a role of that name, and not after a person has stopped it: then only START does.
     void run (bool by_pointer);
+
+    void stop();   ///< before another graph is opened
 
     void tour();   ///< if nothing is open, with a preset to feel
 
 private:
+    void noteStops();
+    bool waitsForStart() const;   ///< a device of the session moves the tool, and a person has stopped it
+
     WindowParts& parts;
+    bool was_stopped = false;      // by a person, before the graph was opened
+    std::uint32_t own_stops = 1;   // the stops of a person that the switch counts after stop(), which is one of them; at first, that of nobody's start
 };
 
 }   // namespace tactus::host

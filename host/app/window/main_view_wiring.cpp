@@ -35,7 +35,7 @@ Files::Callbacks MainView::fileCallbacks()
         .notify = [this] (const juce::String& text) { parts.status.notify (text); },
         .stop = [this] {
             parts.hand.film().end();   // the next run begins another film
-            run().stop(); },
+            beginnings.stop(); },
         .run = [this] (bool by_pointer) { beginnings.run (by_pointer); },
         .isRunning = [this] { return parts.playback.current().isRunning(); },
         .isStopped = [this] {

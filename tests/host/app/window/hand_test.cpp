@@ -124,6 +124,32 @@ TEST_CASE ("the mouse or the gesture that the user has chosen moves the next pre
     run.letGo();
 }
 
+TEST_CASE ("after a person has stopped a device of the session, a preset that is opened waits for START", "[app][sessions][safety]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false, with_simulated_stylus);
+    auto& run = w.view->run();
+    const auto open = [&] (const char* name) {
+        w.key ("ctrl + f");
+        w.stage->type (name);
+        w.key ("return");
+        REQUIRE (waitFor ([&] { return w.graph().name == name; }));
+    };
+    REQUIRE (waitFor ([&] { return run.isRunning(); }));
+    open ("Oak board");
+    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // nobody has stopped it
+    w.key ("escape");
+    REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
+    open ("Granite wall");
+    WindowRig::settle();
+    CHECK_FALSE (run.isWanted());
+    CHECK (waitFor ([&] { return reads (w, "Not running. Press START"); }));
+    w.key ("F5");
+    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));
+    open ("Oak board");
+    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // a person has started it
+    run.letGo();
+}
+
 TEST_CASE ("the welcome page promises the mouse only if no device of the user moves tools", "[app][welcome][sessions]")
 {
     for (const auto& [session, has_device] : { std::pair { "", false }, { with_sound_card, false }, { with_simulated_stylus, true } })
