@@ -18,7 +18,8 @@ inline std::filesystem::path findHelper (const void* in_driver, const std::strin
 {
     HMODULE self = nullptr;
     std::wstring path (32768, L'\0');
-    if (::GetModuleHandleExW (GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT, static_cast<LPCWSTR> (in_driver), &self) == 0)
+    constexpr DWORD by_address = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    if (::GetModuleHandleExW (by_address, static_cast<LPCWSTR> (in_driver), &self) == 0)
         return why = "the driver does not know where it is", std::filesystem::path();
     path.resize (::GetModuleFileNameW (self, path.data(), static_cast<DWORD> (path.size())));
     const auto folder = std::filesystem::path (path).parent_path();

@@ -6,13 +6,11 @@
 
 #include <windows.h>
 
+#include "wire_address.hpp"
 #include "wire_file.hpp"
-
-#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <memory>
 #include <string_view>
@@ -173,24 +171,14 @@ using Addresses = std::unique_ptr<addrinfo, decltype (&::freeaddrinfo)>;
 
 Result<Addresses> readAddress (const std::string& address)
 {
-    const auto refuse = [&] (std::string why) {
-        return Message::error ("device/wire", address, quote (address) + " is no address: " + std::move (why),
-                               "write it in numbers, as 192.168.4.1:9750 or [fe80::1%4]:9750");
-    };
-    const auto colon = address.rfind (':');
-    auto host = address.substr (0, colon == address.npos ? 0 : colon);
-    const auto port = colon == address.npos ? std::string() : address.substr (colon + 1);
-    if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr (1, host.size() - 2);
-    if (host.empty() || port.empty()) return refuse ("it has no host, or no port");
-    int number = 0;
-    const auto [end, wrong] = std::from_chars (port.data(), port.data() + port.size(), number);
-    if (wrong != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535) return refuse ("its port must be a number from 1 to 65535");
-
+    auto read = WireAddress::read (address);
+    if (! read) return std::move (read).error();
     addrinfo wanted {};
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    if (! needSockets() || ::getaddrinfo (host.c_str(), port.c_str(), &wanted, &found) != 0) return refuse ("its host must be written in numbers");
+    if (! needSockets() || ::getaddrinfo (read->host.c_str(), read->port.c_str(), &wanted, &found) != 0)
+        return WireAddress::refusal (address, "its host must be written in numbers");
     return Addresses (found, ::freeaddrinfo);
 }
 }   // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wire_file.hpp"
+#include "wire_address.hpp"
 
 #include <filesystem>
 #include <system_error>
@@ -16,10 +17,7 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <tactus/text/quote.hpp>
-
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
 #include <memory>
 #endif
@@ -90,24 +88,14 @@ using Addresses = std::unique_ptr<addrinfo, decltype (&::freeaddrinfo)>;
 
 Result<Addresses> readAddress (const std::string& address)
 {
-    const auto refuse = [&] (std::string why) {
-        return Message::error ("device/wire", address, quote (address) + " is no address: " + std::move (why),
-                               "write it in numbers, as 192.168.4.1:9750 or [fe80::1%eth0]:9750");
-    };
-    const auto colon = address.rfind (':');
-    auto host = address.substr (0, colon == address.npos ? 0 : colon);
-    const auto port = colon == address.npos ? std::string() : address.substr (colon + 1);
-    if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr (1, host.size() - 2);
-    if (host.empty() || port.empty()) return refuse ("it has no host, or no port");
-    int number = 0;   // getaddrinfo would take 65537 for 1
-    const auto [end, wrong] = std::from_chars (port.data(), port.data() + port.size(), number);
-    if (wrong != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535) return refuse ("its port must be a number from 1 to 65535");
-
+    auto read = WireAddress::read (address);
+    if (! read) return std::move (read).error();
     addrinfo wanted {};
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;   // no name is looked up, because that can take long
     addrinfo* found = nullptr;
-    if (const int error = ::getaddrinfo (host.c_str(), port.c_str(), &wanted, &found); error != 0) return refuse (::gai_strerror (error));
+    if (const int error = ::getaddrinfo (read->host.c_str(), read->port.c_str(), &wanted, &found); error != 0)
+        return WireAddress::refusal (address, ::gai_strerror (error));
     return Addresses (found, ::freeaddrinfo);
 }
 }   // namespace
