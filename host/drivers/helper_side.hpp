@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a driver and its helper process (helper_program.hpp) share: memory, and a pipe that ends with the driver. Both are numbers that the helper gets as
-// arguments.
+// The memory that a driver shares with its helper process (helper_program.hpp), and the pipe that ends with the driver. The helper gets both as numbers in
+// its arguments.
 #pragma once
 
 #include <cstddef>

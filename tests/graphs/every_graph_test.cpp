@@ -122,7 +122,8 @@ std::string readme()
                        "`devices` lists the conditions that [`tactus check`](../docs/check.md) finds broken: on the simulated device of the preset (its "
                        "own), and, without its trials, on each device whose profile states its damping.\n\n"
                        "The simulated devices have a damping of 0.5 to 3 N s/m, as an arm with dampers has. This is more than most bare arms have: the "
-                       "profiles guess 0.1 to 1.5 N s/m. A device needs at least the stiffness of the contact times half a tick, plus the damping of the contact, so "
+                       "profiles guess 0.1 to 1.5 N s/m. A device needs at least the stiffness of the contact times half a tick, plus the damping of the "
+                       "contact, so "
                        "on a bare arm nearly every preset breaks `stiffness`. There, turn down the stiffness and the damping of the preset, and raise "
                        "the rate. On its own device, no preset breaks a condition.\n\n"
                        "| preset | what it feels like | controls | needs | devices | tags |\n|---|---|---|---|---|---|\n";

@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// True beside the canvas, where other parts of the window may take the wire. Nodes go on there, but nobody sees them.
+    /// True if the pointer is beside the canvas, where another part of the window may take the wire. Nodes that are hidden there are no targets.
     bool isOutside (const juce::MouseEvent& e) const { return canvas.onWireOutside && ! canvas.getLocalBounds().contains (e.getPosition()); }
 
     /// The port at a place; elsewhere on a node, the first one that fits, preferably one that has no wire yet.

@@ -21,7 +21,7 @@ public:
     explicit ProblemList (Document&);
     ~ProblemList() override;
 
-    void show (const Messages&, const Messages& remarks = {});   ///< remarks come last and are no problems: what nobody has judged
+    void show (const Messages&, const Messages& remarks = {});   ///< remarks, about limits that are not judged, come last and do not count as problems
     const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const ProblemLocation&)> onShow;

@@ -356,8 +356,9 @@ void TopBar::morph (int from, int to)
     if (! document.perform (std::move (made->command))) return;
     desk.notify (made->left_out == 0
                      ? filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to)
-                     : filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1. Differences that stay as in snapshot %2: %4: choices, "
-                                      "vectors, values in subgraphs, and what a wire or a control sets."),
+                     : filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1. "
+                                      "Differences that stay as in snapshot %2: %4 (choices, "
+                                      "vectors, values in subgraphs, and what a wire or a control sets)."),
                                made->params, from, to, made->left_out));
 }
 

@@ -33,7 +33,7 @@ private:
 
     WindowParts& parts;
     bool was_stopped = false;      // by a person, before the graph was opened
-    std::uint32_t own_stops = 1;   // the stops of a person that the switch counts after stop(), which is one of them; at first, that of nobody's start
+    std::uint32_t own_stops = 1;   // personStops() after stop(), which counts as one; it begins at 1
 };
 
 }   // namespace tactus::host

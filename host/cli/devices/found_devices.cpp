@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-/// What the driver finds, or else its devices at serial ports and USB, if they are known from there.
+/// The devices that the driver finds, or else those that are known from serial ports and USB.
 std::vector<FoundByDriver> find (const std::string& driver)
 {
     auto found = findDevices (driver);

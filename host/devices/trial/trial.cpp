@@ -380,7 +380,7 @@ private:
     void tryStops()
     {
         tryStop ("Enter", "Press Enter while it pushes up.", [this] (TrialRun& run) {
-            waitFor (run, pushes_after_s);   // whoever is quick stops a push, and not its beginning
+            waitFor (run, pushes_after_s);   // a person who presses Enter at once would otherwise stop the push before it begins
             const bool goes_on = person.ask ("It pushes up now. Press Enter to stop it.").has_value();
             run.emergencyStop();
             if (! goes_on) throw Ended {};

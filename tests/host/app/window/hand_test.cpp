@@ -136,7 +136,7 @@ TEST_CASE ("after a person has stopped a device of the session, a preset that is
     };
     REQUIRE (waitFor ([&] { return run.isRunning(); }));
     open ("Oak board");
-    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // nobody has stopped it
+    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // the device was not stopped
     w.key ("escape");
     REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
     open ("Granite wall");
@@ -146,7 +146,7 @@ TEST_CASE ("after a person has stopped a device of the session, a preset that is
     w.key ("F5");
     CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));
     open ("Oak board");
-    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // a person has started it
+    CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));   // it was started again
     run.letGo();
 }
 

@@ -594,7 +594,7 @@ TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N
     CHECK (test::verdictOf (report, "a pulled cable") == "as expected");
     CHECK (test::verdictOf (report, "walls") == "not tried");   // the person does not let go of it
     CHECK (contains (host::trialText (report), "pressed: forward; not seen: plus, center, minus"));
-    // What a count of one leg, or of several, moves the grip: 34 to 53 um within the space.
+    // One count of one leg, or of several, moves the grip by 34 to 53 um within the space.
     CHECK (report.at ("numbers").at ("quantum").get<double>() > 30e-6);
     CHECK (report.at ("numbers").at ("quantum").get<double>() < 60e-6);
     CHECK (hand.largest > 0.1);
