@@ -115,9 +115,11 @@ def _point(prepared: Prepared, out: pathlib.Path, number: int) -> int:
 
 # ---------------------------------------------------------------------------- Executors
 
-# A local cluster of dask looks at itself less often. With its defaults (each 10 to 500 ms), that is most of what it costs.
+# A local cluster of dask looks at itself less often. With its defaults (each 10 to 500 ms), that is most of what it costs. And its workers keep freed
+# memory for the next render: dask has it given back at once, so that the system would clear new pages for each one.
 QUIET = {"distributed.worker.profile.enabled": False, "distributed.scheduler.active-memory-manager.start": False, "distributed.admin.tick.interval": "1s",
-         "distributed.admin.system-monitor.interval": "5s", "distributed.worker.memory.monitor-interval": "1s"}
+         "distributed.admin.system-monitor.interval": "5s", "distributed.worker.memory.monitor-interval": "1s",
+         "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 2**26, "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 2**25}
 
 
 @contextlib.contextmanager
