@@ -56,8 +56,8 @@ FakeArms& mapped()
 class Opened
 {
 public:
-    Arm* arm = nullptr;   // null: it was never opened
-    std::mutex mutex;     // of what follows
+    std::atomic<Arm*> arm = nullptr;   // null: it was never opened. A call of an earlier device, which has not returned, may still look
+    std::mutex mutex;                  // of what follows
     std::array<double, 3> velocity {}, known {};
     Clock::time_point moved_to, sampled;
     std::uint64_t sampled_step = 0;
@@ -99,7 +99,7 @@ Opened* everOpened (char id)
 /// Without a lock: what reads and what pushes do not wait for each other.
 void stallAt (char id, std::atomic<int> Arm::*what)
 {
-    if (auto* o = everOpened (id); o != nullptr) stall (o->arm->*what);
+    if (auto* o = everOpened (id); o != nullptr) stall (o->arm.load()->*what);
 }
 
 void switchOff (Arm& arm, int cause)
@@ -148,9 +148,9 @@ void live (Opened& o)
 Opened* use (char id)
 {
     auto* o = everOpened (id);
-    const bool is_open = o != nullptr && o->arm->is_open != 0;
-    if (o != nullptr && ! is_open) ++o->arm->calls_after_close;
-    if (is_open && o->arm->is_unplugged == 0 && o->arm->is_muted == 0) return o;
+    const bool is_open = o != nullptr && o->arm.load()->is_open != 0;
+    if (o != nullptr && ! is_open) ++o->arm.load()->calls_after_close;
+    if (is_open && o->arm.load()->is_unplugged == 0 && o->arm.load()->is_muted == 0) return o;
     fail (is_open ? communication : invalid_index);
     return nullptr;
 }
@@ -235,25 +235,25 @@ int push (char id, std::array<double, 3> force, std::array<double, 3> torque, do
 template <typename To, typename T>
 int tell (char id, To* to, std::atomic<T> Arm::*what, T otherwise)
 {
-    return with (id, [&] (Opened& o) { return *to = static_cast<To> (orElse (o.arm->*what, otherwise)), 0; });
+    return with (id, [&] (Opened& o) { return *to = static_cast<To> (orElse (o.arm.load()->*what, otherwise)), 0; });
 }
 
 [[maybe_unused]] int set (char id, std::atomic<int> Arm::*what, int on)
 {
-    return with (id, [&] (Opened& o) { return o.arm->*what = on != 0 ? 1 : 0, 0; });
+    return with (id, [&] (Opened& o) { return o.arm.load()->*what = on != 0 ? 1 : 0, 0; });
 }
 
 [[maybe_unused]] bool has (char id, std::atomic<int> Arm::*what)
 {
     auto* o = use (id);
-    return o != nullptr && (o->arm->*what) != 0;
+    return o != nullptr && (o->arm.load()->*what) != 0;
 }
 
 [[maybe_unused]] int tellGripper (char id, double* to, std::atomic<int> Arm::*fails, double scale)
 {
     return with (id, [&] (Opened& o) {
-        if (o.arm->gripper == 0 || o.arm->*fails != 0) return fail (not_available);
-        *to = scale * o.arm->gripper_angle;
+        if (o.arm.load()->gripper == 0 || o.arm.load()->*fails != 0) return fail (not_available);
+        *to = scale * o.arm.load()->gripper_angle;
         return nothing_new;   // it was read with the position
     });
 }
@@ -266,7 +266,7 @@ int tell (char id, To* to, std::atomic<T> Arm::*what, T otherwise)
 
 [[maybe_unused]] int violate (char id)
 {
-    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm->expert_violations); });
+    return with (id, [] (Opened& o) { return static_cast<int> (++o.arm.load()->expert_violations); });
 }
 }   // namespace
 
@@ -315,8 +315,8 @@ EXPORTED int dhdStop (char id)
 {
     return with (id, [&] (Opened& o) {
         switchOff (*o.arm, 4);
-        ++o.arm->stops;
-        o.arm->stopped_before_close = 1;
+        ++o.arm.load()->stops;
+        o.arm.load()->stopped_before_close = 1;
         return 0;
     });
 }
@@ -324,7 +324,7 @@ EXPORTED int dhdGetStatus (int* status, char id)
 {
     const auto* o = everOpened (id);
     if (o == nullptr) return fail (invalid_index);
-    const auto* arm = o->arm;
+    const auto* arm = o->arm.load();
     if ((arm->is_open != 0 && arm->is_muted != 0) || arm->has_no_status != 0) return fail (communication);
     const bool is_there = arm->is_unplugged == 0;
     if (is_there && with (id, [] (Opened&) { return 0; }) < 0) return -1;
@@ -366,11 +366,11 @@ EXPORTED int dhdSetBrakes (int on, char id) { return set (id, &Arm::is_braked, o
 EXPORTED int dhdSetGravityCompensation (int on, char id) { return set (id, &Arm::weight_is_carried, on); }
 EXPORTED int dhdGetSystemType (char id)
 {
-    return with (id, [] (Opened& o) { return orElse (o.arm->type, 33); });
+    return with (id, [] (Opened& o) { return orElse (o.arm.load()->type, 33); });
 }
 EXPORTED int dhdGetButton (int index, char id)
 {
-    return with (id, [&] (Opened& o) { return (o.arm->buttons >> index) & 1; });
+    return with (id, [&] (Opened& o) { return (o.arm.load()->buttons >> index) & 1; });
 }
 EXPORTED bool dhdHasWrist (char id) { return has (id, &Arm::wrist); }
 EXPORTED int
@@ -382,7 +382,7 @@ dhdGetOrientationFrame
     (double (*frame)[3], char id)
 {
     return with (id, [&] (Opened& o) {
-        const auto& from = o.arm->frame;
+        const auto& from = o.arm.load()->frame;
         const bool is_turned = std::ranges::any_of (from, [] (const auto& v) { return v != 0.0; });
         for (std::size_t i = 0; i < 9; ++i)
             frame[i / 3][i % 3] = is_turned ? from[i].load() : i % 4 == 0 ? 1.0
@@ -404,7 +404,7 @@ EXPORTED const char* dhdGetSystemName (char id)
     auto* o = use (id);
     if (o == nullptr) return nullptr;
     for (const auto& [type, name] : { std::pair { 33, "omega.3" }, { 37, "omega.7 (left-hand)" }, { 60, "Falcon" }, { 63, "delta.3" }, { 104, "sigma.7" } })
-        if (type == orElse (o->arm->type, 33)) return name;
+        if (type == orElse (o->arm.load()->type, 33)) return name;
     return "";
 }
 EXPORTED int dhdGetVersion (double* to, char id) { return tell (id, to, &Arm::firmware, 3.1); }
@@ -421,7 +421,7 @@ EXPORTED int dhdGetGripperGap (double* to, char id) { return tellGripper (id, to
 EXPORTED unsigned dhdGetButtonMask (char id)
 {
     auto* o = use (id);
-    return o != nullptr ? static_cast<unsigned> (o->arm->buttons.load()) : 0;
+    return o != nullptr ? static_cast<unsigned> (o->arm.load()->buttons.load()) : 0;
 }
 EXPORTED int dhdSetForceAndTorque (double x, double y, double z, double a, double b, double c, char id) { return push (id, { x, y, z }, { a, b, c }, 0.0); }
 EXPORTED int dhdSetForceAndGripperForce (double x, double y, double z, double grip, char id) { return push (id, { x, y, z }, {}, grip); }
@@ -432,7 +432,7 @@ EXPORTED int dhdSetForceAndTorqueAndGripperForce (double x, double y, double z, 
 EXPORTED double dhdGetMaxForce (char id)
 {
     auto* o = use (id);
-    return o != nullptr && o->arm->max_force > 0.0 ? o->arm->max_force.load() : -1.0;
+    return o != nullptr && o->arm.load()->max_force > 0.0 ? o->arm.load()->max_force.load() : -1.0;
 }
 EXPORTED int dhdEnableExpertMode() { return enterExpertMode (true); }
 EXPORTED int dhdDisableExpertMode() { return enterExpertMode (false); }
@@ -440,8 +440,8 @@ EXPORTED int dhdGetWatchdog (unsigned char* to, char id)
 {
     return with (id, [&] (Opened& o) {
         if (! is_expert) return fail (expert_disabled);
-        if (o.arm->watchdog < 0) return fail (not_available);   // firmware before 3.0
-        *to = static_cast<unsigned char> (orElse (o.arm->watchdog, 255));
+        if (o.arm.load()->watchdog < 0) return fail (not_available);   // firmware before 3.0
+        *to = static_cast<unsigned char> (orElse (o.arm.load()->watchdog, 255));
         return 0;
     });
 }
@@ -455,21 +455,21 @@ EXPORTED bool drdIsInitialized (char id) { return has (id, &Arm::is_calibrated);
 EXPORTED bool drdIsSupported (char id)
 {
     auto* o = use (id);
-    return o != nullptr && o->arm->calibrates_by_hand == 0;
+    return o != nullptr && o->arm.load()->calibrates_by_hand == 0;
 }
 EXPORTED int drdAutoInit (char id)
 {
     auto* o = use (id);
     if (o == nullptr) return -1;
-    ++o->arm->calibrations;
+    ++o->arm.load()->calibrations;
     for (int i = 0; i < 100; ++i)   // the arm moves
     {
-        std::this_thread::sleep_for (std::chrono::microseconds (10 * orElse (o->arm->calibration_ms, 50)));
-        o->arm->position[0] = 1e-4 * i;
+        std::this_thread::sleep_for (std::chrono::microseconds (10 * orElse (o->arm.load()->calibration_ms, 50)));
+        o->arm.load()->position[0] = 1e-4 * i;
     }
-    o->arm->is_calibrated = 1;
-    o->arm->is_enabled = 1;
-    o->arm->commanded_at = nanoseconds (now());
+    o->arm.load()->is_calibrated = 1;
+    o->arm.load()->is_enabled = 1;
+    o->arm.load()->commanded_at = nanoseconds (now());
     return 0;
 }
 EXPORTED int drdStop (bool with_force, char id)

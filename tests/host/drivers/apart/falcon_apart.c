@@ -10,13 +10,13 @@
 #include <poll.h>
 #include <pthread.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 static pthread_t server;
 static int near_end = -1; /* open, so that the far end does not hang up while no program has it open */
-static volatile int ends;
+static _Atomic int ends;
+static double place[3]; /* of the grip; that of the thread */
 
 /* The angle of each leg's thigh, from the position of the grip: the closed form. */
 static void anglesOf (const double p[3], double angle[3])
@@ -51,25 +51,28 @@ static void forceOf (const double p[3], const int motors[3], double force[3])
 static void answer (struct falcon_apart* a, const unsigned char* packet)
 {
     static double speed[3];
-    int byte13 = packet[13] - 0x41, any = 0;
+    int byte13 = packet[13] - 0x41, any = 0, motors[3];
+    double force[3];
     for (int i = 0; i < 3; ++i)
     {
         unsigned value = 0;
         for (int n = 0; n < 4; ++n)
             value |= (unsigned)((packet[1 + 4 * i + n] - 0x41) & 15) << (4 * n);
-        a->motors[i] = (short)value;
-        any |= a->motors[i];
+        a->motors[i] = motors[i] = (short)value;
+        any |= motors[i];
     }
     a->unhomed += ! (byte13 & 0x11) || (any && a->homed != 7);
     a->lights = byte13 & 14;
-    forceOf (a->position, a->motors, a->force);
+    forceOf (place, motors, force);
     for (int i = 0; i < 3; ++i)
     {
-        speed[i] += 0.001 * (a->force[i] + 200.0 * (a->hand[i] - a->position[i]) - 15.0 * speed[i]) / 0.3;
-        a->position[i] += 0.001 * speed[i];
+        speed[i] += 0.001 * (force[i] + 200.0 * (a->hand[i] - place[i]) - 15.0 * speed[i]) / 0.3;
+        place[i] += 0.001 * speed[i];
+        a->force[i] = force[i];
+        a->position[i] = place[i];
     }
     double angle[3];
-    anglesOf (a->position, angle);
+    anglesOf (place, angle);
     unsigned char out[16] = { '<' };
     for (int i = 0; i < 3; ++i)
     {
@@ -149,7 +152,8 @@ int falcon_apart_begin (struct falcon_apart* a)
     line.c_lflag = 0, line.c_iflag = 0, line.c_oflag = 0; /* raw, so that nothing is echoed before the driver has set the line itself */
     ioctl (a->master, TCSETS2, &line);
     near_end = open (a->port, O_RDWR | O_NOCTTY);
-    memcpy (a->position, a->hand, sizeof a->hand);
+    for (int i = 0; i < 3; ++i)
+        a->position[i] = place[i] = a->hand[i];
     ends = 0;
     return pthread_create (&server, NULL, serve, a) == 0 ? 0 : -1;
 }

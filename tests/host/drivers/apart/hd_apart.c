@@ -52,7 +52,8 @@ static struct job
 } jobs[8];
 static pthread_t servo;
 static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER; /* held while callbacks run: who stops or unschedules waits for them */
-static int running, force_output = 1;
+static _Atomic int running;
+static int force_output = 1;
 static double began;
 
 static double now (void)
@@ -308,7 +309,8 @@ void hdStartScheduler (void)
 {
     if (running)
         { raise_error (COMM + 2); return; }
-    running = 1, began = now();
+    running = 1;
+    began = now();
     pthread_create (&servo, NULL, serve, NULL);
 }
 void hdStopScheduler (void)

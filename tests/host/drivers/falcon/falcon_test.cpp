@@ -571,17 +571,18 @@ TEST_CASE ("a trial of a Falcon finds everything as expected, with at most 0.3 N
         const Vec3 by_falcon { 0.6 * to.x(), 0.6 * to.z(), 0.145 - 0.6 * to.y() };   // 3 cm instead of 5: its space is small
         for (std::size_t i = 0; i < 3; ++i)
             falcon.target[i] = by_falcon[static_cast<Eigen::Index> (i)];
-        REQUIRE (eventually ([&] {
-            desk.device->read();
-            return distance (vec (falcon.place()), by_falcon) < 2e-3;
-        }));
+        REQUIRE (eventually ([&] { return distance (vec (falcon.place()), by_falcon) < 2e-3; }));   // its packets go on without ticks
     };
     hand.force = [&] {
         const Vec3 torques = Vec3 (falcon.motors[0], falcon.motors[1], falcon.motors[2]) / -1e4;
         const Vec3 f = vec (falcon_legs::forceOf (placeOf (torques), falcon.place()));
         return falcon.isAtRest() ? Vec3 (Vec3::Zero()) : Vec3 { f.x(), -f.z(), f.y() };
     };
-    hand.press = [&] (unsigned buttons) { falcon.buttons = buttons; };
+    hand.press = [&] (unsigned buttons) {
+        falcon.buttons = buttons;
+        const auto before = desk.device->counts().readings;   // one of them may have been on its way
+        REQUIRE (eventually ([&] { return desk.device->counts().readings >= before + 2; }));
+    };
     hand.unplug = [&] { falcon.unplug(); };
     falcon.tremor = 2e-4;
     const auto report = host::tryDevice (*desk.device, desk.limits, { .pace = 0.3 }, hand);
