@@ -65,7 +65,7 @@ public:
 };
 
 std::array<Opened, 2> opened;
-FakeArms* arms = nullptr;
+std::atomic<FakeArms*> arms = nullptr;
 [[maybe_unused]] std::atomic<bool> is_expert = false;   // the ancient library has no expert mode
 
 Clock::time_point now() { return Clock::now(); }
@@ -165,7 +165,7 @@ int with (char id, F&& act)
     return act (*o);
 }
 
-int howMany() { return arms->count < 0 ? 0 : orElse (arms->count, 1); }
+int howMany() { return arms.load()->count < 0 ? 0 : orElse (arms.load()->count, 1); }
 
 int openAt (int index)
 {
@@ -173,7 +173,7 @@ int openAt (int index)
     if (index < 0 || index >= howMany()) return fail (no_device);
     auto& o = opened[static_cast<std::size_t> (index)];
     const std::lock_guard lock (o.mutex);
-    auto& arm = arms->arms[static_cast<std::size_t> (index)];
+    auto& arm = arms.load()->arms[static_cast<std::size_t> (index)];
     if (arm.is_unplugged != 0) return fail (no_device);
     if (arm.is_open.exchange (1) != 0) return fail (in_use);
     o.arm = &arm;
@@ -191,7 +191,7 @@ int openAt (int index)
 {
     arms = &mapped();
     for (int i = 0; i < howMany(); ++i)
-        if (auto& arm = arms->arms[static_cast<std::size_t> (i)]; orElse (arm.*what, otherwise + i * more) == is && arm.is_open == 0) return openAt (i);
+        if (auto& arm = arms.load()->arms[static_cast<std::size_t> (i)]; orElse (arm.*what, otherwise + i * more) == is && arm.is_open == 0) return openAt (i);
     return fail (no_device);
 }
 
