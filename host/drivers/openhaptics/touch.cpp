@@ -79,6 +79,7 @@ public:
     static std::shared_ptr<Owner> get (std::string& why)
     {
         static std::weak_ptr<Owner> running;
+        const std::lock_guard lock (opening);
         if (auto owner = running.lock(); owner != nullptr && ! owner->process.hasEnded (0) && owner->shared->is_ending == 0) return owner;
         auto owner = std::make_shared<Owner>();
         why = owner->launch();
@@ -98,6 +99,7 @@ public:
     /// A place for an arm, which the helper opens; null: all are taken.
     SharedArm* add (const std::string& name) const
     {
+        const std::lock_guard lock (opening);
         const auto at = std::ranges::find_if (shared->arms, [] (const SharedArm& arm) { return arm.is_wanted == 0 && arm.state == SharedArm::unused; });
         if (at == shared->arms.end()) return nullptr;
         put (at->name, sizeof at->name, name);
@@ -131,6 +133,7 @@ private:
         return why;
     }
 
+    static inline std::mutex opening;   // each arm of a program is opened again on a thread of its own
     SharedArms* shared = nullptr;
 
 public:
