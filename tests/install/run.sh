@@ -124,6 +124,9 @@ flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus-live)
 eval "cc -Wall -Wextra -Werror \"\$examples/live_c/main.c\" $flags -o \"\$work/live_by_pkg_config\""
 LD_LIBRARY_PATH=$libs "$work/live_by_pkg_config" "$source/graphs/dry_wood.json" stylus=gesture:stroke 0.5 >/dev/null
 echo "docs/examples/live_c: built by CMake and by pkg-config; $(cat "$work/live_c.txt")"
+if [ -d "$work/prefix/lib/python3/dist-packages/tactus" ]; then   # the package finds the library of its own prefix
+    PYTHONPATH=$work/prefix/lib/python3/dist-packages /usr/bin/python3 -B -c 'import tactus; tactus.check("dry_wood")'
+fi
 
 if PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags tactus tactus-live | tr ' ' '\n' | grep -vE '^(-I.*)?$'; then
     echo "pkg-config passes on more than folders of headers" >&2

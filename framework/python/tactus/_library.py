@@ -44,17 +44,17 @@ _loaded: Optional[ctypes.CDLL] = None
 
 
 def live() -> ctypes.CDLL:
-    """libtactus_live: in this package, as in a wheel; next to the programs in a build folder; or the installed one."""
+    """libtactus_live: in this package, as in a wheel; next to the programs in a build folder; under the prefix of this package; or that of the system."""
     global _loaded
     if _loaded is None:
         name = "libtactus_live.so.0"
         here = os.path.dirname(os.path.abspath(__file__))
-        path = next((os.path.normpath(p) for p in (f"{here}/{name}", f"{here}/../../bin/{name}") if os.path.exists(p)), name)
+        path = next((os.path.normpath(p) for p in (f"{here}/{name}", f"{here}/../../bin/{name}", f"{here}/../../../{name}") if os.path.exists(p)), name)
         try:
             library = ctypes.CDLL(path, mode=ctypes.RTLD_GLOBAL)   # global, because code of fused graphs calls its functions
         except OSError as why:
             fail("live/library", name, f"real devices, checks and fits need this library, and it cannot be loaded: {why}",
-                 "install the Debian package libtactus-live0, or what the message names")
+                 "install the Debian package libtactus-live0, the component `live` of a build, or what the message names")
         for function in ("messages_create", "graph_load", "graph_parse", "session_open", "nodes_json", "check", "limits", "fit", "convert", "devices"):
             getattr(library, "tactus_" + function).restype = ctypes.c_void_p
         for function in ("messages_count", "session_events", "session_record_count", "session_probe_count", "session_collect",
