@@ -40,7 +40,8 @@ bool comesWith (const fs::path& program_folder, const fs::path& place)
     {
     };
     struct stat own = common;
-    if (::stat (at.c_str(), &common) != 0 || ::stat (program_folder.c_str(), &own) != 0) return false;
+    if (::stat (at.c_str(), &common) != 0) return false;
+    if (::stat (program_folder.c_str(), &own) != 0) own = {};   // a library that was installed without programs
     for (; part != place.end(); ++part)
     {
         at /= *part;

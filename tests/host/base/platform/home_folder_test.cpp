@@ -67,9 +67,12 @@ TEST_CASE ("what another user puts next to a program is not taken for a part of 
     const auto place = folder / "host/devices/profiles";
     CHECK (host::shippedWith (program, { "profiles", "../../../host/devices/profiles" }) == place);
     CHECK (host::shippedWith (program, { "../share", "../../../host/devices/profiles" }) == folder / "tactus/out/share");
+    const auto no_program = folder / "tactus/out/none";   // as a library that was installed without programs has it
+    CHECK (host::shippedWith (no_program, { "../share" }) == folder / "tactus/out/share");
 
     fs::permissions (folder / "host", fs::perms::all);
-    CHECK (host::shippedWith (program, { "../../../host/devices/profiles" }).empty());
+    for (const auto& from : { program, no_program })
+        CHECK (host::shippedWith (from, { "../../../host/devices/profiles" }).empty());
     fs::permissions (program, fs::perms::all);   // all can replace the program itself: as on file systems without permissions
     CHECK (host::shippedWith (program, { "../../../host/devices/profiles" }) == place);
     fs::permissions (program, fs::perms::owner_all);
