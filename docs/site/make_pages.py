@@ -39,7 +39,7 @@ SECTIONS = {
                   [*(f"tutorials/{name}" for name in ("first_graph", "first_node", "first_device", "recording_to_preset", "embed")), "tutorials/notebook", "tutorials/lab"]),
     "How to": ("One page per task: first patching and playing, then devices, then programs of your own.",
                ["host", "replay", "fit", "import", "clips", "spectra", "devices", "known_devices", "sessions", "audio", "check", "realtime",
-                "library", "steps", "states", "live", "export", "python", "lab", "plugins"]),
+                "library", "steps", "states", "live", "export", "python", "csharp", "lab", "studies", "plugins", "windows"]),
     "Concepts": ("What the words mean, and how the parts work together.",
                  ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "panels", "threads", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",

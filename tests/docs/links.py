@@ -7,7 +7,8 @@ docs/tutorials/*.md, graphs/README.md.
 
 Checks relative links and their #anchors, pictures, and names in backticks or code blocks that look like files of the repository:
 paths that begin with one of its folders (a * must match something), and bare names of tests, scripts and headers. Paths with the
-placeholders NAME or <...> are skipped, and so is everything under build/ and out/. Also fails if no page shows a picture of docs/host/.
+placeholders NAME or <...> are skipped, and so is everything under build/ and out/. Also fails if no page shows a picture of docs/host/,
+or if the site has no place for a page.
 """
 import pathlib
 import re
@@ -83,6 +84,11 @@ def main():
     for picture in sorted(ROOT.glob("docs/host/*.png")):
         if picture not in shown:
             print(f"{picture.relative_to(ROOT)}: no page shows this picture")
+            count += 1
+    placed = set(re.findall(r'"([\w/]+)"', (ROOT / "docs/site/make_pages.py").read_text(encoding="utf-8")))
+    for page in sorted(ROOT.glob("docs/*.md")):
+        if page.stem not in placed:
+            print(f"{page.relative_to(ROOT)}: it has no place in SECTIONS of docs/site/make_pages.py")
             count += 1
     print(f"{len(PAGES)} pages, {count} problems")
     return 1 if count else 0
