@@ -52,7 +52,7 @@ def make_module(tactus, preset, modules):
         run("make", "-s", "-C", folder, "wasm")
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)
-        for name in (f"{preset}.wasm", f"{preset}.js", f"{preset}.d.ts", "tactus_graph.js", "tactus_graph.d.ts"):
+        for name in (f"{preset}.wasm", f"{preset}.js", "tactus_graph.js", "tactus_page.js"):
             shutil.copy(folder / name, kept)
         (kept / "hash").write_text(digest)
     return kept

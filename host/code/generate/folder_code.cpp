@@ -176,9 +176,8 @@ also prints how many bytes the graph takes. `make memory` says more, and `make i
         text += filled (R"(
 `make wasm` builds `@S@.wasm`, which needs no imports: no threads, no exceptions, no memory from a heap. It needs clang 22 with its libraries for
 WebAssembly. `make wasm_test` runs the self-test in node. `index.html` is a page that plays the graph: the pointer moves the tool, and the force becomes
-sound. With `package.json`, the folder is a package for npm and bundlers. Without either, copy `@S@.wasm`, `@S@.js` and `tactus_graph.js` to your server
-(in Node.js, import `@S@_node.js`);
-`@S@_worklet.js` and `tactus_worklet.js` tick the graph on the audio thread; `.d.ts` are types for TypeScript.
+sound. With `package.json`, the folder is a package for npm and bundlers. Without either, copy `@S@.wasm` and all files that end in `.js` to your server
+(in Node.js, import `@S@_node.js`). `.d.ts` are types for TypeScript.
 
 ```js
 import { @C@ } from './@S@.js';   // in Node.js: './@S@_node.js'

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -93,7 +94,7 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     {
         INFO (node);
         if (std::system (("command -v " + std::string (node) + " > /dev/null").c_str()) != 0) continue;
-        for (const std::string script : { "package_in_node.mjs", "mistakes_in_node.mjs", "worklet_in_node.mjs" })
+        for (const std::string script : { "package_in_node.mjs", "worklet_in_node.mjs" })
         {
             const auto tried = runProgram (node, { scripts + script, folder, "-0.0003" });
             INFO (script << "\n"
@@ -138,9 +139,19 @@ TEST_CASE ("a module for WebAssembly has doubles, types and a class with the nam
     for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ",
                               "export type Hit = \"creak.hit\";", "export type Role = \"index\" | \"thumb\";" })
         CHECK (types.find (text) != std::string::npos);
-    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h", "two_fingers_worklet.d.ts" })
+    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h", "two_fingers_worklet.d.ts", "tactus_page.d.ts" })
         CHECK (std::filesystem::exists (folder + "/" + file));
     CHECK_FALSE (std::filesystem::exists (folder + "/two_fingers_example.c"));
+}
+
+TEST_CASE ("the page on exports shows the page of an export, whole, in about 20 lines", "[cli][export][wasm]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("web");
+    REQUIRE (runTactus ({ "export", "dry_wood", "-o", folder, "--to", "wasm" }).status == 0);
+    const auto page = textOf (folder + "/index.html");
+    CHECK (std::count (page.begin(), page.end(), '\n') <= 20);
+    CHECK (textOf (TACTUS_SOURCE_DIR "/docs/export.md").find ("```html\n" + page + "```\n") != std::string::npos);
 }
 
 TEST_CASE ("only Node.js gets files of a module for WebAssembly that import modules of Node.js", "[cli][export][wasm]")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The types of tactus_worklet.js.
+// The types of the options and messages of the AudioWorklet.
 import { Stop } from './tactus_graph.js';
 
 /** The processorOptions of the AudioWorkletNode. */
@@ -23,9 +23,9 @@ export interface ToWorklet
     strike?: Record<string, number>;   // hits, in m/s
     stop?: boolean;                 // the emergency stop
     rearm?: boolean;                // ends a latched stop: only after an act of a person
+    end?: boolean;                  // ends the processor
 }
 
 /** What the node posts: 20 times a second what is felt, once there is a position, and why something was refused. */
-export type FromWorklet = { level: number; force: number[]; stop: Stop; latched: boolean } | { refused: string };
-
-export function register (name: string, Graph: new (module: WebAssembly.Module) => object): void;
+export type FromWorklet = { level: number; force: number[]; stop: Stop; latched: boolean; refused?: undefined }
+    | { refused: string; level?: undefined; force?: undefined; stop?: undefined; latched?: undefined };

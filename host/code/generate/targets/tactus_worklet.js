@@ -7,7 +7,7 @@ const told_s = 0.05;      // how often the page is told
 const settle_s = 0.02;    // after a leap: what the graph makes of it dies away before there is an effort again
 const lowest_hz = 20;     // slower changes of the force are no sound
 const most_speed = 0.9;   // of the speed at which the guard stops
-const messages = ['position', 'rotation', 'jump', 'role', 'turn', 'set', 'strike', 'stop', 'rearm'].map (name => ({ name }));
+const messages = ['position', 'rotation', 'jump', 'role', 'turn', 'set', 'strike', 'stop', 'rearm', 'end'].map (name => ({ name }));
 
 /** A tool that the page moves. Its role has no valid reading until the page has said where it is. */
 class Tool
@@ -112,6 +112,7 @@ export function register (name, Graph)
             this.keeps = Math.exp (-2 * Math.PI * lowest_hz / rate_hz);
             this.told = Math.max (1, Math.round (told_s * rate_hz));
             this.due = this.ticks = this.before = this.sound = this.squares = 0;
+            this.has_ended = false;
             this.port.onmessage = ({ data }) => this.take (data);
         }
 
@@ -143,6 +144,7 @@ export function register (name, Graph)
             const each = (all, act) => Object.entries (all ?? {}).forEach (one => this.attempt (() => act (...one)));
             if (data?.stop) this.graph.emergencyStop();
             if (data?.rearm) this.graph.rearm();
+            this.has_ended ||= Boolean (data?.end);
             each (data, part => indexOf (messages, part, 'message'));
             this.attempt (() => this.place (data ?? {}));
             each (data?.turn, (control, position) => this.graph.turn (control, position));
@@ -204,7 +206,7 @@ export function register (name, Graph)
             }
             for (const other of others)
                 other.set (first);
-            return true;
+            return ! this.has_ended;
         }
     });
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace tactus::host
 {
@@ -208,14 +209,19 @@ std::string script (const Exported& e, std::uint32_t digest)
     return filled (R"(// SPDX-License-Identifier: MIT
 // Written by `@PROGRAM@ export` from @FILE@. README.md says how to use it.
 import { Graph, compile } from './tactus_graph.js';
+import { Player } from './tactus_page.js';
 
 export const about = @ABOUT@;
+
+const files = { module: new URL ('@S@.wasm', import.meta.url), worklet: new URL ('@S@_worklet.js', import.meta.url) };
 
 export class @C@ extends Graph
 {
     constructor (module) { super (module, about); }
 
-    static async load (address = new URL ('@S@.wasm', import.meta.url)) { return new @C@ (await compile (address)); }
+    static async load (address = files.module) { return new @C@ (await compile (address)); }
+
+    static play (element, options) { return new Player (about.name, files, element, options); }
 }
 )",
                    { { "@ABOUT@", aboutOf (e, digest) },
@@ -255,6 +261,7 @@ std::string types (const Exported& e)
         roles.push_back (role.name);
     return filled (R"(// SPDX-License-Identifier: MIT
 import { About, Effort, Graph, Reading } from './tactus_graph.js';
+import { PlayOptions, Player } from './tactus_page.js';
 
 export interface Inputs
 {
@@ -273,6 +280,7 @@ export class @C@ extends Graph<Inputs, Outputs, Param, Control, Hit, Role>
 {
     constructor (module: WebAssembly.Module);
     static load (address?: string | URL): Promise<@C@>;
+    static play (element: Element, options?: PlayOptions): Player;
 }
 )",
                    { { "@INPUTS@", inputs },
@@ -285,7 +293,7 @@ export class @C@ extends Graph<Inputs, Outputs, Param, Control, Hit, Role>
 }
 
 /// The files that are the same for all graphs.
-constexpr std::array shared_files { "tactus_graph.js", "tactus_graph.d.ts", "tactus_node.js", "tactus_worklet.js", "tactus_worklet.d.ts" };
+constexpr std::array shared_files { "tactus_graph.js", "tactus_graph.d.ts", "tactus_node.js", "tactus_page.js", "tactus_page.d.ts", "tactus_worklet.d.ts" };
 
 /// The package.json of the folder, for npm, bundlers and Node.js. Only with the condition `node` do they get files that import modules of Node.js.
 std::string package (const Exported& e)
@@ -311,7 +319,7 @@ std::string package (const Exported& e)
                            { "types", stem + ".d.ts" },
                            { "exports", Json::object ({ { ".", entry (stem + ".d.ts", stem + ".js", stem + "_node.js") },
                                                         { "./tactus_graph.js", entry ("./tactus_graph.d.ts", "./tactus_graph.js", "./tactus_node.js") },
-                                                        { "./tactus_worklet.js", entry ("./tactus_worklet.d.ts", "./tactus_worklet.js") },
+                                                        { "./tactus_page.js", entry ("./tactus_page.d.ts", "./tactus_page.js") },
                                                         { "./worklet", entry (stem + "_worklet.d.ts", stem + "_worklet.js") },
                                                         { stem + ".wasm", stem + ".wasm" } }) },
                            { "files", std::move (files) } })
@@ -337,78 +345,31 @@ export type { FromWorklet, Options, ToWorklet } from './tactus_worklet.js';
 )";
 }
 
-/// It has what it says about the graph itself, because the script has the address of the module, for which webpack adds code that no AudioWorklet can run.
+std::string shared (const std::string& name) { return std::string (findSource ("host/code/generate/targets/" + name)->text); }
+
+/// A script without its imports and exports, as a part of another script.
+std::string part (const std::string& name)
+{
+    std::istringstream lines (shared (name));
+    std::string text, line;
+    while (std::getline (lines, line))
+        if (! line.starts_with ("import ") && ! line.starts_with ("// SPDX")) text += line.substr (line.starts_with ("export ") ? 7 : 0) + "\n";
+    return text;
+}
+
+/// One file, because bundlers copy a script that a page gives to addModule() as it is, without what it imports.
 std::string worklet (const Exported& e, std::uint32_t digest)
 {
     return filled (R"(// SPDX-License-Identifier: MIT
-// The processor '@S@' for an AudioWorkletNode: see tactus_worklet.js.
-import { Graph } from './tactus_graph.js';
-import { register } from './tactus_worklet.js';
-
+// The processor '@S@' for an AudioWorkletNode.
 const about = @ABOUT@;
 
+@GRAPH@
+@WORKLET@
 register ('@S@', class extends Graph { constructor (module) { super (module, about); } });
 )",
-                   { { "@ABOUT@", aboutOf (e, digest) }, { "@S@", e.stem } });
+                   { { "@ABOUT@", aboutOf (e, digest) }, { "@GRAPH@", part ("tactus_graph.js") }, { "@WORKLET@", part ("tactus_worklet.js") }, { "@S@", e.stem } });
 }
-
-/// From the pointer to the position of the tool, and from its force to sound, and to the rumble of a gamepad.
-std::string page (const Exported& e)
-{
-    return filled (R"(<!doctype html>
-<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>@S@</title>
-<body style="margin: 0; height: 100vh; touch-action: none"><output>Press, and drag.</output></body>
-<script type="module">
-import { compile } from './tactus_graph.js';
-
-const module = compile (new URL ('@S@.wasm', import.meta.url)), output = document.querySelector ('output'), told = text => { output.textContent = text; };
-let sound, node, last;   // of the pointer
-
-async function start()
-{
-    sound = new AudioContext();
-    await sound.audioWorklet.addModule ('@S@_worklet.js');
-    node = new AudioWorkletNode (sound, '@S@', { processorOptions: { module: await module, gain: 0.3 } });
-    node.connect (sound.destination);
-    node.port.onmessage = ({ data: { level, stop, latched, refused } }) =>
-    {
-        told (refused ?? (latched ? `Stopped: ${stop}. Press to go on.` : 'Press, and drag.'));
-        const pad = navigator.getGamepads?.().find (one => one?.vibrationActuator);
-        if (level > 0.001) pad?.vibrationActuator   // all of it at 0.1 N
-            .playEffect ('dual-rumble', { duration: 100, weakMagnitude: Math.min (1, 10 * level) })?.catch (() => {});
-    };
-    move (last, true);
-}
-
-/** 0.1 mm for each pixel from the middle of the window; a pressed pointer is 0.2 mm below z = 0. A pointer that leaps touches nothing on its way. */
-function move (at, jump = false)
-{
-    last = at;
-    const x = 1e-4 * (at.clientX - innerWidth / 2), y = 1e-4 * (innerHeight / 2 - at.clientY);
-    if (jump) node?.port.postMessage ({ position: [x, y, 2e-4], jump });
-    node?.port.postMessage ({ position: [x, y, at.buttons ? -2e-4 : 2e-4] });
-}
-
-addEventListener ('pointerdown', at =>
-{
-    move (at, true);
-    node?.port.postMessage ({ rearm: true });               // a press is an act of a person
-    if (sound === undefined) start().catch (why => told (why.message));
-});
-addEventListener ('pointermove', at => move (at));
-document.documentElement.addEventListener ('pointerenter', at => move (at, true));
-for (const end of ['pointerup', 'pointercancel'])
-    addEventListener (end, at =>
-    {
-        move ({ clientX: at.clientX, clientY: at.clientY, buttons: 0 });
-        sound?.resume();                                    // a touch lets a page sound only when it ends
-    });
-</script>
-)",
-                   { { "@S@", e.stem } });
-}
-
-std::string shared (const std::string& name) { return std::string (findSource ("host/code/generate/targets/" + name)->text); }
 }   // namespace
 
 std::vector<std::pair<std::string, std::string>> wasmFiles (const Exported& e, std::uint32_t digest)
@@ -420,7 +381,7 @@ std::vector<std::pair<std::string, std::string>> wasmFiles (const Exported& e, s
                                                              { e.stem + "_worklet.js", worklet (e, digest) },
                                                              { e.stem + "_worklet.d.ts", workletTypes() },
                                                              { "package.json", package (e) },
-                                                             { "index.html", page (e) } };
+                                                             { "index.html", filled (shared ("index.html"), { { "@S@", e.stem }, { "@C@", e.class_name } }) } };
     for (const auto* name : shared_files)
         files.emplace_back (name, shared (name));
     return files;

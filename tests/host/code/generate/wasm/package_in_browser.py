@@ -64,7 +64,7 @@ def main(folder, trace, *sets):
         finally:
             process.terminate()
             process.wait()
-    if found.get("fault") or found["different"] != 0 or found["rumbles"] is not True:
+    if found.get("fault") or found["different"] != 0 or found["rumbles"] is not True or found["plays"] is not True:
         print({key: value for key, value in found.items() if key != "lines"}, file=sys.stderr)
         return 1
     print("\n".join(found["lines"]))

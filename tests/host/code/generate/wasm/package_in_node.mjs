@@ -1,57 +1,73 @@
 // SPDX-License-Identifier: MIT
-// An exported folder as a package, in node: package_in_node.mjs FOLDER. Imports it by its name, loads its module from a file, and runs its AudioWorklet with
-// stand-ins for the classes of a browser. Prints "ok", or throws.
+// An exported folder as a package, in node: package_in_node.mjs FOLDER. Imports it by its name, loads its module from a file, and makes the mistakes of a
+// program, which must be named, not ignored. Prints "ok", or throws.
 import assert from 'node:assert';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { blocks, gain, positionAt, sample_rate, size, soundOf } from './shared.mjs';
 
-const folder = resolve (process.argv[2]), about = JSON.parse (readFileSync (join (folder, 'package.json'), 'utf8'));
-const project = mkdtempSync (join (tmpdir(), 'package-'));
-try
-{
-    mkdirSync (join (project, 'node_modules'));
-    symlinkSync (folder, join (project, 'node_modules', about.name));
-    for (const file of about.files)
-        readFileSync (join (folder, file));   // it is there
-    writeFileSync (join (project, 'main.mjs'), `
-export * as graph from '${about.name}';
-export { compile } from '${about.name}/tactus_graph.js';
-export const wasm = import.meta.resolve ('${about.name}/${about.name}.wasm'), worklet = import.meta.resolve ('${about.name}/worklet');
+const folder = resolve (process.argv[2]), { name, files } = JSON.parse (readFileSync (join (folder, 'package.json'), 'utf8'));
+const project = mkdtempSync (join (tmpdir(), 'package-')), main = join (project, 'main.mjs');
+for (const file of files)
+    readFileSync (join (folder, file));   // it is there
+mkdirSync (join (project, 'node_modules'));
+symlinkSync (folder, join (project, 'node_modules', name));
+writeFileSync (main, `
+export * as exported from '${name}';
+export { compile, Graph } from '${name}/tactus_graph.js';
+export const addresses = ['${name}/${name}.wasm', '${name}/worklet'].map (one => import.meta.resolve (one));
 `);
-    const { graph, compile, wasm, worklet } = await import (pathToFileURL (join (project, 'main.mjs')));
-    const Type = Object.values (graph).find (one => typeof one === 'function');
-    const loaded = await Type.load();   // from a file
-    assert.strictEqual (loaded.about.name, about.name);
+const { exported, compile, Graph, addresses } = await import (pathToFileURL (main)).finally (() => rmSync (project, { recursive: true }));
+assert.deepStrictEqual (addresses.map (one => readFileSync (new URL (one)).length > 1000), [true, true]);
+const Type = Object.values (exported).find (one => typeof one === 'function'), { about } = exported, graph = await Type.load();
+const wait = () => { for (let k = 0; k < about.rate_hz; ++k) graph.tick(); };
+const [role] = about.roles, [control] = about.controls, param = about.params.find (one => control.moves.includes (one.name));
+const { position } = graph.inputs[role.member];
 
-    const said = [], registered = {};
-    globalThis.sampleRate = sample_rate;
-    globalThis.AudioWorkletProcessor = class { port = { postMessage: message => said.push (message) }; };
-    globalThis.registerProcessor = (name, type) => { registered[name] = type; };
-    await import (worklet);
-    const processor = new registered[about.name] ({ processorOptions: { module: await compile (wasm), gain } });
-    const { samples, ticks } = soundOf (loaded), rate = loaded.about.rate_hz, stereo = [new Float32Array (size), new Float32Array (size)];
-    for (let block = 0; block < blocks; ++block)
-    {
-        const position = positionAt (block);
-        if (position !== undefined) processor.port.onmessage ({ data: { position } });
-        assert.strictEqual (processor.process ([], [stereo]), true);
-        for (const channel of stereo)
-            assert.deepStrictEqual (channel, samples.slice (block * size, (block + 1) * size));
-    }
-    assert.ok (Math.abs (ticks - blocks * size * rate / sample_rate) <= 1);
-    assert.strictEqual (said.length, Math.floor (ticks / Math.round (0.05 * rate)));
-    assert.ok (said.some (one => one.level > 0) && said.at (-1).force.length === 3);
+// A position that is assigned is copied: the tool stays in the memory of the graph.
+graph.inputs[role.member].position = [1e-3, 2e-3, -3e-4];
+assert.deepStrictEqual ([...position], [1e-3, 2e-3, -3e-4]);
+assert.strictEqual (graph.inputs[role.member].position, position);
+assert.throws (() => { graph.inputs[role.member].position = [0, 0]; }, /"position" takes 3 numbers, not \[0, 0\]/);
+assert.throws (() => { graph.inputs[role.member].position = undefined; }, TypeError);
+assert.throws (() => { graph.inputs[role.member].positon = [0, 0, 0]; }, TypeError);
+assert.throws (() => { graph.inputs[role.member] = {}; }, TypeError);
+assert.throws (() => { graph.outputs[role.member].force = [0, 0, 0]; }, TypeError);
+wait();
+assert (graph.outputs[role.member].force[2] > 0);
 
-    processor.port.onmessage ({ data: { stop: true } });
-    for (let block = 0; block < 20; ++block)
-        processor.process ([], [stereo]);
-    assert.deepStrictEqual (Array.from (processor.first.effort.force).map (Math.abs), [0, 0, 0]);
-    console.log ('ok');
-}
-finally
+// Numbers are clamped, and must be some.
+const turned = to => { graph.turn (control.name, to); wait(); return graph.get (param.name); };
+const low = turned (0), high = turned (1);
+assert.notStrictEqual (low, high);
+assert.strictEqual (turned (-3), low);
+assert.strictEqual (turned (7), high);
+assert.throws (() => graph.turn (control.name, NaN),
+               { name: 'RangeError', message: `turn ('${control.name}'): NaN is not a finite number; give one from 0 to 1` });
+assert.throws (() => graph.turn (control.name, '0.5'), { name: 'TypeError', message: /"0.5" is not a finite number/ });
+for (const one of about.params)
 {
-    rmSync (project, { recursive: true });
+    assert (one.hard_min === null || one.min === null || one.hard_min <= one.min);
+    assert (one.hard_max === null || one.max === null || one.hard_max >= one.max);
+    assert.throws (() => graph.set (one.name, 'abc'), TypeError);
+    assert.throws (() => graph.set (one.name, Infinity), RangeError);
+    for (const [value, most] of [[1e300, one.hard_max], [-1e300, one.hard_min]])
+    {
+        if (most === null) continue;
+        graph.set (one.name, value);
+        assert.strictEqual (graph.get (one.name), most);
+    }
 }
+assert (about.params.some (one => one.hard_max !== one.max));
+assert.throws (() => graph.strike (about.hits[0]?.name ?? 'none', NaN),
+               about.hits.length > 0 ? /NaN is not a finite number/ : /there is no hit "none"; there are none$/);
+
+// A module of another export.
+const module = await compile (pathToFileURL (join (folder, `${name}.wasm`)));
+assert.throws (() => new Graph (module, { ...about, digest: about.digest + 1 }), /is from another export/);
+
+// Files that are not there.
+await assert.rejects (Type.load ('nowhere.wasm'), /"nowhere.wasm" is not a URL; in Node.js, give a file: URL, such as new URL/);
+await assert.rejects (Type.load (pathToFileURL (join (folder, 'nowhere.wasm'))), /ENOENT.*nowhere\.wasm/);
+console.log ('ok');

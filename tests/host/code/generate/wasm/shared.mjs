@@ -37,7 +37,7 @@ export function soundOf (graph)
 {
     const rate = graph.about.rate_hz, role = graph.about.roles[0].member, glide = Math.round (0.016 * rate), keeps = Math.exp (-2 * Math.PI * 20 / rate);
     const samples = new Float32Array (blocks * size);
-    let due = 0, before = 0, sound = 0, left = 0, target, ticks = 0, pressed = 0;
+    let due = 0, before = 0, sound = 0, left = 0, target, pressed = 0;
     for (let i = 0; i < samples.length; ++i)
     {
         if (i % size === 0 && positionAt (i / size) !== undefined)
@@ -55,11 +55,10 @@ export function soundOf (graph)
             const f = graph.outputs[role].force, now = f[0] + f[1] + f[2];
             sound = now - before + keeps * sound;
             before = now;
-            ++ticks;
             pressed += now !== 0 ? 1 : 0;
         }
         samples[i] = gain * sound;
     }
     if (pressed < 100) throw new Error ('the tool does not press');
-    return { samples, ticks };
+    return samples;
 }

@@ -187,4 +187,12 @@ for (const sound of [about.records[0].name, about.records[0].member])
         assert (page.processor.graph.outputs[role.member].force.some (value => value !== 0), role.name);
     });
 }
+
+// Once it has ended, the browser may forget it.
+{
+    const { processor } = new Page(), go = () => processor.process ([], [[new Float32Array (size)]]);
+    assert.strictEqual (go(), true);
+    processor.port.onmessage ({ data: { end: true } });
+    assert.strictEqual (go(), false);
+}
 console.log ('ok');
