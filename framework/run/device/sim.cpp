@@ -68,7 +68,8 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
     Vec3 sent = rounded (guarded.force, what.force_quantum);
     if (! isFinite (sent)) sent.setZero();
     const auto [from_graph, asked] = delayed ({ sent, std::clamp (finiteOrZero (guarded.brake), 0.0, what.brake) });
-    const Vec3 from_hand = handForce();
+    const bool is_led = what.hand.path && std::isinf (what.hand.stiffness);
+    const Vec3 from_hand = is_led ? Vec3 (Vec3::Zero()) : handForce();
     braking += brake_share * (asked - braking);
 
     if (bends())
@@ -82,6 +83,10 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
         moves (at, speed, finiteOrZero (guarded.axes[static_cast<int> (i)]) + axis.hand_force - axis.stiffness * (at - axis.position));
     }
     ++tick;
+    if (! is_led) return;
+    const auto [position, velocity] = what.hand.path->at (static_cast<double> (tick) * dt);
+    rigid.start (position, velocity);
+    flexible.start (position, velocity);
 }
 
 DeviceLayout SimulatedDevice::layout() const

@@ -81,7 +81,7 @@ inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass >
 /// Good to know
 ///  - A force that is not a number counts as 0. The state stays finite as long as the loop is stable.
 ///  - The forces of the hand's spring and damper are held for a tick, like any force, so a hand with damping > 2M/T - B makes the
-///    tool oscillate on its own.
+///    tool oscillate on its own. A hand of infinite stiffness takes the tool exactly along its path, whatever the force.
 ///  - Axes in addition to the tool follow the same law, with their own mass and damping; their efforts are neither delayed nor
 ///    rounded.
 ///  - duration() is the duration of the hand's path, or 0 without one.

@@ -11,6 +11,7 @@
 #include <tactus/run/device/trace.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -208,6 +209,11 @@ std::unique_ptr<Device> LiveRun::chosenHand (const SimulatedDevice* described, d
         const auto* chosen = dynamic_cast<SimulatedDevice*> (made.device.get());
         if (chosen == nullptr) return nullptr;
         what.hand.path = transported = std::make_shared<TransportPath> (chosen->simulation().hand.path);
+        if (findGesture (moved_by.path) == nullptr)   // a recording: the tool goes exactly where it was, so that it is felt as it was recorded
+        {
+            what.hand.stiffness = std::numeric_limits<double>::infinity();
+            what.quantum = 0.0;
+        }
         what.position = what.hand.path->at (0.0).position;
         what.velocity.setZero();
         break;

@@ -318,7 +318,8 @@ void TakePanel::makeGesture()
             markAsUsed (*of);
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
-                        TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."),
+                        TRANS ("To feel it again, drop the file on the panel of the hand at the lower left. The tool then goes where it was recorded, whatever "
+                               "the force."),
                         [this, to] { useGesture (to); });
         });
     });

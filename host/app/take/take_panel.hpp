@@ -108,7 +108,7 @@ private:
     ToolButton list { TRANS ("Takes"), ToolButton::Kind::framed, TRANS ("All takes since the window was opened: show, save or open one") };
     ToolButton clip { TRANS ("Make a clip..."), ToolButton::Kind::framed, TRANS ("Save the marked stretch of this port as a clip that signal.clip plays") };
     ToolButton gesture { TRANS ("Make a gesture..."), ToolButton::Kind::framed,
-                         TRANS ("Save the movement of the hand in the marked stretch as a path that a simulated hand follows") };
+                         TRANS ("Save the movement of the hand in the marked stretch as a path along which a simulated tool can go again") };
     ToolButton test { TRANS ("Make a test..."), ToolButton::Kind::framed,
                       TRANS ("Save a test that plays this run again and compares the marked stretch, bit for bit. It begins at the start of the run, "
                              "because the state of the nodes is known there.") };

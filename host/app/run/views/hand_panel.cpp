@@ -89,7 +89,8 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     source.setSelectedId (as_described, juce::dontSendNotification);
     shown_source = as_described;
     source.setTooltip (TRANS ("What moves the tool. Its own device is the one chosen in the Devices panel, or else the one described in the graph. "
-                              "Drop a recording (CSV with t,x,y,z) here to play it."));
+                              "Drop a recording (CSV with t,x,y,z) here to play it: the tool goes where it was recorded, whatever the force. "
+                              "A gesture is followed by a soft hand."));
     source.onChange = [this] { choose(); };
     tools.setTitle (TRANS ("Which tool the hand moves"));
     tools.setTooltip (TRANS ("Which tool the hand moves, such as a finger. The others are moved by their own devices, gestures or recordings."));

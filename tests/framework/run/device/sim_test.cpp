@@ -39,6 +39,24 @@ Vec3 anyVector (double reach)
 }
 }   // namespace
 
+TEST_CASE ("sim: a hand of infinite stiffness takes the tool along its path, whatever the force", "[host][devices]")
+{
+    const auto path = std::make_shared<GesturePath> (*findGesture ("stroke"), Placement {});
+    const double first_mode = GENERATE (0.0, 30.0);
+    Simulation what { .first_mode = first_mode, .position = path->at (0.0).position };
+    what.hand = { .stiffness = std::numeric_limits<double>::infinity(), .damping = 1.0, .path = path };
+    constexpr double dt = 1e-3;
+    auto device = prepared (what, dt);
+    for (int k = 0; k < 500; ++k)
+    {
+        const auto now = device.read();
+        const auto there = path->at (k * dt);
+        REQUIRE (Vec3 (now.position) == there.position);
+        if (k > 0) REQUIRE (now.true_velocity == there.velocity);
+        device.write (pushing (Vec3 (0.0, 1.0, 5.0)));
+    }
+}
+
 TEST_CASE ("sim: an axis in addition to the tool moves like a mass on a spring", "[host][devices]")
 {
     // Critically damped: m x'' + b x' + k x = f, from rest, with b = 2 sqrt (k m).

@@ -140,6 +140,34 @@ TEST_CASE ("a marked stretch of a take becomes a clip, a gesture and a test", "[
 }
 
 TEST_CASE ("a take contains the edits that are made while it is recorded", "[take]")
+TEST_CASE ("a gesture made from a take is felt as it was recorded: the tool goes where the device was", "[take]")
+{
+    TakeRig rig;
+    rig.record (0.4);
+    const auto gesture = [&] (double from, double until) {
+        std::error_code ignored;
+        fs::remove (rig.folder / "gesture.csv", ignored);
+        rig.panel->plot().mark (from, until);
+        rig.panel->makeGesture();
+        REQUIRE (rig.until ([&] { return fs::exists (rig.folder / "gesture.csv"); }));
+        const auto movement = readTable (rig.folder / "gesture.csv");
+        REQUIRE (movement);
+        return *movement;
+    };
+    const auto recorded = gesture (0.1, 0.3);
+    REQUIRE (recorded.rows() == 800);
+    rig.playback->moveBy ({ LiveRun::Hand::Kind::path, (rig.folder / "gesture.csv").string() });
+    REQUIRE (rig.until ([&] { return rig.playback->run().transport() != nullptr; }));
+    rig.record (0.25);
+    const auto replayed = gesture (0.0, 0.15);
+    REQUIRE (replayed.columns == recorded.columns);
+    const auto width = recorded.columns.size();
+    for (std::size_t row = 0; row < replayed.rows(); ++row)
+        for (std::size_t c = 0; c < width; ++c)
+            if (const auto& name = recorded.columns[c]; name == "x" || name == "y" || name == "z")
+                REQUIRE (replayed.values[row * width + c] == Approx (recorded.values[row * width + c]).margin (1e-9));
+}
+
 {
     TakeRig rig;
     rig.panel->toggleRecording();
