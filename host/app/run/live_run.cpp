@@ -261,7 +261,8 @@ void LiveRun::begin()
     if (! session->isLoaded() || session->hasPlaceholders())   // without one of its nodes, a graph may push in unintended ways
     {
         log_next.clear();
-        return session.reset();
+        session.reset();
+        return showScene();   // not that of the run before
     }
 
     note (session->engine().newest());
@@ -319,19 +320,15 @@ void LiveRun::documentChanged()
     if (is_same_run) return takeOver();
     auto checked = check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
-    if (checked.plan)
-    {
-        needed = needsOf (*checked.plan);
-        scene_feed.show (*checked.plan);
-    }
-    if (wanted) restart();   // the edited graph may compile now
+    if (checked.plan) needed = needsOf (*checked.plan);
+    scene_feed.show (checked.plan.get());   // not what was there before, if it cannot run
+    if (wanted) restart();                  // the edited graph may compile now
 }
 
 /// Shows the plan that runs, or else that of the document, if it compiles.
 void LiveRun::showScene()
 {
-    if (isLive()) return scene_feed.show (session->engine().newest());
-    if (const auto checked = check (document.graph()); checked.plan) scene_feed.show (*checked.plan);
+    scene_feed.show (isRunning() && isOfOpenGraph() ? &session->engine().newest() : check (document.graph()).plan.get());
 }
 
 void LiveRun::takeOver()
@@ -352,7 +349,7 @@ void LiveRun::takeOver()
 void LiveRun::note (const Plan& plan)
 {
     needed = needsOf (plan);
-    scene_feed.show (plan);
+    scene_feed.show (&plan);
     delay_ticks.reset();
     for (const auto& d : plan.delays())
         delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);

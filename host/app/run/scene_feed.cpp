@@ -23,10 +23,10 @@ void SceneFeed::wantPorts()
     if (onWanted) onWanted();
 }
 
-void SceneFeed::show (const Plan& plan)
+void SceneFeed::show (const Plan* plan)
 {
     if (! is_watched) return;
-    all = scene::bodiesOf (plan);
+    all = plan != nullptr ? scene::bodiesOf (*plan) : std::vector<scene::Body> {};
     static std::uint64_t latest = 0;
     shown = ++latest;
 }

@@ -24,8 +24,8 @@ public:
     /// Starts or stops watching. Values arrive once the graph has been compiled again; see onWanted.
     void watch (bool);
 
-    /// Takes the bodies from a plan that runs next, or from a plan that does not run. Does nothing while unwatched.
-    void show (const Plan&);
+    /// Takes the bodies from a plan that runs next, or from a plan that does not run; null: there are none. Does nothing while unwatched.
+    void show (const Plan*);
 
     /// The bodies changed whenever this number did. No other feed in the process ever has the same number; 0: no bodies yet.
     std::uint64_t version() const noexcept { return shown; }

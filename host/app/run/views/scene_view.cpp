@@ -271,9 +271,10 @@ void SceneView::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (13.0f));
-        g.drawFittedText (TRANS ("Nodes with a surface appear here, such as a plane or a mesh."), getLocalBounds().reduced (24), juce::Justification::centred,
-                          2);
-        return;
+        const auto& run = playback.current();
+        const auto text = ! run.isRunning() && hasErrors (run.messages()) ? TRANS ("Cannot run: see Problems.")
+                                                                          : TRANS ("Nodes with a surface appear here, such as a plane or a mesh.");
+        return g.drawFittedText (text, getLocalBounds().reduced (24), juce::Justification::centred, 2);
     }
     overlay.drawGround (stage);
     drawSurfaces (std::clamp (g.getInternalContext().getPhysicalPixelScaleFactor(), 1.0f, 3.0f));

@@ -31,7 +31,7 @@ struct Watched
     {
         feed.watch (true);
         plan = planFor (feed, graph);
-        feed.show (*plan);
+        feed.show (plan.get());
         static_cast<void> (feed.now());   // asks for the ports
         next();
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/hand.hpp"
+#include "host/app/support/seen_text.hpp"
 #include "preset_bodies.hpp"
 
 #include "support/waiting.hpp"
 
 #include <host/app/run/views/hand_panel.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -149,6 +151,32 @@ TEST_CASE ("the scene gets the values of ports while it is watched, and of edits
     const auto before = feed.version();
     rig.document.renew();
     CHECK (feed.version() > before);
+}
+
+TEST_CASE ("the scene shows nothing of the graph before if the one that is open cannot run", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    const bool has_run = GENERATE (false, true);
+    if (has_run)
+    {
+        rig.playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
+        CHECK (rig.until ([&] { return rig.playback.run().isRunning(); }));
+    }
+    CHECK_FALSE (rig.playback.run().scene().bodies().empty());
+    auto broken = host::test::presetGraph (GENERATE ("liver", "dry_wood"));   // with other devices, or with the same ones
+    broken.root.wires.push_back (*graph::parseWire ("hand.position -> nowhere.position"));
+    rig.document.open (broken, {}, "open");
+    if (has_run) rig.playback.startOther ({});
+    const auto isEmpty = [&] { return rig.playback.run().scene().bodies().empty() && ! rig.playback.run().isRunning(); };
+    CHECK (rig.until (isEmpty));
+    rig.panel.showScene (false);   // and not when it is shown again
+    rig.panel.showScene (true);
+    rig.panel.refresh();
+    CHECK (isEmpty());
+    const auto texts = host::test::readTexts (rig.view);
+    CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text == "Cannot run: see Problems."; }));
+    rig.document.open (host::test::presetGraph ("liver"), {}, "open");
+    CHECK_FALSE (rig.playback.run().scene().bodies().empty());
 }
 
 TEST_CASE ("dragging the tool in the scene presses with it", "[app][scene]")

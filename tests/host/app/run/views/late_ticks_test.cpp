@@ -67,7 +67,7 @@ TEST_CASE ("a window that shows scopes, the scene and a film takes no lock and n
         run.add (*one);
     auto messages = run.load (graph);
     REQUIRE (run.hasEngine());
-    all.scene.show (run.engine().newest());
+    all.scene.show (&run.engine().newest());
     all.film.begin (run.rate());
     run.openDevices (graph, messages);
     run.tick();   // whatever happens only once
