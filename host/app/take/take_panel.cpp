@@ -82,6 +82,8 @@ TakePanel::~TakePanel() { document.remove (*this); }
 
 void TakePanel::documentChanged()
 {
+    const bool is_recording = recording.state() == Take::State::recording;
+    if (! is_recording && std::exchange (opened, document.identity()) != document.identity()) restore ({});   // the takes of the graph before are in the list
     is_stale = recording.state() == Take::State::empty;
     visibilityChanged();
 }
@@ -122,6 +124,8 @@ void TakePanel::toggleRecording()
 {
     if (recording.state() == Take::State::recording) return recording.stop();
     before = shown();
+    opened = document.identity();
+    recorded_graph = document.graph().name;
     listPorts (document.graph());
     curve.show ({});
     recording.record();
@@ -144,6 +148,7 @@ void TakePanel::restore (const Shown& to)
     recording.restore (to.recording);
     names = to.names;
     shown_port = to.port;
+    recorded_graph = to.graph;
     if (! to.recording) listPorts (document.graph());
     fillPorts();
     curve.show ({});
@@ -164,11 +169,16 @@ void TakePanel::recorded (const std::shared_ptr<Take::Recording>& complete, Take
     const bool goes_on = why == Take::End::run_began_again;
     const auto length = juce::String (complete ? complete->length_s : 0.0, 1);
     const bool is_kept = complete && (! goes_on || complete->length_s > 0.0);
-    if (is_kept) keep ({ complete, names, shown_port }, goes_on);
+    const bool is_of_other = std::exchange (opened, document.identity()) != document.identity();
+    if (is_of_other) before = {};
+    if (is_kept) keep ({ complete, names, shown_port, recorded_graph }, goes_on);
     if (goes_on)
+    {
+        recorded_graph = document.graph().name;
         curve.show ({});
+    }
     else
-        complete ? readPort() : restore (std::exchange (before, {}));
+        complete && ! is_of_other ? readPort() : restore (std::exchange (before, {}));
     juce::String text;
     if (goes_on) text = TRANS ("The run begins again, and so does the take.");
     if (goes_on && is_kept) text << " " << filled (TRANS ("The %1 s before are in the list of takes."), length);
@@ -187,12 +197,15 @@ void TakePanel::keep (const Shown& complete, bool goes_on)
     document.addWindowStep (NEEDS_TRANS ("record a take"), restored (earlier), restored (complete));
 }
 
+/// The name of its graph is part of it if another graph is open.
 juce::String TakePanel::nameOf (std::size_t take) const
 {
     const auto& r = *all[take].recording;
-    if (r.length_s <= 0.0) return filled (TRANS ("Take %1"), take + 1);   // left by a crash, and not shown yet
-    if (r.stays) return fromUtf8 (printableName (r.file.filename().string()));
-    return filled (r.is_saved ? TRANS ("Take %1: %2 s") : TRANS ("Take %1: %2 s, not saved"), take + 1, juce::String (r.length_s, 1));
+    auto name = filled (r.is_saved ? TRANS ("Take %1: %2 s") : TRANS ("Take %1: %2 s, not saved"), take + 1, juce::String (r.length_s, 1));
+    if (r.length_s <= 0.0) name = filled (TRANS ("Take %1"), take + 1);   // left by a crash, and not shown yet
+    if (r.stays) name = fromUtf8 (printableName (r.file.filename().string()));
+    const auto& graph = all[take].graph;
+    return graph.empty() || graph == document.graph().name ? name : filled ("%1 (%2)", name, printableName (graph));
 }
 
 void TakePanel::openMenu()
@@ -227,6 +240,7 @@ bool TakePanel::open (const std::filesystem::path& log, bool copies)
         return false;
     }
     listPorts (*graph);
+    recorded_graph = graph->name;
     const auto take = shown();
     all.push_back (take);
     resized();

@@ -36,6 +36,8 @@ public:
     void makeGesture();
     void makeTest();
 
+    juce::String nameOf (std::size_t take) const;   ///< in the list
+
     /// The takes, complete or not, of which nothing was saved.
     std::vector<std::shared_ptr<Take::Recording>> unsaved() const;
     /// Ends the recording if there is one, asks for a file for each unsaved take, and saves the whole take there, as a log. `then` is called once all
@@ -69,21 +71,20 @@ public:
 
 private:
     void documentChanged() override;
-    /// The recording that the panel shows, the names of its ports, and the port that is shown.
+    /// The recording that the panel shows, the names of its ports, the port that is shown, and the name of its graph.
     struct Shown
     {
         std::shared_ptr<Take::Recording> recording;
         std::vector<std::string> names;
-        std::string port;
+        std::string port, graph;
     };
-    Shown shown() const { return { recording.recorded(), names, shown_port }; }
+    Shown shown() const { return { recording.recorded(), names, shown_port, recorded_graph }; }
     void endRecording();
     void restore (const Shown&);
     std::function<void()> restored (const Shown&);   ///< for a step of the history
     void recorded (const std::shared_ptr<Take::Recording>&, Take::End);
     void keep (const Shown&, bool goes_on);
     void saveAs (const std::shared_ptr<Take::Recording>&, const std::function<void()>& then);
-    juce::String nameOf (std::size_t take) const;
     void openMenu();
     void readPort();
     void fillPorts();
@@ -115,10 +116,11 @@ private:
     juce::ComboBox ports;
     TextField from, until;
     std::vector<std::string> names;   // of the ports to choose from
-    std::string shown_port;
-    bool is_stale = false;    // there were edits since the ports were listed
-    Shown before;             // the recording that is being made
-    std::vector<Shown> all;   // the complete takes, in the order in which they were recorded
+    std::string shown_port, recorded_graph;
+    const void* opened = document.identity();   // the graph for which the panel shows takes
+    bool is_stale = false;                      // there were edits since the ports were listed
+    Shown before;                               // the recording that is being made
+    std::vector<Shown> all;                     // the complete takes, in the order in which they were recorded
 };
 
 }   // namespace tactus::host

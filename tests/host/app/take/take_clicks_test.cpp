@@ -194,9 +194,9 @@ TEST_CASE ("an undo during a take keeps what was recorded", "[app][take][undo]")
 TEST_CASE ("a take that ends with the run says so, and has the length of what it holds", "[app][take]")
 {
     Recorder r;
-    SECTION ("STOP") { r.w.playback.stop(); }
-    SECTION ("another graph") { r.w.openAndStart ("soft_pad.json"); }
-    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    const bool is_by_other = GENERATE (false, true);   // another graph, which does not show it
+    is_by_other ? r.w.openAndStart ("soft_pad.json") : r.w.playback.stop();
+    REQUIRE (waitFor ([&] { return is_by_other ? r.take.state() == Take::State::empty : r.isReady(); }));
     CHECK (r.w.status.text().contains ("ended with the run"));
     CHECK (r.take.seconds() == r.panel.plot().length());
     CHECK (r.panel.unsaved().size() == 1);
@@ -263,7 +263,7 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     CHECK (r.panel.unsaved().empty());
 
     r.w.openAndStart ("layered_cloth.json");
-    r.choose (3);
+    r.choose (2);   // there is no take to save
     CHECK_FALSE (saves);
     REQUIRE (waitFor ([&] { return r.isReady() && r.take.log() == file; }));
     CHECK (r.panel.plot().length() == length);
@@ -283,6 +283,29 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     CHECK (r.isReady());
     r.w.panel.reset();
     CHECK (std::filesystem::exists (r.w.home / "wood.jsonl"));   // the file of the user
+}
+
+TEST_CASE ("another graph does not show the take of the one before, which stays in the list under the name of its graph", "[app][take]")
+{
+    const bool still_records = GENERATE (false, true);
+    Recorder r;
+    if (! still_records)
+    {
+        r.w.click ("Stop");
+        REQUIRE (waitFor ([&] { return r.isReady(); }));
+    }
+    r.w.openAndStart ("layered_cloth.json");
+    REQUIRE (waitFor ([&] { return r.take.state() == Take::State::empty; }));
+    CHECK (r.panel.plot().length() == 0.0);
+    REQUIRE (r.panel.unsaved().size() == 1);
+    REQUIRE (waitFor ([&] { return r.run.isRunning(); }));
+    OnStage::settle (100);
+    CHECK (r.take.state() == Take::State::empty);
+    CHECK (r.panel.nameOf (0).contains ("not saved (Dry wood)"));
+    r.choose (1);
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    CHECK (r.take.recorded() == r.panel.unsaved()[0]);
+    CHECK (r.w.graph().name != "Dry wood");
 }
 
 TEST_CASE ("the labels of a take are whole in a small window", "[app][small][take]")
