@@ -110,7 +110,11 @@ void FileDialogs::save (const SaveWords& words, const Path& begin, TakePath chos
 
 void FileDialogs::open (const juce::String& title, const juce::String& patterns, const Path& begin, TakePath chosen)
 {
-    launch (title, patterns, begin, opens, std::move (chosen));
+    std::error_code failed;
+    auto from = begin;   // or the nearest folder that exists: JUCE would take the name of a missing one for that of a file
+    while (! std::filesystem::exists (from, failed) && from.has_relative_path())
+        from = from.parent_path();
+    launch (title, patterns, from, opens, std::move (chosen));
 }
 
 void FileDialogs::chooseInput (const juce::String& patterns, const Path& begin, TakePath chosen)

@@ -39,7 +39,11 @@ Panel fitPanel (Desk& desk)
         desk.openMade (g.preset, filled (TRANS ("fit %1"), g.preset.name).toStdString(), true, [fit] { fit->close(); });
     };
     fit->onInsert = [&desk] (const FittedGraph& g) { insert (desk, g); };
-    desk.fitRecording = [fit] (const std::filesystem::path& file) { fit->open (file); };
+    desk.fitRecording = [&desk, fit] (const std::filesystem::path& file) {
+        desk.settings.recordings = file.parent_path();
+        desk.settingsChanged();
+        fit->open (file);
+    };
     return { .name = TRANS ("Fit"), .component = std::move (made), .escape = [fit] { fit->close(); }, .refresh = [fit] { fit->poll(); } };
 }
 

@@ -131,6 +131,10 @@ ReadSettings readSettings (const std::string& text)
     });
     reader.take ("recent", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.recent); });
     reader.take ("favourites", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.favourites); });
+    reader.take ("recordings", &Json::is_string, [&] (const Json& v) {
+        s.recordings = v.asString();
+        return true;
+    });
     reader.take ("recent_types", &Json::is_array, [&] (const Json& v) {
         if (! std::ranges::all_of (v, &Json::is_string)) return false;
         s.recent_types = v.get<std::vector<std::string>>();
@@ -157,6 +161,7 @@ std::string writeSettings (const Settings& s)
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },
         { "favourites", pathsToJson (s.favourites) },
+        { "recordings", s.recordings.string() },
         { "recent_types", s.recent_types }
     };
     for (const auto& [name, size] : s.panels)

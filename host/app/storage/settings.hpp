@@ -28,6 +28,7 @@ struct Settings
     std::map<std::string, double> panels;        ///< each panel's share of the window, by name; 0: folded; absent: the usual size
     std::vector<std::filesystem::path> recent;   ///< the latest first
     std::vector<std::filesystem::path> favourites;
+    std::filesystem::path recordings;        ///< the folder of the latest recording that was fitted
     std::vector<std::string> recent_types;   ///< node types that were added, the latest first
     Json others = Json::object();            ///< keys written by a different version of Tactus
 

@@ -157,12 +157,9 @@ juce::PopupMenu MainMenu::languages() const
 void MainMenu::askForRecording()
 {
     std::error_code failed;
-    const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory).getFullPathName().toStdString();
-    const auto begin = std::filesystem::is_directory (recordings, failed) ? recordings : std::filesystem::path (home_folder);
-    parts.dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", begin, [this] (const std::filesystem::path& file) {
-        recordings = file.parent_path();
-        parts.desk.fitRecording (file);
-    });
+    const auto& last = parts.settings.recordings;
+    parts.dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", std::filesystem::is_directory (last, failed) ? last : ownFolder(),
+                        parts.desk.fitRecording);
 }
 
 }   // namespace tactus::host

@@ -34,7 +34,6 @@ private:
     void askForRecording();
 
     WindowParts& parts;
-    std::filesystem::path recordings;   // the folder of the last recording that was chosen
 };
 
 }   // namespace tactus::host

@@ -73,6 +73,7 @@ TEST_CASE ("fit panel: a recording opens with the kind that its columns suggest,
     FitRig rig;
     rig.desk.fitRecording (rig.write ("strokes.csv", strokedRows (true)));
     REQUIRE (rig.panel().isOpen());
+    CHECK (std::filesystem::equivalent (rig.settings.recordings, rig.home.path()));   // the next one is chosen there
     CHECK (rig.panel().kind() == FitKind::friction);
     const auto before = rig.document.identity();
     rig.finish();

@@ -263,3 +263,25 @@ TEST_CASE ("the dialog for files has a border all around, and the window behind 
     WindowRig::settle (200);
     CHECK (brightness (w.stage->painted(), corner) > 0.9 * brightness (before, corner));   // pictures of presets may have come meanwhile
 }
+
+TEST_CASE ("a recording to fit is chosen in the folder of the last one, or else in the folder of the user", "[app][files][fit]")
+{
+    const TemporaryFolder mine;
+    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    WindowRig w ("dry_wood.json");
+    const auto begin = [&] {
+        w.key ("ctrl + k");
+        w.stage->type ("fit a recording");
+        w.key ("return");
+        REQUIRE (isDialogOpen());
+        const auto folder = browserIn (*juce::Component::getCurrentlyModalComponent())->getRoot().getFullPathName().toStdString();
+        w.key ("escape");
+        REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+        return std::filesystem::path (folder);
+    };
+    CHECK (std::filesystem::equivalent (begin(), mine.path()));
+    w.home.write ("strokes.csv", "t,x,force\n0,0,0\n1,1,1\n");
+    w.view->open (w.home / "strokes.csv");   // as if it had been dropped on the window
+    w.key ("escape");
+    CHECK (std::filesystem::equivalent (begin(), w.home.path()));
+}
