@@ -8,17 +8,6 @@
 namespace tactus::host
 {
 
-namespace
-{
-/// True for a command that changes only where nodes are on the canvas.
-bool onlyMoves (const graph::Command& c)
-{
-    if (const auto* key = std::get_if<graph::SetNodeKey> (&c.edit)) return key->key == "ui";
-    const auto* batch = std::get_if<graph::Batch> (&c.edit);
-    return batch != nullptr && std::ranges::all_of (batch->commands, onlyMoves);
-}
-}   // namespace
-
 Document::Document (graph::Graph g, std::filesystem::path file)
     : edits (std::move (g), nullptr), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) }
 {

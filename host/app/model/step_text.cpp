@@ -7,6 +7,7 @@
 
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -156,8 +157,11 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
     const auto commands = history.commandsOf (step), inverses = history.inversesOf (step);
     if (commands.empty() || inverses.empty()) return {};
     const auto& first = withoutPlaces (commands.front()).edit;
-    if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return withoutPlaces (c).edit.index() != first.index(); })) return {};
-    const auto &back = withoutPlaces (inverses.front()).edit, &to = withoutPlaces (commands.back()).edit;
+    const auto* last = &commands.front();
+    for (const auto& c : commands)
+        if (! onlyMoves (c)) last = &c;   // what an edit moves aside is not what it is about
+    if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return ! onlyMoves (c) && withoutPlaces (c).edit.index() != first.index(); })) return {};
+    const auto &back = withoutPlaces (inverses.front()).edit, &to = withoutPlaces (*last).edit;
     if (const auto* a = std::get_if<graph::SetParam> (&back), *b = std::get_if<graph::SetParam> (&to); a != nullptr && b != nullptr)
         return textOf (*a, *b, graphOf (history, step), catalogue);
     if (const auto* a = std::get_if<graph::ChangeControl> (&back), *b = std::get_if<graph::ChangeControl> (&to); a != nullptr && b != nullptr)
@@ -172,7 +176,7 @@ struct Objects
 {
     static constexpr std::size_t most = 3;
 
-    std::vector<std::string> nodes, wires;
+    std::vector<std::string> nodes, wires, new_wires;
 
     static void add (std::vector<std::string>& to, const std::string& what)
     {
@@ -198,28 +202,40 @@ struct Objects
         else if (const auto* changed = std::get_if<graph::SetNodeKey> (&command.edit))
             add (nodes, changed->node);
         else if (const auto* wired = std::get_if<graph::AddWire> (&command.edit))
-            add (wires, graph::toText (wired->wire));
+            for (auto* to : { &wires, &new_wires })
+                add (*to, graph::toText (wired->wire));
         else if (const auto* rewired = std::get_if<graph::ChangeWire> (&command.edit))
             add (wires, graph::toText (rewired->to));
     }
 };
 
-/// The name of a step of the canvas with what it was done to: "delete drag". A new wire is its own name.
+/// "a, b, c", and "..." if there are more.
+std::string briefList (const std::vector<std::string>& objects)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min (objects.size(), Objects::most); ++i)
+        addToList (text, objects[i]);
+    return objects.size() > Objects::most ? text + ", ..." : text;
+}
+
+/// The name of a step of the canvas with what it was done to: "delete drag". New wires are their own name, with those that they replace.
 std::string withObjects (const std::string& name, const graph::History& history, std::size_t step)
 {
     Objects done, undone;
+    const bool is_move = std::ranges::all_of (history.commandsOf (step), onlyMoves);
     for (const auto& c : history.commandsOf (step))
-        done.collect (c);
+        if (is_move || ! onlyMoves (c)) done.collect (c);
     for (const auto& c : history.inversesOf (step))
-        undone.collect (c);
-    if (name == "connect" && ! done.wires.empty()) return done.wires.back();
+        if (is_move || ! onlyMoves (c)) undone.collect (c);
+    const bool connects = name == "connect" && ! done.wires.empty();
+    const bool is_of_wires = connects || (done.nodes.empty() && ! done.wires.empty());
     const auto& wires = done.wires.empty() ? undone.wires : done.wires;
-    const auto& objects = done.nodes.empty() ? wires : done.nodes;
-    auto text = juce::translate (valueText (name)).toStdString();
-    if (objects.empty() || objects.size() > Objects::most) return text;
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        if (name.find (objects[i]) == std::string::npos) text += (i == 0 ? " " : ", ") + objects[i];
-    return text;
+    auto objects = done.nodes.empty() || connects ? wires : done.nodes;
+    auto text = connects ? std::string() : juce::translate (valueText (name)).toStdString();
+    std::erase_if (objects, [&name] (const std::string& o) { return name.find (o) != std::string::npos; });
+    if (connects || (! objects.empty() && objects.size() <= Objects::most)) text += (connects ? "" : " ") + briefList (objects);
+    std::erase_if (undone.new_wires, [&] (const std::string& wire) { return std::ranges::count (done.wires, wire) > 0; });
+    return is_of_wires && ! undone.new_wires.empty() ? filled (TRANS ("%1 in place of %2"), text, briefList (undone.new_wires)).toStdString() : text;
 }
 
 /// Collects what commands change, by patch.
@@ -261,6 +277,13 @@ struct PartsByPatch
     }
 };
 }   // namespace
+
+bool onlyMoves (const graph::Command& c)
+{
+    if (const auto* key = std::get_if<graph::SetNodeKey> (&c.edit)) return key->key == "ui";
+    const auto* batch = std::get_if<graph::Batch> (&c.edit);
+    return batch != nullptr && std::ranges::all_of (batch->commands, onlyMoves);
+}
 
 std::map<std::string, StepParts> partsOf (const graph::History& history, std::size_t step)
 {

@@ -15,6 +15,9 @@ namespace tactus::host
 /// old and the new value: "wall: Stiffness 400 -> 550 N/m". The name of a new wire is the wire: "grating.force -> mixer.in[1]".
 std::string stepName (const graph::History&, std::size_t step, const Catalogue&);
 
+/// True for a command that changes only where nodes are on the canvas.
+bool onlyMoves (const graph::Command&);
+
 /// The nodes and wires of a patch that a step changes. Some may be gone after the step, or before it.
 struct StepParts
 {

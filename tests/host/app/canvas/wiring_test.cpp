@@ -4,6 +4,7 @@
 #include "host/app/support/desk_stage.hpp"
 
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
@@ -30,6 +31,21 @@ TEST_CASE ("a wire can be drawn from an output to a matching input, or from the 
     // Drawing from the input gives the same result.
     rig.hand().drag (rig.port ("grain", Role::input, "position"), rig.port ("drag", Role::output, "deflection"));
     CHECK (rig.hasWire ("drag.deflection -> grain.position"));
+}
+
+TEST_CASE ("a step of wires names all of them, also those that come back by undo", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("grain", Role::input, "position"));
+    CHECK (latestStep (rig.document) == "drag.deflection -> grain.position in place of hand.position -> grain.position");
+    const auto add = [] (const std::string& wire) { return graph::Command (graph::AddWire { "", *graph::parseWire (wire) }); };
+    REQUIRE (rig.document.perform (graph::Batch { "connect", { add ("drag.force -> motor.force"), add ("grain.force -> motor.force") } }));
+    CHECK (latestStep (rig.document) == "drag.force -> motor.force, grain.force -> motor.force");
+    graph::Batch both { "delete", {} };
+    for (const auto& w : rig.graph().root.wires)
+        if (w.from.port == "force" && w.to.node == "motor" && w.from.node != "board") both.commands.push_back (graph::RemoveWire { "", w.id });
+    REQUIRE (rig.document.perform (both));
+    CHECK (latestStep (rig.document) == "delete grain.force -> motor.force, drag.force -> motor.force");
 }
 
 TEST_CASE ("a wire that is dropped on a node goes to the first port that fits, best one without a wire", "[app][canvas]")
@@ -251,7 +267,7 @@ TEST_CASE ("moving a wire to another port is one step, and the history names wir
     OnStage::settle();
     CHECK (std::ranges::count (texts(), "hand.position -> drag.position") == 0);
     CHECK (std::ranges::count (texts(), "hand.position -> table.position") == 1);
-    CHECK (latestStep (document) == "re-plug wire hand.position -> table.position");
+    CHECK (latestStep (document) == "re-plug wire hand.position -> table.position in place of hand.position -> drag.position");
     document.goTo (position);
     CHECK (writeGraph (w.graph()) == before);
 
