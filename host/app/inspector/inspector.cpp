@@ -139,7 +139,7 @@ void Inspector::rebuild()
     const auto now = selected (at);
     const auto* node = now.nodes.size() == 1 ? now.nodes[0] : nullptr;
     strip.refresh();
-    strip.setVisible (! now.isEmpty() && ! strip.isEmpty());   // with nothing selected, the column has the controls
+    strip.setVisible (! strip.isEmpty());
     if (now.key != made_for || ! column)
     {
         made_for = now.key;

@@ -88,7 +88,7 @@ private:
     std::unique_ptr<Column> column, retired;              // retired: kept alive because one of its fields may have triggered the rebuild
     std::pair<SeenPatch, std::set<graph::Id>> shown_of;   // patch and selection; the scroll position is kept while they stay the same
     juce::Viewport scroll;
-    KnobStrip strip { document, catalogue };   // the controls of the graph, while something is selected
+    KnobStrip strip { document, catalogue };   // the controls of the graph, whatever is selected
 };
 
 }   // namespace tactus::host

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
+/// The controls of the graph as knobs, which stay in reach whatever is selected. Drag a knob, turn the wheel over it, or use the arrow
 /// keys; a double click on the dial types a value, and one on the name renames it. A right click opens a menu. A knob is dimmed and does not turn if wires
 /// set all its targets.
 /// A ring around a knob shows how far modulators move its targets; drag the ring to change that of the first one, for all targets.

@@ -106,8 +106,8 @@ void Beginnings::tour()
             TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list above it lets a gesture move the "
                    "hand instead.") },
           { &parts.inspector, TRANS ("Turn a knob"),
-            TRANS ("While nothing is selected, the controls of the graph are here. Drag one while you press. With a node selected, its "
-                   "parameters are here.") },
+            TRANS ("The knobs at the bottom are the controls of the graph. Drag one while you press. With a node selected, its parameters are "
+                   "above.") },
           { &parts.patching, TRANS ("Change how it is made"),
             TRANS ("A box is a node, and a wire carries what one node gives to the next. Space adds a node. Drag from port to port to wire them; "
                    "ports that fit light up. Ctrl+Z undoes anything.") },
