@@ -22,13 +22,23 @@ juce::TextLayout layoutOf (const ContactLimit& c, const Look& look, int width)
 
 std::string factorText (double v) { return std::isfinite (v) ? roundedText (v, 2) : "any"; }
 
-/// The longest multiple on the bar: the mark at 1 and both limits are on it, unless they are far beyond.
-double endOf (const ContactLimit& c)
+/// True if the limit of the linear loop is where it swings: not if only the trials show a swing, or what calms it.
+bool isLimitKnown (const ContactLimit& c)
 {
-    const double largest = std::max ({ 1.0, std::min (c.passive_up_to, 8.0), std::min (c.stable_up_to, 8.0) });
-    return 1.25 * largest;
+    return c.verdict == check::Verdict::stable ? c.stable_up_to >= 1.0 : c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
 }
 }   // namespace
+
+LimitBlock::Parts LimitBlock::partsOf (const ContactLimit& c)
+{
+    const bool swings = c.verdict == check::Verdict::unstable, rests = c.verdict == check::Verdict::stable, is_by_trial = ! isLimitKnown (c);
+    Parts p { .passive = swings && is_by_trial && c.passive_up_to >= 1.0 ? 0.0 : c.passive_up_to };
+    p.stable = std::max (p.passive, rests && is_by_trial ? 1.0 : 0.0);
+    if ((swings || rests) && ! is_by_trial) p.swings = p.stable = std::max (p.passive, c.stable_up_to);
+    if (swings && is_by_trial) p.swings = 1.0;
+    p.end = 1.25 * std::max (1.0, std::min (p.stable, 8.0));   // the mark at 1 and the limits are on it, unless they are far beyond
+    return p;
+}
 
 LimitBlock::LimitBlock (std::function<std::vector<ContactLimit>()> g) : get (std::move (g)) {}
 
@@ -36,14 +46,15 @@ juce::String LimitBlock::textOf (const ContactLimit& c)
 {
     using check::Verdict;
     const auto device = c.device == TRANS ("simulated").toStdString() ? TRANS ("the simulated device") : fromUtf8 (c.device);
-    // The limit of the linear loop, unless only the trials show a swing, or what calms it.
-    const bool is_known = c.verdict == Verdict::stable ? c.stable_up_to >= 1.0 : c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
+    const bool is_known = isLimitKnown (c);
     if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, up to %2 times as stiff"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::passive_here)
         return filled (TRANS ("Passive on %1 along this motion, up to %2 times as stiff"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::stable && ! is_known)
         return filled (TRANS ("It comes to rest in a trial with %1; passive up to %2 times as stiff"), device, factorText (c.passive_up_to));
-    if (c.verdict == Verdict::unstable && ! is_known) return filled (TRANS ("It does not come to rest in a trial with %1"), device);
+    if (c.verdict == Verdict::unstable && ! is_known)
+        return filled (TRANS ("It does not come to rest in a trial with %1"), device)
+               + (c.passive_up_to < 1.0 ? filled (TRANS ("; passive up to %1 times as stiff"), factorText (c.passive_up_to)) : juce::String());
     if (c.verdict == Verdict::stable)
         return filled (TRANS ("Stable on %1 with usual hands, up to %2 times as stiff; passive up to %3 times"), device, factorText (c.stable_up_to),
                        factorText (c.passive_up_to));
@@ -81,18 +92,16 @@ void LimitBlock::paint (juce::Graphics& g)
     for (const auto& c : shown)
     {
         const auto bar = area.removeFromTop (bar_height).toFloat();
-        const double end = endOf (c);
-        const auto at = [&] (double multiple) { return bar.getX() + bar.getWidth() * static_cast<float> (std::clamp (multiple / end, 0.0, 1.0)); };
+        const auto p = partsOf (c);
+        const auto at = [&] (double multiple) { return bar.getX() + bar.getWidth() * static_cast<float> (std::clamp (multiple / p.end, 0.0, 1.0)); };
         const auto part = [&] (double from, double to, juce::Colour colour) {
             g.setColour (colour);
             if (to > from) g.fillRect (juce::Rectangle<float>::leftTopRightBottom (at (from), bar.getY(), at (to), bar.getBottom()));
         };
-        const bool is_known = c.stable_up_to > 0.0 || c.verdict == check::Verdict::unstable;
-        const bool swings_in_trials = c.verdict == check::Verdict::unstable && ! (c.stable_up_to > 0.0 && c.stable_up_to < 1.0);
-        const double stable = swings_in_trials ? 0.0 : std::max (c.passive_up_to, c.stable_up_to);
-        part (0.0, std::min (c.passive_up_to, stable), theme.of (Quantity::energy).withAlpha (0.7f));
-        part (c.passive_up_to, stable, theme.of (Quantity::length).withAlpha (0.7f));
-        part (stable, end, is_known ? theme.stop.withAlpha (0.7f) : theme.hairline);
+        part (0.0, p.passive, theme.of (Quantity::energy).withAlpha (0.7f));
+        part (p.passive, p.stable, theme.of (Quantity::length).withAlpha (0.7f));
+        part (p.stable, p.end, theme.hairline);
+        part (p.swings, p.end, theme.stop.withAlpha (0.7f));
         g.setColour (theme.text);
         g.fillRect (juce::Rectangle<float> (2.0f, bar.getHeight() + 6.0f).withCentre ({ at (1.0), bar.getCentreY() }));
         area.removeFromTop (bar_gap);

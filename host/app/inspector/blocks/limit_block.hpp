@@ -6,6 +6,7 @@
 #include <host/app/limits/limit_list.hpp>
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace tactus::host
@@ -24,6 +25,14 @@ public:
 
     /// The sentence below a bar.
     static juce::String textOf (const ContactLimit&);
+
+    /// The ends of the parts of a bar, as multiples of the stiffness now. The sentence has each of them, or it is the mark at 1, where trials were made.
+    /// What is between `stable` and `swings` is not known.
+    struct Parts
+    {
+        double passive = 0.0, stable = 0.0, swings = std::numeric_limits<double>::infinity(), end = 1.0;
+    };
+    static Parts partsOf (const ContactLimit&);
 
 private:
     std::function<std::vector<ContactLimit>()> get;

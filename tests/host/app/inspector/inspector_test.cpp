@@ -566,3 +566,22 @@ TEST_CASE ("the inspector says how steep the contact of the selected node may be
     rig.inspector->showLimits ({});
     CHECK (block()->getHeight() == 0);
 }
+
+TEST_CASE ("the bar of a contact is red only where its sentence says that it swings", "[app][inspector]")
+{
+    using check::Verdict;
+    const auto parts = [] (Verdict verdict, double passive, double stable) { return LimitBlock::partsOf ({ "wall", "A", verdict, passive, stable }); };
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const auto is = [] (const LimitBlock::Parts& p, double passive, double stable, double swings) {
+        return p.passive == passive && p.stable == stable && p.swings == swings && p.end > 1.0;
+    };
+    CHECK (is (parts (Verdict::passive, 2.0, 4.0), 2.0, 2.0, none));   // the sentence has only the first limit
+    CHECK (is (parts (Verdict::passive_here, none, 0.0), none, none, none));
+    CHECK (is (parts (Verdict::stable, 0.5, 2.0), 0.5, 2.0, 2.0));
+    CHECK (is (parts (Verdict::stable, 0.15, 0.75), 0.15, 1.0, none));   // it came to rest in a trial, so the mark is not in red
+    CHECK (is (parts (Verdict::unstable, 0.5, 0.75), 0.5, 0.75, 0.75));
+    CHECK (is (parts (Verdict::unstable, 0.5, 2.0), 0.5, 0.5, 1.0));   // only the trial shows it
+    CHECK (is (parts (Verdict::unstable, 1.5, 0.0), 0.0, 0.0, 1.0));
+    CHECK (is (parts (Verdict::broken, 0.5, 0.0), 0.5, 0.5, none));
+    CHECK (LimitBlock::textOf ({ "wall", "A", Verdict::unstable, 0.5, 2.0 }).contains ("passive up to 0.5"));
+}
