@@ -3,6 +3,7 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/run/device/make_device.hpp>
 
@@ -42,7 +43,7 @@ Remark describeRole (const Document& d, const std::string& role)
     };
     Messages refused;
     const auto made = makeDevice (describedByGraph (&description, role, refused), d.graph().folder);
-    r.text = refused.empty() ? fromUtf8 (made.about) : TRANS ("A graph cannot choose a real device. Choose it in the Devices panel.");
+    r.text = refused.empty() ? fromUtf8 (unitShown (made.about)) : TRANS ("A graph cannot choose a real device. Choose it in the Devices panel.");
     r.is_problem = ! refused.empty();
     append (made.messages);
     return r;

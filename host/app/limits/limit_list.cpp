@@ -2,6 +2,7 @@
 #include "limit_list.hpp"
 #include "limit_words.hpp"
 
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/devices/hid/physics.hpp>
@@ -77,8 +78,8 @@ std::string detailsOf (const check::Condition& c, const std::string& device, boo
     if (! c.node.empty()) who = filled (TRANS ("%1 on %2"), printableName (c.node), who).toStdString();
     auto text = filled (TRANS ("%1 of %2: %3, limit %4"), c.id, who, number (c.value, c.unit), number (c.limit, c.unit));
     if (! is_broken) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
-    return text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")"
-           + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString());
+    return unitShown (text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")"
+                      + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString()));
 }
 
 /// The paths of the nodes that push the device of a role.
@@ -161,7 +162,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
         {
             const bool is_reached = c.verdict == check::Verdict::unknown;
             ++(is_reached ? list.unknown : list.not_reached);
-            const auto remedy = is_reached ? c.remedy : TRANS ("move the hand so that it touches the node").toStdString();
+            const auto remedy = is_reached ? unitShown (c.remedy) : TRANS ("move the hand so that it touches the node").toStdString();
             list.unjudged.push_back ({ false, std::string (c.id), nodesOf (c, demand, plan), limitSentence (c, c.node, nameOf (devices, c.role)), remedy, {} });
         }
         else if (! is_broken && ! (c.margin() < LimitList::near))   // a margin that is not known is not near

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limit_words.hpp"
 
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -31,6 +33,7 @@ constexpr LimitNoun nouns[] {
     { "peak_force", NEEDS_TRANS ("The largest force") },
     { "slew", NEEDS_TRANS ("The fastest change of force") },
     { "deadbeat", NEEDS_TRANS ("The wall") },
+    { "blow", NEEDS_TRANS ("The blow of the damper") },
     { "scanning", NEEDS_TRANS ("The speed of strokes") },
     { "gain", NEEDS_TRANS ("The slope of the texture") },
     { "structural", NEEDS_TRANS ("The frequency of the texture") },
@@ -49,7 +52,7 @@ std::string twoDigits (double v)
     return v >= 10.0 ? numberText (std::round (v / unit) * unit) : roundedText (v, 2);
 }
 
-/// "4.02e+03 N*s/m" as "4020 N s/m".
+/// "4.02e+03 N*s/m" as "4020 N·s/m".
 std::string readableNumbers (const std::string& text)
 {
     std::string all;
@@ -64,13 +67,7 @@ std::string readableNumbers (const std::string& text)
         all += has_exponent ? (v >= 1.0 ? numberText (std::round (v)) : roundedText (v, 2)) : part;
         i += length;
     }
-    const auto replace = [&all] (std::string_view from, std::string_view to) {
-        for (auto at = all.find (from); at != all.npos; at = all.find (from, at + to.size()))
-            all.replace (at, from.size(), to);
-    };
-    replace ("N*s/m", "N s/m");
-    replace (" um", " \xc2\xb5m");
-    return all;
+    return fromUtf8 (unitShown (all)).replace (" um", fromUtf8 (" \xc2\xb5m")).toStdString();
 }
 }   // namespace
 

@@ -100,7 +100,9 @@ Result<QuantityText> readQuantity (const Json& typed, const PortSheet& sheet)
     const std::string id (sheet.id);
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && *n.dimension != sheet.unit.unit.dimension)
         return Message::error ("param/unit", {},
-                               filled (TRANS ("%1 does not fit %2, which is in %3"), symbolOf (*n.dimension), id, sheet.unit.unit.symbol).toStdString());
+                               filled (TRANS ("%1 does not fit %2, which is in %3"), unitShown (symbolOf (*n.dimension)), id,
+                                       unitShown (std::string (sheet.unit.unit.symbol)))
+                                   .toStdString());
     if (plan::miscounts (n, sheet.unit)) return Message::error ("param/unit", {}, plan::miscount (value, sheet.unit));
     if (! sheet.limits.hard.contains (n.value))
         return Message::error ("param/out_of_range", {}, filled (TRANS ("%1 must be %2"), id, plan::rangeText (sheet.limits.hard)).toStdString());

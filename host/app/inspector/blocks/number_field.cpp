@@ -64,7 +64,7 @@ NumberField::NumberField (const PortSheet& s) : sheet (s)
 juce::String NumberField::spokenValue() const
 {
     if (isDriven() && ! driven_now) return fromUtf8 (driver);
-    const auto unit = fromUtf8 (unitShown (value.unit.empty() ? unitText (sheet.unit).toStdString() : value.unit));
+    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
     return juce::String (plainText (value.number)) + (unit.isEmpty() ? "" : " " + unit);
 }
 
@@ -321,7 +321,7 @@ void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juc
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.setFont (look.font (12.0f));
-    const auto unit = fromUtf8 (unitShown (value.unit.empty() ? unitText (sheet.unit).toStdString() : value.unit));
+    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
     if (const float width = g.getCurrentFont().getStringWidthFloat (unit) + 5.0f; unit.isNotEmpty() && width < 0.55f * text.getWidth())
     {
         g.setColour (theme.dim);
@@ -351,7 +351,7 @@ void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juc
 juce::String unitText (const UnitRule& rule)
 {
     const bool has_unit = rule.kind == UnitRule::Kind::fixed && rule.unit.symbol != "1";
-    return has_unit ? juce::String (std::string (rule.unit.symbol)) : juce::String();
+    return has_unit ? fromUtf8 (unitShown (std::string (rule.unit.symbol))) : juce::String();
 }
 
 juce::String spokenName (const PortSheet& sheet)
@@ -364,7 +364,7 @@ juce::String spokenName (const PortSheet& sheet)
 
 juce::String tooltipOf (const PortSheet& sheet)
 {
-    const auto symbol = unitText (sheet.unit).toStdString();
+    const auto symbol = sheet.unit.kind == UnitRule::Kind::fixed ? sheet.unit.unit.symbol : std::string_view();
     const auto range = [&] (const Interval& i) {
         if (std::isinf (i.min) && std::isinf (i.max)) return juce::String();
         if (std::isinf (i.max)) return filled (TRANS ("at least %1"), shownQuantity (i.min, symbol));

@@ -5,6 +5,7 @@
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/inspector/blocks/limit_block.hpp>
+#include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/problem_list.hpp>
@@ -135,6 +136,24 @@ TEST_CASE ("the message of a limit is one short sentence with short numbers, and
             CHECK (l.details.size() > l.text.size());   // the numbers and the law are not lost
         }
     }
+}
+
+TEST_CASE ("each condition has a subject with an article, and units are as in the fields", "[app][limits]")
+{
+    auto damped = wall (R"("damping": 0.1, "quantum": "100 um", "coulomb": "1 mN")");
+    std::ranges::find (damped.root.nodes, "wall", &graph::Node::name)->params["damping"] = 2.0;
+    auto all = checked (damped).limits;
+    std::ranges::move (checked (wall (R"("damping": 0.4)")).limits, std::back_inserter (all));
+    CHECK (std::ranges::count (all, "blow", &Limit::id) == 1);
+    for (const auto& l : all)
+    {
+        INFO (l.id << ": " << l.text << ". " << l.remedy << "\n"
+                   << l.details);
+        CHECK (l.text.starts_with ("The "));
+        CHECK ((l.remedy + l.details).find ('*') == std::string::npos);
+    }
+    CHECK (std::ranges::any_of (all, [] (const Limit& l) { return l.details.find ("N\xc2\xb7s/m") != std::string::npos; }));
+    CHECK (unitText (UnitRule (unit::damping)) == juce::String::fromUTF8 ("N\xc2\xb7s/m"));   // in the head of a table
 }
 
 TEST_CASE ("a graph that does not compile is not checked", "[app][limits]")
