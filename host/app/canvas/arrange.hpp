@@ -28,4 +28,7 @@ void placeAmong (std::vector<juce::Rectangle<float>>& boxes, std::vector<bool> p
 /// The place nearest to that of a box, straight above or below it, where it is clear of the others.
 juce::Point<float> clearPlace (juce::Rectangle<float> box, const std::vector<juce::Rectangle<float>>& others);
 
+/// Boxes that have grown to the right or downwards push those away that they would cover, which keep their distance. Boxes that met before are left alone.
+void pushApart (const std::vector<juce::Rectangle<float>>& before, std::vector<juce::Rectangle<float>>& boxes);
+
 }   // namespace tactus::host

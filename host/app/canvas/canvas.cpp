@@ -33,6 +33,7 @@ void Canvas::documentChanged()
     const auto depth_before = breadcrumbs().size();
     trail.follow();
     rebuild();
+    if (patch() == patch_before && ! drag && ! document.isStepping()) edits.makeRoom (*previous);
     patch() == patch_before ? repaintEdit (*previous) : repaint();
     if (breadcrumbs().size() != depth_before) frameStart();   // the patch that was shown is gone
     if (document.isStepping())

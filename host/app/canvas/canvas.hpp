@@ -168,6 +168,8 @@ private:
     {
         drag.reset();   // a drag may hold a row of a datasheet, so it ends where it is
         curves.clear();
+        rebuild();   // what has another shape now was not edited, so it moves nothing aside
+        repaint();
     }
     ViewState viewState() const { return { patch(), window, framed, framed_around }; }
     void followStep (const Scene& before);

@@ -54,6 +54,7 @@ public:
     /// As perform(). New nodes without a position get a free place where their wires are short, and come into view. Returns their ids; none if the
     /// edit is refused.
     Selection performPlaced (graph::Command);
+    void makeRoom (const Scene& before);    ///< nodes that the latest edit let grow push others aside; joined to the edit
     graph::Graph graphWithPlaces() const;   ///< the graph with the places of automatically arranged nodes stored in them
 
     std::vector<const SceneNode*> selectedNodes() const;

@@ -118,6 +118,24 @@ Selection CanvasCommands::performPlaced (graph::Command command)
     return made;
 }
 
+void CanvasCommands::makeRoom (const Scene& before)
+{
+    const auto& nodes = canvas.scene().nodes();
+    std::vector<juce::Rectangle<float>> was, boxes;
+    for (const auto& n : nodes)
+    {
+        const auto* old = before.find (n.id);
+        boxes.push_back (n.bounds());
+        was.push_back (old != nullptr && old->at == n.at ? old->bounds() : n.bounds());
+    }
+    if (was == boxes) return;
+    pushApart (was, boxes);
+    std::vector<std::pair<graph::Id, juce::Point<float>>> places;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (boxes[i].getPosition() != nodes[i].at) places.emplace_back (nodes[i].id, boxes[i].getPosition());
+    if (! places.empty()) perform (placeNodes (graphWithPlaces(), canvas.patch(), places), graph::Step::joined);
+}
+
 bool CanvasCommands::performBeside (graph::Command command, const Selection& made)
 {
     auto then = graphWithPlaces();

@@ -217,6 +217,31 @@ void placeAmong (std::vector<juce::Rectangle<float>>& boxes, std::vector<bool> p
     Among (boxes, std::move (placed), leads).run();
 }
 
+void pushApart (const std::vector<juce::Rectangle<float>>& before, std::vector<juce::Rectangle<float>>& boxes)
+{
+    std::vector<std::size_t> pushing;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (boxes[i].getRight() > before[i].getRight() || boxes[i].getBottom() > before[i].getBottom()) pushing.push_back (i);
+    const auto most = 4 * boxes.size();   // boxes in a ring would push each other for ever
+    for (std::size_t n = 0; n < std::min (pushing.size(), most); ++n)
+    {
+        const auto i = pushing[n];
+        for (std::size_t k = 0; k < boxes.size(); ++k)
+        {
+            const auto &box = boxes[i], &other = boxes[k];
+            const float below = before[k].getY() - before[i].getBottom(), beside = before[k].getX() - before[i].getRight();
+            const bool is_below = below >= 0.0f && box.getX() < other.getRight() && other.getX() < box.getRight();
+            const bool is_beside = beside >= 0.0f && box.getY() < other.getBottom() && other.getY() < box.getBottom();
+            if (! is_below && ! is_beside) continue;
+            const float least = is_below ? box.getBottom() + std::min (below, box_room) : box.getRight() + std::min (beside, box_room);
+            if ((is_below ? other.getY() : other.getX()) > least - 0.5f) continue;
+            const float to = std::ceil (least / Box::grid) * Box::grid;
+            is_below ? boxes[k].setY (to) : boxes[k].setX (to);
+            pushing.push_back (k);
+        }
+    }
+}
+
 juce::Point<float> clearPlace (juce::Rectangle<float> box, const std::vector<juce::Rectangle<float>>& others)
 {
     auto found = box.getPosition();

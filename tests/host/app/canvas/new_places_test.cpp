@@ -11,6 +11,7 @@
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/problems/unfelt.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/kit/random.hpp>
 
 #include <fstream>
@@ -304,4 +305,50 @@ TEST_CASE ("a mixer before the motor leaves the motor in view", "[app][canvas][l
         CHECK (canvas.getLocalBounds().toFloat().contains (pixels));
     }
     CHECK (canvas.isFitted());
+}
+
+TEST_CASE ("a node that grows pushes those aside that it would cover, which keep their distance, in the step that lets it grow", "[app][canvas]")
+{
+    auto read = readGraph (R"({ "format": "tactus-graph", "version": 2,
+      "nodes": { "value": { "type": "signal.constant", "ui": { "at": [-400, 0] } }, "drag": { "type": "friction.elasto_plastic", "ui": { "at": [0, 0] } },
+        "below": { "type": "signal.constant", "ui": { "at": [0, 800] } }, "last": { "type": "signal.constant", "ui": { "at": [0, 1000] } },
+        "beside": { "type": "signal.constant", "ui": { "at": [800, 0] } } } })");
+    REQUIRE_FALSE (hasErrors (read.messages));
+    CanvasRig rig { std::move (read.graph) };
+    const auto box = [&] (const std::string& name) { return rig.node (name).bounds(); };
+    const auto put = [&] (const std::string& name, float x, float y) {
+        REQUIRE (rig.document.perform (placeNodes (rig.graph(), "", { { rig.node (name).id, { x, y } } })));
+    };
+    put ("below", 16.0f, box ("drag").getBottom() + 16.0f);
+    put ("last", 0.0f, box ("below").getBottom() + 8.0f);
+    put ("beside", box ("drag").getRight() + 16.0f, 0.0f);
+    const auto before = rig.text();
+    const auto steps = rig.document.history().position();
+
+    const auto& drag = rig.node ("drag");
+    const auto hidden = std::ranges::find_if (drag.face->params, [&] (const FacePort& p) {
+        return p.width == 1 && ! p.isChoice() && drag.box.find (Role::param, p.id) == nullptr;
+    });
+    REQUIRE (hidden != drag.face->params.end());
+    const auto wire = "value.out -> drag." + hidden->id;
+    const float height = box ("drag").getHeight();
+    REQUIRE (rig.document.perform (graph::Batch { "connect", { graph::AddWire { "", *graph::parseWire (wire) } } }));
+    REQUIRE (box ("drag").getHeight() >= height + 16.0f);
+    CHECK (box ("below").getY() == box ("drag").getBottom() + 16.0f);
+    CHECK (box ("last").getY() == box ("below").getBottom() + 8.0f);
+    CHECK (box ("below").getX() == 16.0f);
+    CHECK (rig.document.history().position() == steps + 1);
+    CHECK (latestStep (rig.document) == wire);
+    rig.document.undo();
+    CHECK (rig.text() == before);
+
+    REQUIRE (rig.document.perform (graph::RenameNode { "", "drag", "the_drag_of_a_pen_on_a_rough_board" }));
+    CHECK (box ("beside").getX() == box ("the_drag_of_a_pen_on_a_rough_board").getRight() + 16.0f);
+    CHECK (box ("beside").getY() == 0.0f);
+    rig.document.undo();
+    CHECK (rig.text() == before);
+
+    put ("below", 0.0f, box ("drag").getBottom() - 8.0f);   // the user lets them meet
+    REQUIRE (rig.document.perform (graph::AddWire { "", *graph::parseWire (wire) }));
+    CHECK (box ("below").getY() == box ("drag").getY() + height - 8.0f);
 }

@@ -99,14 +99,19 @@ TEST_CASE ("a value that is typed moves no node, where nodes have no places of t
         CHECK (w.graph().root.find ("desk")->params != gains);
         CHECK (placesIn (w) == before);
     }
-    w.document.perform (graph::RenameNode { {}, "desk", "a_desk_with_a_name_that_is_long" });
-    CHECK (placesIn (w) == before);
-
     // The first move stores where the nodes are; undone, they are where they were.
     auto& canvas = w.canvas;
     canvas.select ({ canvas.scene().nodes().front().id });
     canvas.commands().nudgeSelection ({ 0.0f, 200.0f });
     REQUIRE (placesIn (w) != before);
+    w.document.undo();
+    CHECK (placesIn (w) == before);
+
+    // A node that grows by its name pushes aside what it would cover, in the same step.
+    w.document.perform (graph::RenameNode { {}, "desk", "a_desk_with_a_name_that_is_long" });
+    for (const auto& a : canvas.scene().nodes())
+        for (const auto& b : canvas.scene().nodes())
+            CHECK ((a.id == b.id || ! a.bounds().intersects (b.bounds())));
     w.document.undo();
     CHECK (placesIn (w) == before);
 }
