@@ -114,7 +114,7 @@ void paintAbove (juce::Graphics& g, const Scene& scene, const View& view, const 
         if (! paintsNodes) paintNodes (g, scene, view, look, highlights);
     });
     if (paintsNodes) paintsNodes();
-    onCanvas ([&] { paintSelectedBends (g, scene, view, look.theme(), highlights); });
+    onCanvas ([&] { paintAboveNodes (g, scene, view, look.theme(), highlights); });
 }
 
 void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const Look& look, const Highlights& highlights)

@@ -121,6 +121,17 @@ juce::Path shownOf (const juce::Graphics& g, const SceneWire& w)
     return piecesOf (g, path, std::numeric_limits<float>::infinity()).path;
 }
 
+void strokeWire (juce::Graphics& g, const SceneWire& w, const juce::Path& path, juce::Colour colour)
+{
+    g.setColour (colour);
+    const juce::PathStrokeType stroke (thicknessOf (w));
+    if (! isDashed (w)) return g.strokePath (path, stroke);
+    juce::Path dashed;
+    const float dashes[] { w.add ? 8.0f : 3.0f, 4.0f };
+    stroke.createDashedStroke (dashed, path, dashes, 2);
+    g.fillPath (dashed);
+}
+
 /// Wires that look the same, a few together, because one at a time takes longer: for patches with so many wires that most lie on others. A few,
 /// because JUCE copies the table of their edges each time that many meet in a row of pixels. Which are together depends on their ids alone, so a
 /// part of the picture that is painted again is as before.
@@ -213,11 +224,16 @@ void paintSingleWires (juce::Graphics& g, const Scene& scene, const View& view, 
     }
 }
 
-void paintSelectedBends (juce::Graphics& g, const Scene& scene, const View& view, const Theme& theme, const Highlights& highlights)
+void paintAboveNodes (juce::Graphics& g, const Scene& scene, const View& view, const Theme& theme, const Highlights& highlights)
 {
-    if (view.zoom <= View::too_small_for_names) return;
+    const auto seen = g.getClipBounds().toFloat();
     for (const auto& w : scene.wires())
-        if (w.has_bends && highlights.selected.contains (w.id)) paintBends (g, w, highlights, theme);
+    {
+        const bool is_selected = highlights.selected.contains (w.id);
+        if ((! is_selected && highlights.hovered != w.id) || ! boundsOf (w).intersects (seen)) continue;
+        strokeWire (g, w, shownOf (g, w), theme.of (w.quantity).withMultipliedAlpha (w.enabled ? 0.4f : 0.2f));
+        if (is_selected && w.has_bends && view.zoom > View::too_small_for_names) paintBends (g, w, highlights, theme);
+    }
 }
 
 void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered, int level)
@@ -236,12 +252,7 @@ void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool 
         g.setColour (theme.accent.withAlpha (selected ? 0.6f : 0.3f));
         g.strokePath (path, juce::PathStrokeType (thickness + 4.0f));
     }
-    g.setColour (theme.of (w.quantity).withMultipliedAlpha (w.enabled ? 1.0f : 0.35f));
-    if (! isDashed (w)) return g.strokePath (path, juce::PathStrokeType (thickness));
-    juce::Path dashed;
-    const float dashes[] { w.add ? 8.0f : 3.0f, 4.0f };
-    juce::PathStrokeType (thickness).createDashedStroke (dashed, path, dashes, 2);
-    g.fillPath (dashed);
+    strokeWire (g, w, path, theme.of (w.quantity).withMultipliedAlpha (w.enabled ? 1.0f : 0.35f));
 }
 
 }   // namespace tactus::host

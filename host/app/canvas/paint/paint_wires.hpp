@@ -33,10 +33,10 @@ void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, 
 /// The amount that a wire carries, as in LiveState; 0: nothing.
 int levelOf (const SceneWire&, const LiveState&);
 
-/// These paint in canvas units: the wires that are painted together, the other wires with what is on all of them, and the bends of selected
-/// wires, which are above the nodes, where they can be grabbed.
+/// These paint in canvas units: the wires that are painted together, the other wires with what is on all of them, and what of the wires is above the
+/// nodes: those that are selected or under the pointer, which shine through, and the bends of selected ones, where they can be grabbed.
 void paintBundles (juce::Graphics&, const Scene&, const Theme&, const Highlights&);
 void paintSingleWires (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
-void paintSelectedBends (juce::Graphics&, const Scene&, const View&, const Theme&, const Highlights&);
+void paintAboveNodes (juce::Graphics&, const Scene&, const View&, const Theme&, const Highlights&);
 
 }   // namespace tactus::host

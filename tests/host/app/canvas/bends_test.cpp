@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
+#include <host/app/canvas/actions.hpp>
 #include <host/app/model/patch.hpp>
 
 #include <catch2/catch.hpp>
@@ -183,4 +184,33 @@ TEST_CASE ("bends are kept in the file, move with both nodes, and change nothing
     CHECK (other.canvas->scene().wires().size() == CanvasRig::preset ("dry_wood").root.wires.size());
     for (const auto& w : other.canvas->scene().wires())
         CHECK_FALSE (w.has_bends);
+}
+
+TEST_CASE ("a wire that is selected or under the pointer shines through the nodes in front of it", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto& scene = rig.canvas->scene();
+    const auto shown = std::ranges::find (scene.wires(), wire, &SceneWire::text);
+    REQUIRE (shown != scene.wires().end());
+    const auto id = shown->id;
+    const auto box = rig.node ("drag").bounds().toDouble();
+    const double y = box.getY() + 14.0;   // in its header
+    REQUIRE (rig.document.perform (bendWire (rig.graph(), "", id, { { box.getX() - 24.0, y }, { box.getRight() + 24.0, y } })));
+    rig.canvas->select ({});
+    const auto picture = [&] { return rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds()); };
+    const auto header = juce::Rectangle<float> (pixel (rig, box.getTopLeft()), pixel (rig, { box.getRight(), y + 12.0 })).reduced (4.0f).toNearestInt();
+    const auto differ = [&] (const juce::Image& a, const juce::Image& b) {
+        int count = 0;
+        for (int row = header.getY(); row < header.getBottom(); ++row)
+            for (int x = header.getX(); x < header.getRight(); ++x)
+                count += a.getPixelAt (x, row) != b.getPixelAt (x, row) ? 1 : 0;
+        return count;
+    };
+    const auto plain = picture();
+    rig.canvas->highlighted().hovered = id;
+    CHECK (differ (picture(), plain) > 20);
+    rig.canvas->highlighted().hovered = 0;
+    CHECK (differ (picture(), plain) == 0);
+    rig.canvas->select ({ id });
+    CHECK (differ (picture(), plain) > 20);
 }
