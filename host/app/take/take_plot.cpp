@@ -151,13 +151,14 @@ void TakePlot::paintMark (juce::Graphics& g) const
     g.setColour (theme.dim);
     g.setFont (look.font (11.0f));
     const auto low_edge = getLocalBounds().removeFromBottom (15).reduced (2, 0);
-    const auto ends = juce::String (length(), 2) + " s";
-    g.drawText ("0 s", low_edge, juce::Justification::centredLeft, false);
+    const double begin = begins();
+    const auto ends = juce::String (begin + length(), 2) + " s";
+    g.drawText (begin > 0.0 ? juce::String (begin, 2) + " s" : "0 s", low_edge, juce::Justification::centredLeft, false);
     g.drawText (ends, low_edge, juce::Justification::centredRight, false);
     const float room = g.getCurrentFont().getStringWidthFloat (ends) + 24.0f;
-    for (const auto& tick : ticksWithin ({ 0.0, length() }, std::max (2, low_edge.getWidth() / 100)))
+    for (const auto& tick : ticksWithin ({ begin, begin + length() }, std::max (2, low_edge.getWidth() / 100)))
     {
-        const float x = xAt (tick.at);
+        const float x = xAt (tick.at - begin);
         if (x < box.getX() + room || x > box.getRight() - room) continue;
         g.drawVerticalLine (juce::roundToInt (x), box.getBottom(), box.getBottom() + 3.0f);
         g.drawText (fromUtf8 (tick.text), juce::Rectangle<float> (x - 40.0f, static_cast<float> (low_edge.getY()), 80.0f, 15.0f),

@@ -48,6 +48,7 @@ private:
 
     juce::Rectangle<float> area() const { return getLocalBounds().toFloat().reduced (1.0f).withTrimmedBottom (16.0f); }
     float xAt (double s) const;
+    double begins() const noexcept { return shown.rate_hz > 0.0 ? static_cast<double> (shown.from) / shown.rate_hz : 0.0; }   ///< in the take, in s
     double timeAt (float x) const;
     Edge edgeAt (float x) const;
     void columnsOf();

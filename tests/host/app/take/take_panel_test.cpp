@@ -6,6 +6,7 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/log/run_test.hpp>
 
+#include "host/app/support/seen_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/waiting.hpp"
 
@@ -139,7 +140,6 @@ TEST_CASE ("a marked stretch of a take becomes a clip, a gesture and a test", "[
     CHECK (played->ticks == 800);
 }
 
-TEST_CASE ("a take contains the edits that are made while it is recorded", "[take]")
 TEST_CASE ("a gesture made from a take is felt as it was recorded: the tool goes where the device was", "[take]")
 {
     TakeRig rig;
@@ -168,6 +168,7 @@ TEST_CASE ("a gesture made from a take is felt as it was recorded: the tool goes
                 REQUIRE (replayed.values[row * width + c] == Approx (recorded.values[row * width + c]).margin (1e-9));
 }
 
+TEST_CASE ("a take contains the edits that are made while it is recorded", "[take]")
 {
     TakeRig rig;
     rig.panel->toggleRecording();
@@ -226,4 +227,25 @@ TEST_CASE ("a stop that comes while a take begins again with another hand lasts"
     rig.playback->restart();
     REQUIRE (rig.until ([&] { return run.isRunning() && ! run.isStoppedForGood(); }));
     CHECK_FALSE (run.isLogging());   // no other take was requested
+}
+
+TEST_CASE ("the axis of a take that is longer than what is shown follows", "[take]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    TakePlot plot;
+    plot.setLookAndFeel (&look);
+    plot.setSize (600, 200);
+    const auto says = [&] (const juce::String& text) {
+        const auto texts = host::test::readTexts (plot);
+        return std::ranges::any_of (texts, [&] (const auto& t) { return t.text == text; });
+    };
+    const auto shown = [] (std::uint64_t from) {
+        return Stretch { .rate_hz = 100.0, .from = from, .until = from + 1000, .names = { "motor.force.x" }, .values = std::vector<double> (1000, 1.0) };
+    };
+    plot.show (shown (0));
+    CHECK ((says ("0 s") && says ("10.00 s")));
+    plot.show (shown (1250));
+    CHECK ((says ("12.50 s") && says ("22.50 s") && ! says ("0 s")));
+    plot.setLookAndFeel (nullptr);
 }
