@@ -353,13 +353,17 @@ void TopBar::morph (int from, int to)
 {
     auto made = morphBetween (document.graph(), from, to, desk.types);
     if (! made) return desk.notify (fromUtf8 (messageText (made.error())));
-    if (! document.perform (std::move (made->command))) return;
-    desk.notify (made->left_out == 0
-                     ? filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to)
-                     : filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1. "
-                                      "Differences that stay as in snapshot %2: %4 (choices, "
-                                      "vectors, values in subgraphs, and what a wire or a control sets)."),
-                               made->params, from, to, made->left_out));
+    const auto text = filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to);
+    const auto make = [this, command = std::move (made->command), text] {
+        if (document.perform (command)) desk.notify (text);
+    };
+    if (made->left_out == 0) return make();
+    desk.question.ask (filled (TRANS ("Morph from snapshot %1 to %2?"), from, to),
+                       text + " "
+                           + filled (TRANS ("Differences that stay as in snapshot %2: %1 (choices, vectors, values in subgraphs, and what a wire or a control "
+                                            "sets). To change these as well, recall snapshot %3."),
+                                     made->left_out, from, to),
+                       { { TRANS ("Make the control"), make }, { TRANS ("Cancel"), {} } });
 }
 
 }   // namespace tactus::host

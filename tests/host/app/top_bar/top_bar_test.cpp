@@ -145,3 +145,28 @@ TEST_CASE ("an opened subgraph with several instances shows the values of the ch
     canvas.chooseInstance (99);   // at most the last one
     CHECK (canvas.instance()->number == canvas.instance()->count - 1);
 }
+
+TEST_CASE ("a morph says before what it leaves, such as what a control sets", "[app][snapshots]")
+{
+    BarStage w;
+    w.key ("ctrl + 1");
+    auto turned = w.graph().controls[0];
+    turned.value = 0.25;
+    const bool has_turned = GENERATE (false, true);
+    if (has_turned) REQUIRE (w.document.perform (graph::ChangeControl { turned.id, turned }));
+    REQUIRE (w.document.perform (graph::SetParam { "", "board", "stiffness", Json ("3 N/mm") }));
+    w.key ("ctrl + 2");
+    const auto before = w.graph().controls.size();
+    const auto morph = [&] { w.choose (w.middleOf (*w.titled ("Snapshot 1")), 4); };
+    morph();
+    CHECK (w.question.isOpen() == has_turned);
+    CHECK (w.graph().controls.size() == before + (has_turned ? 0 : 1));
+    if (! has_turned) return;
+    CHECK (w.question.text().contains ("Differences that stay as in snapshot 1: 1 "));
+    w.click ("Cancel");
+    CHECK (w.graph().controls.size() == before);
+    morph();
+    w.click ("Make the control");
+    CHECK (w.graph().controls.size() == before + 1);
+    CHECK (w.graph().controls.back().to.size() == 1);
+}
