@@ -172,6 +172,7 @@ private:
     void refresh()
     {
         window->makeRoomForFrame();
+        paintWithoutDisplay();
         if (! places_file.empty()) writePlaces();
         if (! stopRequested() || has_stopped) return;
         has_stopped = true;

@@ -22,7 +22,8 @@ def main():
     graphs, work = HERE.parents[1] / "graphs", build / "tried"
     wrong = []
     for script, words in (("presets.py", [tactus, build / "bin", WINE, graphs, work]), ("libraries.py", [tactus, build, WINE, work]),
-                          ("devices.py", [tactus, build / "bin", WINE, graphs, work]), ("tests.py", [tactus.parents[1], build, WINE])):
+                          ("devices.py", [tactus, build / "bin", WINE, graphs, work]), ("tests.py", [tactus.parents[1], build, WINE]),
+                          ("window.py", [tactus, build / "bin", WINE, graphs, work])):
         print(f"== {script}", flush=True)
         if subprocess.run([sys.executable, "-B", HERE / script, *words], env=environment, check=False).returncode != 0:
             wrong.append(script)

@@ -61,4 +61,13 @@ void setRepaintRate (juce::ComponentPeer&, std::optional<int>)
 void takeHeldKeysFromEvents() {}
 #endif
 
+void paintWithoutDisplay()
+{
+#if JUCE_WINDOWS
+    auto& desktop = juce::Desktop::getInstance();
+    for (int i = desktop.getNumComponents(); --i >= 0;)
+        if (auto* window = desktop.getComponent (i); window != nullptr && window->getPeer() != nullptr) window->getPeer()->performAnyPendingRepaintsNow();
+#endif
+}
+
 }   // namespace tactus::host

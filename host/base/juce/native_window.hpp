@@ -18,4 +18,8 @@ void setRepaintRate (juce::ComponentPeer&, std::optional<int> per_second);
 /// until the mouse moves, and no key does what it should. Call it once. Does nothing on systems without X11. [message thread]
 void takeHeldKeysFromEvents();
 
+/// Paints what has changed in all windows. On Windows, JUCE paints when the display has shown a picture, and never where no display says so: on some
+/// remote desktops and virtual machines, and in wine. Call it at each refresh. Does nothing on other systems. [message thread]
+void paintWithoutDisplay();
+
 }   // namespace tactus::host

@@ -173,7 +173,7 @@ void WindowStop::wake() noexcept
     static_cast<void> (eventfd_write (server->bell, 1));   // fails only if it has rung very often, and then the thread wakes all the same
 }
 
-#else
+#elif ! defined(_WIN32)   // there, windows/window_stop.cpp
 
 struct WindowStop::Server
 {
@@ -190,6 +190,8 @@ void WindowStop::wake() noexcept {}
 
 #endif
 
+#if ! defined(_WIN32)
 WindowStop::~WindowStop() = default;
+#endif
 
 }   // namespace tactus::host

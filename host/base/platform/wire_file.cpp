@@ -224,7 +224,7 @@ void WireFile::signal (bool is_ready) noexcept
     static_cast<void> (::ioctl (file, TIOCMBIS, &on));
 }
 
-#elif ! defined(_WIN32)   // windows_wires.cpp
+#elif ! defined(_WIN32)   // there, windows/wires.cpp
 
 namespace
 {

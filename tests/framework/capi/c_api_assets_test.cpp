@@ -68,7 +68,7 @@ GraphHandle oneNode (const char* type, const char* setting, const std::string& v
 {
     const auto text = R"({"format": "tactus-graph", "version": 2, "name": "One", "rate_hz": 1000, "nodes": {"it": {"type": ")" + std::string (type)
                       + R"(", "settings": {")" + setting + "\": " + value + "}}}, \"wires\": []}";
-    GraphHandle g { tactus_graph_parse (text.data(), text.size(), folder.path().c_str(), m.get()) };
+    GraphHandle g { tactus_graph_parse (text.data(), text.size(), folder.path().string().c_str(), m.get()) };
     INFO (said (m));
     REQUIRE (g);
     return g;

@@ -79,7 +79,7 @@ std::vector<double> silence (const RunHandle& run, int ticks, double passed_s = 
 
 /// The number of ticks with the whole force. The age is a sum, and its rounding may cost the last of them. Then the force fades to zero within 5 ms,
 /// without a step, and stays there.
-long wholeTicks (const std::vector<double>& forces)
+std::ptrdiff_t wholeTicks (const std::vector<double>& forces)
 {
     const auto begins = std::ranges::find_if (forces, [] (double f) { return f != force; });
     const auto ends = std::ranges::find (forces, 0.0);

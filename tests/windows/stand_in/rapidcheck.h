@@ -81,6 +81,18 @@ struct Arbitrary
     }
 };
 
+template <>
+struct Arbitrary<std::string>
+{
+    static std::string draw()
+    {
+        std::string drawn (Case::now().below (static_cast<std::uint64_t> (Case::now().size) + 1), ' ');
+        for (auto& c : drawn)
+            c = static_cast<char> (Arbitrary<unsigned char>::draw());
+        return drawn;
+    }
+};
+
 template <typename A, typename B>
 struct Arbitrary<std::pair<A, B>>
 {

@@ -289,10 +289,10 @@ TEST_CASE ("a clip comes to a node as a table, and the budgets hold for it", "[c
     folder.write ("a.haptic", text);
     folder.write ("b.json", "{}");
     readers::FileAssets files;
-    const auto table = files.table (folder / "a.haptic");
+    const auto table = files.table ((folder / "a.haptic").string());
     REQUIRE (table);
     CHECK (clipOf (**table).clip.tracks[0].amplitude.size() == 2);
-    const auto none = files.table (folder / "b.json");
+    const auto none = files.table ((folder / "b.json").string());
     REQUIRE (! none);
     CHECK (none.error().id == "clip/unknown_kind");
     const WithLimits limits ("values=5");

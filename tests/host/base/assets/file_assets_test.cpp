@@ -50,10 +50,10 @@ TEST_CASE ("each kind of file is read", "[host][assets]")
     writeWav (folder, "a.wav", { 0.5, -2.0 });
 
     FileAssets files;
-    CHECK (content (files.table (folder / "a.csv"))->values[5] == 6.0);
-    CHECK (content (files.mesh (folder / "a.obj"))->triangles.size() == 1);
-    CHECK (content (files.image (folder / "a.png"))->values[1] == 1.0);
-    const auto signal = content (files.signal (folder / "a.wav"));
+    CHECK (content (files.table ((folder / "a.csv").string()))->values[5] == 6.0);
+    CHECK (content (files.mesh ((folder / "a.obj").string()))->triangles.size() == 1);
+    CHECK (content (files.image ((folder / "a.png").string()))->values[1] == 1.0);
+    const auto signal = content (files.signal ((folder / "a.wav").string()));
     CHECK (signal->rate_hz == 8000.0);
     CHECK (signal->channels == std::vector<std::vector<double>> { { 0.5, -2.0 } });
 }
@@ -63,12 +63,12 @@ TEST_CASE ("a file is read once while it is in use, and again after a change", "
     const TemporaryFolder folder;
     folder.write ("a.csv", "1,2,3\n");
     FileAssets files;
-    auto first = content (files.table (folder / "a.csv"));
-    CHECK (content (files.table (folder / "a.csv")) == first);
+    auto first = content (files.table ((folder / "a.csv").string()));
+    CHECK (content (files.table ((folder / "a.csv").string())) == first);
 
     folder.write ("a.csv", "7,8,9\n");   // same length as before
     std::filesystem::last_write_time (folder / "a.csv", std::filesystem::last_write_time (folder / "a.csv") + std::chrono::seconds (1));
-    const auto second = content (files.table (folder / "a.csv"));
+    const auto second = content (files.table ((folder / "a.csv").string()));
     CHECK (first->values[0] == 1.0);
     CHECK (second->values[0] == 7.0);
 
@@ -82,8 +82,8 @@ TEST_CASE ("an image and a table with the same name are separate", "[host][asset
     const TemporaryFolder folder;
     folder.write ("a", "1,2,3\n");
     FileAssets files;
-    const auto table = content (files.table (folder / "a"));
-    CHECK (contains (refusal (files.image (folder / "a")), "neither a PNG nor a JPEG"));
+    const auto table = content (files.table ((folder / "a").string()));
+    CHECK (contains (refusal (files.image ((folder / "a").string())), "neither a PNG nor a JPEG"));
 }
 
 TEST_CASE ("a file that cannot be read is refused with path, cause and remedy", "[host][assets]")
@@ -97,15 +97,15 @@ TEST_CASE ("a file that cannot be read is refused with path, cause and remedy", 
     folder.write ("bad.csv", "1\n2 N\n");
 
     FileAssets files;
-    const auto missing = refusal (files.mesh (folder / "none.obj"));
+    const auto missing = refusal (files.mesh ((folder / "none.obj").string()));
     CHECK (contains (missing, (folder / "none.obj").string() + ": there is no such file; "));
     CHECK (contains (missing, "folder of the graph"));
-    CHECK (contains (refusal (files.table (folder.path())), "not a file"));
+    CHECK (contains (refusal (files.table (folder.path().string())), "not a file"));
     CHECK (contains (refusal (files.table ("/dev/zero")), "not a file"));
-    CHECK (contains (refusal (files.table (folder / "large.csv")), "64 MB"));
-    CHECK (contains (refusal (files.table (folder / "bad.csv")), "bad.csv:2: "));
+    CHECK (contains (refusal (files.table ((folder / "large.csv").string())), "64 MB"));
+    CHECK (contains (refusal (files.table ((folder / "bad.csv").string())), "bad.csv:2: "));
     CHECK (contains (refusal (files.table (std::string ("a\0b", 3))), "NUL"));
-    CHECK (contains (refusal (files.signal (folder / "bad.csv")), "not a supported WAV"));
-    CHECK (contains (refusal (files.signal (folder / "empty.wav")), "no samples"));
-    CHECK (contains (refusal (files.signal (folder / "nan.wav")), "not finite"));
+    CHECK (contains (refusal (files.signal ((folder / "bad.csv").string())), "not a supported WAV"));
+    CHECK (contains (refusal (files.signal ((folder / "empty.wav").string())), "no samples"));
+    CHECK (contains (refusal (files.signal ((folder / "nan.wav").string())), "not finite"));
 }

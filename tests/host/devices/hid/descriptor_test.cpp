@@ -64,7 +64,7 @@ std::vector<Cap> capsOf (const std::string& text, std::array<long, 3>& lengths, 
             if (key == "FirstCap") firsts[index] = static_cast<std::size_t> (value);
         }
         if (! line.starts_with ("pp_data->cap[")) continue;
-        caps.resize (std::max (caps.size(), index + 1));
+        caps.resize (std::max<std::size_t> (caps.size(), index + 1));
         caps[index].emplace (key, value);
     }
     return caps;

@@ -592,7 +592,7 @@ TEST_CASE ("the token of a run is in a file that only this user can read, and go
     const TemporaryFolder folder;
     const char* before = std::getenv ("XDG_RUNTIME_DIR");
     const std::string kept = before != nullptr ? before : "";
-    setenv ("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    setenv ("XDG_RUNTIME_DIR", folder.path().string().c_str(), 1);
     {
         const TokenFile file { 7770, "a1b2c3" };
         CHECK (TokenFile::read (7770) == "a1b2c3");

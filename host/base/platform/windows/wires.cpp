@@ -6,8 +6,8 @@
 
 #include <windows.h>
 
-#include "wire_address.hpp"
-#include "wire_file.hpp"
+#include <host/base/platform/wire_address.hpp>
+#include <host/base/platform/wire_file.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Drives tactus-host.exe in wine with mouse and keyboard: window.py TACTUS BIN WINE GRAPHS WORK. Arguments as for presets.py.
+
+It plays Dry wood with the mouse, and `tactus probe` on Linux reads the force over OSC; it stops, changes a parameter, saves, opens a preset and a file
+with another name, is killed with an edit that is not saved, and gets it back. Pictures are in WORK/window."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/host/app/screens"), str(ROOT / "tests/windows")]
+from walk import Walk   # noqa: E402
+from wine import restart   # noqa: E402
+
+OSC = "7791"
+
+
+def there(path):
+    """A path of Linux, as wine names it."""
+    return "Z:" + str(path).replace("/", "\\")
+
+
+class InWine(Walk):
+    def __init__(self, wine, exe, out):
+        out.mkdir(parents=True, exist_ok=True)
+        super().__init__(str(exe), out, "1600x1000", "dark")
+        self.wine = wine
+        self.environment.update(TACTUS_HOME=there(self.home / "settings"), HOME=os.environ["HOME"])
+        restart(wine, self.environment)   # on this screen
+
+    def start(self, *arguments):
+        self.places_file.unlink(missing_ok=True)
+        self.program = subprocess.Popen([self.wine, self.host, "--places", there(self.places_file), "--osc", OSC, *arguments], env=self.environment)
+        self.wait(self.places_file.exists, "the window")
+
+    def end(self):
+        if self.program:
+            self.kill()
+        restart(self.wine)   # lets the screen go
+        super().end()
+
+    def save(self, is_saved):
+        """Ctrl+S, and again if the window, which may have just started, has lost it."""
+        self.wait(lambda: is_saved() or self.key("ctrl+s") or is_saved(), "the file with the change")
+
+    def title(self):
+        found = subprocess.run(["xdotool", "search", "--name", "Tactus$", "getwindowname"], env=self.environment, capture_output=True, text=True, check=False)
+        return found.stdout.strip()
+
+
+def force(tactus):
+    """The largest force in N within a third of a second, by `tactus probe` on Linux."""
+    rows = subprocess.run([tactus, "probe", "motor.force", "--osc", OSC, "--rate", "100", "--duration", "0.3"], capture_output=True, text=True, check=False)
+    lines = [line.split(",") for line in rows.stdout.splitlines()]
+    return max((sum(float(v)**2 for v in row[1:])**0.5 for row in lines[1:]), default=None)
+
+
+def value(file, node, param):
+    return json.loads(file.read_text())["nodes"][node]["params"][param]
+
+
+def walk(w, tactus, graphs):
+    mine = w.home / "Brettchen ж 😀.json"
+    shutil.copy(graphs / "dry_wood.json", mine)
+    w.start(there(mine))
+    w.wait(lambda: w.has("drag.mu value") and w.has("STOP"), "a graph that runs")
+    assert "Dry wood" in w.title(), w.title()
+
+    surface = w.at("Surface")
+    w.press([surface[0] - 60, surface[1]])
+    w.glide([surface[0] - 60, surface[1]], [surface[0] + 20, surface[1]])
+    w.shot("stroke")
+    felt = force(tactus)
+    assert felt is not None and felt > 0.1, f"the tool presses on the wood, and the force is {felt} N"
+    w.key("Escape")
+    w.wait(lambda: w.has("START"), "a stop by Esc")
+    w.release()
+    assert force(tactus) in (None, 0.0), "after the stop, there is a force"
+    w.shot("stopped")
+    w.click("START")
+    w.wait(lambda: w.has("STOP"), "the start")
+    w.click("STOP")
+    w.wait(lambda: w.has("START"), "a stop by the mouse")
+
+    before = value(mine, "board", "damping")
+    damping = w.at("board.damping value")
+    w.drag(damping, [damping[0], damping[1] - 30])
+    w.save(lambda: value(mine, "board", "damping") != before)
+    assert b"\r" not in mine.read_bytes()
+    subprocess.run([tactus, "validate", mine], check=True, stdout=subprocess.DEVNULL)
+    w.shot("saved")
+
+    saved = mine.read_bytes()
+    damping = w.at("board.damping value")
+    w.drag(damping, [damping[0], damping[1] + 20])
+    recovery = w.home / "settings"
+    w.wait(lambda: any("damping" in f.read_text(errors="replace") for f in recovery.rglob("*.json") if "session" in str(f)), "the recovery file")
+    w.kill()
+    assert mine.read_bytes() == saved
+    w.start()
+
+    def recovered():   # a window that has just started may lose a click
+        for answer in ("Recover", "Recover without running"):
+            if w.has(answer):
+                w.click(answer)
+                break
+        return w.has("drag")
+
+    w.wait(recovered, "the recovered graph")
+    w.shot("recovered")
+    w.save(lambda: mine.read_bytes() != saved)
+
+    w.click("Search presets")
+    w.type("bronze bell")
+    w.key("Return")
+    w.wait(lambda: "Bronze bell" in w.title(), "the preset")
+    w.shot("preset")
+
+
+def main():
+    tactus, folder, wine, graphs, work = sys.argv[1], *map(pathlib.Path, sys.argv[2:6])
+    w = InWine(str(wine), folder / "tactus-host.exe", work / "window")
+    try:
+        walk(w, tactus, graphs)
+    except (SystemExit, AssertionError):
+        w.shot("failed")
+        raise
+    finally:
+        w.end()
+    print("the window plays Dry wood by the mouse, stops, saves, opens, and recovers after kill -9")
+
+
+if __name__ == "__main__":
+    main()
