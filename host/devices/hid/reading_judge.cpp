@@ -137,7 +137,7 @@ double ReadingJudge::ReportArrival::age (bool comes, Nanoseconds arrival, double
         at = arrival;
         lag = lag_s;
     }
-    if (comes) return lag;
+    if (comes) return lag > 0.0 ? lag + std::max (0.0, static_cast<double> (now - at) / 1e9) : 0.0;   // one waits for its tick longer than another
     return lag + std::max (static_cast<double> (ticks_without) * period_s, at == 0 ? 0.0 : static_cast<double> (now - at) / 1e9);
 }
 

@@ -13,7 +13,8 @@ constexpr double tau = 0.005;        // of the speed so far, in s; that of the g
 constexpr double silence = 1.5;      // in periods
 constexpr double much_less = 0.75;   // of the motion that the speed so far explains
 constexpr double much_more = 1.5;
-constexpr double slow = 0.05;   // m/s: such a tool moves little during a delay
+constexpr double to_middle = 0.15;   // by how much a lag goes to half a period, the middle of what is possible: else a wrong speed would keep itself
+constexpr double slow = 0.05;        // m/s: such a tool moves little during a delay
 }   // namespace
 
 /// Measures the speed of the device's clock, from one reading to another, both on time if possible.
@@ -57,7 +58,8 @@ double MeasuredTime::lagByMotion (double passed_s, double moved) noexcept
     is_late = is_late ? moved > much_more * expected : was_silent && moved < much_less * expected;
     const double most = is_late ? since - std::min (period, passed_s) : std::min (period, since);
     const double elapsed = moved < velocity.norm() * since ? moved / velocity.norm() : since;
-    return std::clamp (since - elapsed, 0.0, most);
+    const double late = std::clamp (since - elapsed, 0.0, most);
+    return is_late ? late : late + to_middle * (std::min (0.5 * period, most) - late);
 }
 
 double MeasuredTime::operator() (double passed_on_clock_s, double arrived_s, const Vec3& position) noexcept

@@ -17,7 +17,8 @@ namespace tactus::host::hid
 ///    if the clock is always too fast or too slow. Before the end of the first span, the device counts as one without a clock. If the lag
 ///    exceeds 0.1 s, the clock is wrong, and is measured again.
 ///  - Otherwise, the tool is assumed to keep its speed if that is possible with a lag of at most a period, so jitter does not make it seem
-///    faster. After a silence, it cannot be known whether the reading is late or others are lost: if the tool has moved much less than its
+///    faster; and the lag goes to half a period by 15 % of the difference with each reading, so that a speed that is measured a little too high does not
+///    keep itself. After a silence, it cannot be known whether the reading is late or others are lost: if the tool has moved much less than its
 ///    speed so far explains, the reading counts as late by up to the silence, until the motion after it shows that it was not.
 ///
 /// A tool that is slower than 5 cm/s gets no lag, as it moves little during a delay. A lag is at most the time since the last arrival plus the last lag,

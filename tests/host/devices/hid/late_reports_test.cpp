@@ -139,8 +139,8 @@ struct Ticking
 constexpr Ticking ticking[] {
     { "ticks by reports", false, false, 0.0, 1.9 },
     { "ticks by a timer", true, false, 0.0, 1.9 },
-    { "ticks by reports, in the time of a run", false, true, 0.0, 1.6 },
-    { "ticks by a timer that is late, in the time of a run", true, true, 0.4, 1.6 },
+    { "ticks by reports, in the time of a run", false, true, 0.0, 1.8 },
+    { "ticks by a timer that is late, in the time of a run", true, true, 0.4, 1.8 },
 };
 
 double uniform (std::mt19937& random) { return static_cast<double> (random()) / 4294967296.0; }
@@ -150,7 +150,7 @@ std::vector<Link> links()
     const auto after = [] (Nanoseconds now, double delay_ms) { return now + static_cast<Nanoseconds> (1e6 * delay_ms); };
     return {
         { "in time", [=] (auto&, auto, auto now) { return after (now, 0.2); }, ms },
-        { "jitter", [=] (auto& r, auto, auto now) { return after (now, 0.9 * uniform (r)); }, 2 * ms, 1.6 },
+        { "jitter", [=] (auto& r, auto, auto now) { return after (now, 0.9 * uniform (r)); }, 2 * ms },
         { "loss", [=] (auto& r, auto, auto now) { return uniform (r) < 0.15 ? Link::lost : after (now, 0.2 + 0.1 * uniform (r)); }, 12 * ms },
         // Every half second, one report is late, and those behind it are lost.
         { "one 12 ms late", [=] (auto&, auto k, auto now) { return k % 500 == 0 ? after (now, 12.2) : k % 500 < 12 ? Link::lost
