@@ -29,15 +29,20 @@ namespace
 {
 const std::vector<std::filesystem::path> no_files;   // that are copied when a graph is carried to another folder
 
-/// A value as it is shown on a node: a quantity, or a vector such as "(0, 0, 1)", with or without its parentheses and commas.
-Result<Json> readTyped (const std::string& text, const FacePort& port)
+/// A value that was typed over the one that a node shows: a quantity, or a vector such as "(0, 0, 1)", with or without its parentheses and commas.
+Result<Json> readTyped (const std::string& text, const std::string& shown, const FacePort& port)
 {
     const auto read = [&] (const std::string& part) -> Result<Json> {
         const auto quantity = readQuantity (readValue (part), *port.sheet);
         if (! quantity) return quantity.error();
         return quantity->toJson();
     };
-    if (port.width == 1) return read (text);
+    if (port.width == 1)
+    {
+        const auto before = readQuantity (readValue (shown), *port.sheet);
+        const auto typed = before ? host::readTyped (text, *before, *port.sheet) : readQuantity (readValue (text), *port.sheet);
+        return typed ? Result<Json> (typed->toJson()) : typed.error();
+    }
     auto all = Json::array();
     for (const auto& part : juce::StringArray::fromTokens (fromUtf8 (text).removeCharacters ("()"), text.find (',') == text.npos ? " " : ",", {}))
     {
@@ -484,7 +489,7 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
     const auto apply = [this, id, before] (const juce::String& text) {
         const auto param = canvas.scene().findPort (id);
         if (text == before || ! param || param.port->sheet == nullptr) return true;   // what is shown may be rounded
-        const auto value = readTyped (text.trim().toStdString(), *param.port);
+        const auto value = readTyped (text.trim().toStdString(), before.toStdString(), *param.port);
         if (! value)
         {
             canvas.notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (value.error().text));

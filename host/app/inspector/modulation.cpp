@@ -139,8 +139,7 @@ Result<double> readDepth (const std::string& typed, const Modulation& m, const P
     auto any = sheet;
     any.limits = {};   // they are those of the parameter
     const auto shown = withBestPrefix ({ rounded (std::abs (m.depth)), {}, 1.0 }, any);
-    const auto plain = wholeNumber (typed);
-    const auto read = readQuantity (plain ? QuantityText { *plain, shown.unit, shown.scale }.toJson() : Json (typed), any);
+    const auto read = readTyped (typed, shown, any);
     if (! read) return read.error();
     return read->si();
 }

@@ -71,9 +71,9 @@ std::string unitShown (const std::string& unit)
 
 std::string unitWritten (std::string text)
 {
-    constexpr std::string_view dot = "·";
-    for (auto at = text.find (dot); at != text.npos; at = text.find (dot, at))
-        text.replace (at, dot.size(), "*");
+    for (const auto& [shown, written] : { std::pair<std::string_view, const char*> { "·", "*" }, { "µ", "u" } })
+        for (auto at = text.find (shown); at != text.npos; at = text.find (shown, at))
+            text.replace (at, shown.size(), written);
     return text;
 }
 
@@ -119,6 +119,12 @@ Result<QuantityText> readQuantity (const Json& typed, const PortSheet& sheet)
         if (! unit.empty() && one) text = { number, unit, one->value };
     }
     return text;
+}
+
+Result<QuantityText> readTyped (const std::string& typed, const QuantityText& shown, const PortSheet& sheet)
+{
+    const auto plain = wholeNumber (typed);
+    return readQuantity (plain ? QuantityText { *plain, shown.unit, shown.scale }.toJson() : Json (typed), sheet);
 }
 
 double siOf (const Json& value, const PortSheet& sheet, double fallback)

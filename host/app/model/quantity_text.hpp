@@ -36,7 +36,7 @@ QuantityText withBestPrefix (QuantityText, const PortSheet&);
 /// A unit as people read it: "µm" for the "um" of files, and "N·s/m" for "N*s/m".
 std::string unitShown (const std::string& unit);
 
-/// A text as files have it: with "*" for each "·", so that what is shown can be typed.
+/// A text as files have it: with "*" for each "·" and "u" for each "µ", so that what is shown can be typed.
 std::string unitWritten (std::string text);
 
 /// A value in SI units as people read it: "100 µm", "2.5 N". For the units "1" and "", only the number.
@@ -47,6 +47,9 @@ double rounded (double, int digits = 3);
 
 /// Reads a param's value from a file or from what the user typed. Fails if the unit is wrong or the value is out of the hard range.
 Result<QuantityText> readQuantity (const Json&, const PortSheet&);
+
+/// The same of what was typed over a value that is shown: a number without a unit is in the unit shown.
+Result<QuantityText> readTyped (const std::string& typed, const QuantityText& shown, const PortSheet&);
 
 /// The SI value of a param, or `fallback` if it cannot be read.
 double siOf (const Json&, const PortSheet&, double fallback = 0.0);

@@ -339,17 +339,17 @@ void TakePanel::makeGesture()
     });
 }
 
-/// The hand that moved the tool before comes back by undo.
+/// The hand that moved the tool before comes back by undo, which starts nothing that a person has stopped.
 void TakePanel::useGesture (const std::filesystem::path& file)
 {
-    const auto moveBy = [safe = SafePointer (this)] (const LiveRun::Hand& hand) {
+    const auto change = [safe = SafePointer (this)] (const LiveRun::Hand& hand) {
         return [safe, hand] {
-            if (safe != nullptr) safe->playback.moveBy (hand);
+            if (safe != nullptr) safe->playback.changeHand (hand);
         };
     };
     const LiveRun::Hand earlier = playback.run().hand(), now { LiveRun::Hand::Kind::path, file.string() };
     playback.moveBy (now);
-    document.addWindowStep (filled (TRANS ("move the hand by %1"), printableName (file.filename().string())).toStdString(), moveBy (earlier), moveBy (now));
+    document.addWindowStep (filled (TRANS ("move the hand by %1"), printableName (file.filename().string())).toStdString(), change (earlier), change (now));
 }
 
 void TakePanel::makeTest()

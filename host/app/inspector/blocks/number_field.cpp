@@ -257,10 +257,7 @@ bool NumberField::type (const juce::String& text)
         refuse (text, messageText (custom.error()));
         return false;
     }
-    const auto plain = wholeNumber (trimmed);   // a number without a unit is in the unit shown
-    auto wanted = plain ? QuantityText { *plain, value.unit, value.scale }.toJson() : Json (trimmed);
-    if (read) wanted = *custom;
-    const auto taken = readQuantity (wanted, sheet);
+    const auto taken = read ? readQuantity (*custom, sheet) : readTyped (trimmed, value, sheet);
     if (! taken)
     {
         refuse (text, fromUtf8 (taken.error().text));

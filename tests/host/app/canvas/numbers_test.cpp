@@ -84,6 +84,24 @@ TEST_CASE ("a damping on a node can be dragged, and typed with the unit that it 
     CHECK (damping() == "0.45 N*s/m");
 }
 
+TEST_CASE ("a number that is typed on a node without a unit is in the unit that the node shows, as in the inspector", "[app][canvas][units]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto typed = [&] (const char* param, const char* text) {
+        rig.hand().doubleClick (rig.value ("drag", param));
+        auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+        REQUIRE (editor != nullptr);
+        editor->setText (text);
+        editor->onReturnKey();
+        CHECK (rig.hint == "");
+        return rig.graph().root.find ("drag")->params.at (param);
+    };
+    CHECK (typed ("d_max", "0.9") == Json ("0.9 mm"));
+    CHECK (typed ("d_max", "80 um") == Json ("80 um"));
+    CHECK (typed ("d_max", "70") == Json ("70 um"));
+    CHECK (typed ("static_ratio", "1.4") == Json (1.4));
+}
+
 TEST_CASE ("a vector is typed on its node, with or without parentheses and commas", "[app][canvas]")
 {
     const auto text = GENERATE (as<std::string> {}, "(0, 1, 0.5)", "0 1 0.5", "0, 1, 0.5");

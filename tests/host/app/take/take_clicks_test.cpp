@@ -23,6 +23,30 @@ using tactus::host::test::lowest;
 using tactus::host::test::OnStage;
 using tactus::host::test::waitFor;
 
+TEST_CASE ("undo of another hand starts nothing that a person has stopped", "[app][take][safety]")
+{
+    DeskStage w ("dry_wood.json");
+    auto& run = w.playback.run();
+    auto& panel = w.show<TakePanel> (takesPanel);
+    w.desk.chooseFile = [&] (bool, const std::filesystem::path& begin, const auto& chosen) { chosen (w.home / begin.filename().string()); };
+    REQUIRE (w.start());
+    w.click ("Record");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > 0.05; }));
+    w.click ("Stop");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
+    w.click ("Make a gesture...");
+    REQUIRE (waitFor ([&] { return w.question.isOpen(); }));
+    w.click ("Use now");
+    REQUIRE (run.hand().kind == LiveRun::Hand::Kind::path);
+    w.playback.stop();
+    w.key ("ctrl + z");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::described);
+    CHECK_FALSE (run.isWanted());
+    w.key ("ctrl + y");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
+    CHECK_FALSE (run.isWanted());
+}
+
 TEST_CASE ("a take shows its curve while it records, Stop ends the take and not the graph, and what is saved can be used at once", "[app][take]")
 {
     DeskStage w ("dry_wood.json");
