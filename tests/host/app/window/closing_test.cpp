@@ -306,11 +306,10 @@ TEST_CASE ("a take of which something was made needs no question, a new graph ke
         if (is_complete) c.stopRecording();
         const auto log = c.take().log();
         is_complete ? c.w.key ("ctrl + n") : c.w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
-        REQUIRE (waitFor ([&] { return c.take().state() == Take::State::ready; }));
+        REQUIRE (waitFor ([&] { return c.take().state() == Take::State::empty; }));   // it is in the list, and not shown
         CHECK (c.w.graph().name != "Dry wood");
-        CHECK (c.take().log() == log);
+        CHECK (c.w.view->part<TakePanel>().unsaved().size() == 1);
         CHECK (fs::exists (log));
-        REQUIRE (waitFor ([&] { return c.w.view->part<TakePanel>().plot().length() > 0.05; }));
         c.close();
         CHECK (c.question().title().startsWith ("Save the take"));
         CHECK (c.closed == 0);
