@@ -325,7 +325,10 @@ void TopBar::recall (int number)
     if (auto command = recallSnapshot (document.graph(), number)) document.perform (std::move (*command));
     note (number);
     const auto missing = missingNodes (document.graph(), number);
-    if (missing.empty()) return desk.notify (filled (TRANS ("Recalled snapshot %1."), n));
+    if (missing.empty())
+        return desk.notify (filled (document.graph().controls.empty() ? TRANS ("Recalled snapshot %1.")
+                                                                      : TRANS ("Recalled snapshot %1. What controls set stays as they set it."),
+                                    n));
     juce::StringArray names;
     for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
         names.add (valueText (missing[i]));

@@ -139,7 +139,8 @@ TEST_CASE ("a module for WebAssembly has doubles, types and a class with the nam
     for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ",
                               "export type Hit = \"creak.hit\";", "export type Role = \"index\" | \"thumb\";" })
         CHECK (types.find (text) != std::string::npos);
-    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h", "two_fingers_worklet.d.ts", "tactus_page.d.ts" })
+    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h", "two_fingers_worklet.d.ts",
+                              "tactus_page.d.ts" })
         CHECK (std::filesystem::exists (folder + "/" + file));
     CHECK_FALSE (std::filesystem::exists (folder + "/two_fingers_example.c"));
 }

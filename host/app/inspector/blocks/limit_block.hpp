@@ -27,7 +27,7 @@ public:
     static juce::String textOf (const ContactLimit&);
 
     /// The ends of the parts of a bar, as multiples of the stiffness now. The sentence has each of them, or it is the mark at 1, where trials were made.
-    /// What is between `stable` and `swings` is not known.
+    /// The part between `stable` and `swings` is not judged.
     struct Parts
     {
         double passive = 0.0, stable = 0.0, swings = std::numeric_limits<double>::infinity(), end = 1.0;

@@ -368,7 +368,10 @@ const about = @ABOUT@;
 @WORKLET@
 register ('@S@', class extends Graph { constructor (module) { super (module, about); } });
 )",
-                   { { "@ABOUT@", aboutOf (e, digest) }, { "@GRAPH@", part ("tactus_graph.js") }, { "@WORKLET@", part ("tactus_worklet.js") }, { "@S@", e.stem } });
+                   { { "@ABOUT@", aboutOf (e, digest) },
+                     { "@GRAPH@", part ("tactus_graph.js") },
+                     { "@WORKLET@", part ("tactus_worklet.js") },
+                     { "@S@", e.stem } });
 }
 }   // namespace
 

@@ -169,4 +169,6 @@ TEST_CASE ("a morph says before what it leaves, such as what a control sets", "[
     w.click ("Make the control");
     CHECK (w.graph().controls.size() == before + 1);
     CHECK (w.graph().controls.back().to.size() == 1);
+    w.key ("2");   // moves the stiffness that the control sets, but not the control
+    CHECK (w.status.text().contains ("What controls set stays"));
 }
