@@ -12,16 +12,22 @@ namespace tactus
 
 /// Keeps the effort on a device free of steps when another plan takes over. The wanted effort e becomes
 ///
-///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / fade_s)) / 2 for 0 <= t <= fade_s, then 0
+///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / F)) / 2 for 0 <= t <= F, then 0
 ///
-/// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick
-/// adds at most |e0 - e1| pi T / (2 fade_s) to the steps of e. Unlike a crossfade, this does not tick the nodes twice.
+/// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
+/// |e0 - e1| pi T / (2 F) to the steps of e. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
+/// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s, so that a preset that is added under a pressed tool does not kick.
 class Bumpless
 {
 public:
-    static constexpr double fade_s = 0.010;
+    static constexpr double fall_s = 0.010, rise_s = 0.100;
 
-    void prepare (double dt_s) noexcept { now = length = std::max (1, static_cast<int> (std::lround (fade_s / dt_s))); }   // [main thread]
+    void prepare (double dt_s) noexcept   // [main thread]
+    {
+        const auto ticks = [dt_s] (double s) { return std::max (1, static_cast<int> (std::lround (s / dt_s))); };
+        fall = ticks (fall_s);
+        now = length = rise = ticks (rise_s);
+    }
 
     void begin() noexcept { now = 0; }   // [tick thread]
 
@@ -40,6 +46,7 @@ public:
     void serialize (auto& archive)
     {
         archive (difference, last);
+        archive.index (length, static_cast<std::size_t> (rise) + 1);
         archive.index (now, static_cast<std::size_t> (length) + 1);
     }
 
@@ -57,6 +64,7 @@ private:
                 now = length;
                 return last = wanted;
             }
+            length = falls (last, wanted) ? fall : rise;
             ++now;
             return last;   // no step at all: wanted + (last - wanted) would round
         }
@@ -65,6 +73,16 @@ private:
         last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes),
                  sum (wanted.signals, w, difference.signals), wanted.brake + w * difference.brake };
         return last;
+    }
+
+    static bool falls (const Effort& from, const Effort& to) noexcept
+    {
+        const auto falls = [] (double a, double b) { return std::abs (b) <= std::abs (a) && a * b >= 0.0; };
+        for (int i = 0; i < 3; ++i)
+            if (! falls (from.force[i], to.force[i]) || ! falls (from.torque[i], to.torque[i])) return false;
+        for (int i = 0; i < std::max (from.axes.size(), to.axes.size()); ++i)
+            if (! falls (from.axes[i], to.axes[i])) return false;
+        return true;
     }
 
     /// a + w b
@@ -76,6 +94,7 @@ private:
         return all;
     }
 
+    int fall = 1, rise = 1;         // in ticks
     int length = 1, now = length;   // duration of the fade, and time since it began, in ticks; equal if there is no fade
     Effort difference;              // e0 - e1
     Effort last;

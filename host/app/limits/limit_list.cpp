@@ -16,7 +16,6 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tactus::host
@@ -24,8 +23,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr double longest_s = 3.0;   // a check should take no longer than this
-
 DeviceNumbers inWorkspace (DeviceNumbers n, const Workspace& w)
 {
     const auto scale = [] (DeviceNumbers::Number& number, double by) {
@@ -133,13 +130,6 @@ std::string pointerOf (const graph::Graph& g, std::string path)
     return pointer;
 }
 
-/// The number of ticks that fit into longest_s, if they are as slow as those of the recording.
-std::size_t ticksWithin (double recorded_for_s, std::size_t ticks)
-{
-    const double each_s = recorded_for_s / static_cast<double> (std::max<std::size_t> (ticks, 1));
-    return static_cast<std::size_t> (longest_s / std::max (each_s, 1e-9));
-}
-
 std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::string& role)
 {
     const auto device = std::ranges::find (devices, role, &check::RoleDevice::role);
@@ -162,7 +152,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
         {
             const bool is_reached = c.verdict == check::Verdict::unknown;
             ++(is_reached ? list.unknown : list.not_reached);
-            const auto remedy = is_reached ? unitShown (c.remedy) : TRANS ("move the hand so that it touches the node").toStdString();
+            const auto remedy = is_reached ? unitShown (c.remedy) : TRANS ("move the hand so that it touches the node, or move or enlarge what the node describes").toStdString();
             list.unjudged.push_back ({ false, std::string (c.id), nodesOf (c, demand, plan), limitSentence (c, c.node, nameOf (devices, c.role)), remedy, {} });
         }
         else if (! is_broken && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
@@ -248,14 +238,13 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
         if (r.hand) hands.push_back ({ r.role, *r.hand, r.hand_folder });
         devices.push_back ({ r.role, r.numbers, r.device, r.simulated ? check::simulationOf (*r.simulated, job.graph.folder) : std::nullopt });
     }
-    const auto begun = std::chrono::steady_clock::now();
     const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
     if (hasErrors (recorded.messages)) return {};
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const auto ticks = check::affordableTicks (*compiled.plan);   // as many as `tactus check` takes, however busy this computer is
     try
     {
-        const auto demand = check::measure (subject, recorded.motion, { .ticks = ticksWithin (took.count(), recorded.motion.ticks) });
-        const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticksWithin (took.count(), recorded.motion.ticks) / 4 });
+        const auto demand = check::measure (subject, recorded.motion, { .ticks = ticks });
+        const auto trials = check::tryLoops (subject, recorded.motion, demand, devices, { .ticks = ticks / 2 });
         return listOf (demand, devices, trials, *compiled.plan);
     }
     catch (const check::Stopped&)

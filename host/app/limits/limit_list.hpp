@@ -84,7 +84,8 @@ struct LimitList
     bool operator== (const LimitList&) const = default;
 };
 
-/// Measures the graph and judges its conditions. Takes a tenth of a second to a few seconds. The list is empty if it is stopped before.
+/// Measures the graph as `tactus check` does, and judges its conditions: the same graph gets the same verdicts each time. Takes a tenth of a second to a few
+/// seconds, longer on a busy computer. The list is empty if it is stopped before.
 /// [any thread that owns the assets]
 LimitList limitsOf (const LimitJob&, const Catalogue&, FileAssets&, std::stop_token = {});
 

@@ -90,6 +90,15 @@ const graph::Graph& graphOf (const graph::History& history, std::size_t step)
     return history.graph();
 }
 
+/// A param for people: "Gain of Big drum" for an entry of a node that names its channels, "Gain[3]" for another one.
+std::string paramText (const graph::Node& node, const std::string& param, const std::string& index)
+{
+    const auto names = node.settings.find ("names");
+    if (index.empty() || names == node.settings.end() || ! names->is_string()) return readable (param) + index;
+    const auto name = juce::StringArray::fromTokens (juce::String::fromUTF8 (names->asString().c_str()), ",", {})[std::stoi (index.substr (1))].trim();
+    return name.isEmpty() ? readable (param) + index : filled (TRANS ("%1 of %2"), readable (param), name).toStdString();
+}
+
 std::optional<std::string> textOf (const graph::SetParam& back, const graph::SetParam& to, const graph::Graph& g, const Catalogue& catalogue)
 {
     if (back.patch != to.patch || back.node != to.node || back.param != to.param) return {};
@@ -105,7 +114,7 @@ std::optional<std::string> textOf (const graph::SetParam& back, const graph::Set
     const auto before = change ? shownValue (change->before, *at->sheet) : std::nullopt;
     const auto after = change ? shownValue (change->after, *at->sheet) : std::nullopt;
     if (! before || ! after) return {};
-    return changeText (to.node + ": " + readable (to.param) + change->index, *before, *after);
+    return changeText (to.node + ": " + paramText (*node, to.param, change->index), *before, *after);
 }
 
 std::optional<std::string> textOf (const graph::ChangeControl& back, const graph::ChangeControl& to)

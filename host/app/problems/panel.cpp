@@ -31,7 +31,7 @@ public:
         std::ranges::copy (missing, std::back_inserter (all));
         is_error = hasErrors (all);
         std::ranges::copy (desk.limits.messages(), std::back_inserter (all));
-        list.show (all, desk.limits.remarks());
+        list.show (all, desk.limits.remarks(), ! desk.limits.isUpToDate());
     }
 
     Panel::Title title() const

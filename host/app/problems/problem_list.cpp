@@ -106,8 +106,9 @@ ProblemList::ProblemList (Document& d) : document (d)
 
 ProblemList::~ProblemList() = default;
 
-void ProblemList::show (const Messages& messages, const Messages& remarks)
+void ProblemList::show (const Messages& messages, const Messages& remarks, bool checking)
 {
+    if (std::exchange (is_checking, checking) != checking && rows.empty()) repaint();
     if (asked && std::ranges::equal (messages, shown, isSame) && std::ranges::equal (remarks, remarked, isSame)) return;
     asked = true;
     shown = messages;
@@ -129,7 +130,8 @@ void ProblemList::paint (juce::Graphics& g)
     if (! rows.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (look.theme().dim);
-    g.drawFittedText (TRANS ("No problems. Errors, warnings and broken limits of the devices are listed here with their remedies."),
+    g.drawFittedText (is_checking ? TRANS ("No problems so far. The limits of the devices are being checked.")
+                                  : TRANS ("No problems. Errors, warnings and broken limits of the devices are listed here with their remedies."),
                       getLocalBounds().reduced (24), juce::Justification::centred, 2);
 }
 

@@ -21,7 +21,8 @@ public:
     explicit ProblemList (Document&);
     ~ProblemList() override;
 
-    void show (const Messages&, const Messages& remarks = {});   ///< remarks, about limits that are not judged, come last and do not count as problems
+    /// Remarks, about limits that are not judged, come last and do not count as problems. While the limits are being checked, an empty list says so.
+    void show (const Messages&, const Messages& remarks = {}, bool is_checking = false);
     const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const ProblemLocation&)> onShow;
@@ -37,6 +38,7 @@ private:
     Document& document;
     Messages shown, remarked;
     bool asked = false;   // true after the first show()
+    bool is_checking = false;
     juce::Viewport scroll;
     juce::Component column;
     std::vector<std::unique_ptr<Row>> rows;

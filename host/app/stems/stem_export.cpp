@@ -3,12 +3,14 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <host/devices/live/live_session.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/plan/flat/flatten.hpp>
+#include <tactus/run/device/gestures.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/list_text.hpp>
 
@@ -33,6 +35,27 @@ std::string freeFolder (const std::string& name)
     return free;
 }
 
+/// The graph with the gesture or the recording that moves the tool now in place of its own. A recording moves the tool exactly, as in the window.
+graph::Graph asMoved (graph::Graph g, const LiveRun& run)
+{
+    const auto& [kind, path] = run.hand();
+    if (kind != LiveRun::Hand::Kind::path) return g;
+    const auto role = run.handRole();
+    auto device = std::ranges::find (g.devices, role, [] (const auto& d) { return d.first; });
+    if (device == g.devices.end()) device = g.devices.insert (device, { role, Json::object() });
+    auto& its = device->second;
+    const bool is_gesture = findGesture (path) != nullptr;
+    if (is_gesture && its.value ("driver", std::string()) == "sim" && its.contains ("hand"))
+        its["hand"]["path"] = path;
+    else
+    {
+        Json moved = is_gesture ? Json { { "driver", "sim" }, { "hand", { { "path", path } } } } : Json { { "driver", "trace" }, { "path", path } };
+        if (its.contains ("guard")) moved["guard"] = its["guard"];
+        its = std::move (moved);
+    }
+    return g;
+}
+
 /// The motion of each tool while the stems are rendered: "tool: stroke, 2 s".
 juce::String motionsOf (const graph::Graph& g)
 {
@@ -41,7 +64,7 @@ juce::String motionsOf (const graph::Graph& g)
     {
         Messages refused;
         const auto made = makeDevice (describedByGraph (&description, role, refused), g.folder);
-        text << (text.isEmpty() ? "" : "; ") << fromUtf8 (role) << ": " << fromUtf8 (made.about);
+        text << (text.isEmpty() ? "" : "; ") << fromUtf8 (role) << ": " << fromUtf8 (unitShown (made.about)).trimCharactersAtEnd (".");
     }
     return text.isEmpty() ? TRANS ("nothing moves the tool") : text;
 }
@@ -52,7 +75,7 @@ const Message* errorIn (const Messages& messages)
     return found == messages.end() ? nullptr : &*found;
 }
 
-/// Renders the stems of a graph as `tactus render --stems` does: with the simulated devices of the graph, for the length of the longest path of a hand, or
+/// Renders the stems of a graph as `tactus render --stems` does: with its simulated devices, for the length of the longest path of a hand, or
 /// 10 s. If it is cancelled, nothing is written, unless the run is over. Ids: those of Stems and LiveSession, and run/interrupted.
 Result<WrittenStems> renderStems (const graph::Graph& g, const Catalogue& catalogue, const std::filesystem::path& folder, const StemOptions& options,
                                   JobCourse& course)
@@ -91,8 +114,8 @@ Result<WrittenStems> renderStems (const graph::Graph& g, const Catalogue& catalo
 
 void StemExport::ask()
 {
-    const auto& g = desk.document.graph();
-    const auto graph = std::make_shared<const graph::Graph> (g);
+    const auto graph = std::make_shared<const graph::Graph> (asMoved (desk.document.graph(), desk.playback.run()));
+    const auto& g = *graph;
     const auto name = g.name.empty() ? TRANS ("graph") : fromUtf8 (g.name);
     const auto choice = [&] (const juce::String& label, const StemOptions& options) {
         return Question::Choice { label, [this, graph, name, options] {

@@ -34,7 +34,7 @@ void addItems (const juce::PopupMenu& menu, const juce::String& before, Actions&
     {
         const auto& item = i.getItem();
         if (item.subMenu != nullptr)
-            addItems (*item.subMenu, item.text + ": ", all);
+            addItems (*item.subMenu, before + item.text + ": ", all);
         else if (item.isEnabled && item.action)
             all.push_back ({ before + item.text, item.shortcutKeyDescription, item.action });
     }
@@ -80,6 +80,19 @@ void CommandSearch::addEdits (std::vector<Action>& all)
             const auto keys = keyText (juce::String (c.keys).upToFirstOccurrenceOf ("|", false, false));
             all.push_back ({ juce::translate (c.name), keys, [&patching, &c] { c.run (patching); } });
         }
+}
+
+/// Adds the actions for the knobs.
+void CommandSearch::addKnobs (std::vector<Action>& all)
+{
+    if (parts.welcome.isVisible()) return;
+    auto& knobs = parts.inspector.knobs();
+    for (std::size_t i = 0; i < knobs.size(); ++i)
+    {
+        juce::PopupMenu menu;
+        knobs.fillMenu (menu, i);
+        addItems (menu, knobs.knob (i).getTitle() + ": ", all);
+    }
 }
 
 void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
@@ -165,6 +178,7 @@ void CommandSearch::open()
 {
     std::vector<Action> all;
     addEdits (all);
+    addKnobs (all);
     addHands (all);
     addTabsAndButtons (all);
     addItems (menu.items(), {}, all);

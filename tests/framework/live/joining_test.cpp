@@ -79,14 +79,14 @@ TEST_CASE ("a device joins on the tick that picks up the plan with its role, and
     engine.submit (after (sketch, engine), std::span (&joining, 1));
     CHECK (thumb.dt == 1.0 / rate_hz);
     CHECK (thumb.reads == 0);
-    CHECK (tick (200) == 0);
-    CHECK (thumb.reads == 200);
-    REQUIRE (thumb.efforts.size() == 200);
+    CHECK (tick (500) == 0);
+    CHECK (thumb.reads == 500);
+    REQUIRE (thumb.efforts.size() == 500);
     CHECK (thumb.efforts[0] == 0.0);
     double largest = 0.0;
     for (std::size_t k = 1; k < thumb.efforts.size(); ++k)
         largest = std::max (largest, std::abs (thumb.efforts[k] - thumb.efforts[k - 1]));
-    CHECK (largest <= 20.0 * std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz) * (1.0 + 1e-9));
+    CHECK (largest <= 20.0 * std::numbers::pi / (2.0 * Bumpless::rise_s * rate_hz) * (1.0 + 1e-9));
     CHECK (thumb.efforts.back() == Approx (15.0));   // the wall pushes with 20 N; the guard cuts off the rest
     CHECK (hand.digest == other.digest);
 }
@@ -100,9 +100,9 @@ TEST_CASE ("a role that ran without a device can be given one, with its own plan
     Thumb thumb;
     const Engine::Joining joining { "thumb", thumb };
     engine.submit (after (sketch, engine), std::span (&joining, 1));
-    for (int k = 0; k < 200; ++k)
+    for (int k = 0; k < 500; ++k)
         engine.tick();
-    CHECK (thumb.reads == 200);
+    CHECK (thumb.reads == 500);
     CHECK (thumb.efforts[0] == 0.0);
     CHECK (thumb.efforts.back() == Approx (20.0));
     CHECK (&engine.guardOf ("thumb") == &engine.role (1).guard);
@@ -120,9 +120,9 @@ TEST_CASE ("a role added by an edit can get its device before the edit has run",
     Thumb thumb;
     const Engine::Joining joining { "thumb", thumb };
     CHECK_FALSE (hasErrors (live.join (std::span (&joining, 1))));
-    for (int k = 0; k < 200; ++k)
+    for (int k = 0; k < 500; ++k)
         live.engine().tick();
-    CHECK (thumb.reads == 200);
+    CHECK (thumb.reads == 500);
     CHECK (thumb.efforts.back() == Approx (10.0));
 }
 

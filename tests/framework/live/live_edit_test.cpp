@@ -99,13 +99,14 @@ public:
         if ((taken_over && ! role->untouched) || comes_late)
         {
             difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
+            fade_s = falls (last.force, wanted.force) && falls (last.torque, wanted.torque) ? Bumpless::fall_s : Bumpless::rise_s;
             own = { Vec3::Zero(), Vec3::Zero() };
             since = 0;
         }
         else
             own = { wanted.force - last_wanted.force, wanted.torque - last_wanted.torque };
-        const double per_tick = std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz);
-        const bool fading = since > 0 && since <= static_cast<int> (Bumpless::fade_s * rate_hz);
+        const double per_tick = std::numbers::pi / (2.0 * fade_s * rate_hz);
+        const bool fading = since > 0 && since <= static_cast<int> (fade_s * rate_hz);
         const Vec3 allowed = own.force.cwiseAbs() + own.torque.cwiseAbs() + (fading ? per_tick : 0.0) * difference;
         const Vec3 step = (applied.force - last.force).cwiseAbs() + (applied.torque - last.torque).cwiseAbs();
         const double size = std::max (
@@ -120,7 +121,14 @@ public:
     double worst = 0.0;
 
 private:
+    static bool falls (const Vec3& from, const Vec3& to)
+    {
+        const auto towards = from.array() * to.array();
+        return (to.array().abs() <= from.array().abs()).all() && (towards >= 0.0).all();
+    }
+
     Effort last, last_wanted, own;
+    double fade_s = Bumpless::rise_s;
     Vec3 difference = Vec3::Zero();
     int since = 1 << 20;
     std::uint64_t touched_at = 0;

@@ -420,7 +420,7 @@ TEST_CASE ("a log replays edits that tightened a guard to the bit, also one that
     bench.edit (withPart (pushing()));
     bench.tick (2);
     bench.edit (pushing (guarded (R"("max_force": "0.3 N", "max_slew": "2 N/s")")));
-    bench.tick (40);
+    bench.tick (400);
     REQUIRE (bench.run.finish());
     const auto& forces = bench.forces();
     REQUIRE (forces.back() == Approx (0.3));

@@ -74,6 +74,23 @@ TEST_CASE ("the first change of a value also stores where the nodes are, and is 
     CHECK (latest().find (" -> ") != std::string::npos);
 }
 
+TEST_CASE ("the history names the layer whose gain is changed", "[app][history]")
+{
+    graph::Node desk;
+    desk.name = "desk";
+    desk.type = "layer.mix";
+    desk.settings = { { "names", "wood, drum" }, { "inputs", 3 } };
+    graph::Graph g;
+    g.root.nodes.push_back (std::move (desk));
+    Document document { std::move (g) };
+    const auto change = [&] (Json gains) {
+        REQUIRE (document.perform (graph::SetParam { {}, "desk", "gain", std::move (gains) }));
+        return document.stepName (document.history().size() - 1);
+    };
+    CHECK (change (Json::array ({ 1.0, 0.5, 1.0 })) == "desk: Gain of drum 1 -> 0.5");
+    CHECK (change (Json::array ({ 1.0, 0.5, 0.2 })) == "desk: Gain[2] 1 -> 0.2");   // it has no name
+}
+
 TEST_CASE ("the history says in plain words that nodes were grouped and that the graph was renamed", "[app][history]")
 {
     host::test::CanvasRig rig { host::test::CanvasRig::preset ("templates/stroke") };

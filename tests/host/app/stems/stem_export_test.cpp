@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -114,7 +115,38 @@ TEST_CASE ("the question before an export names the motion that is rendered", "[
     StemExport stems (r.desk);
     stems.ask();
     CHECK (r.question.text().contains ("Motion: clapper: "));
-    CHECK_FALSE (r.question.text().contains ("%1"));
+    for (const char* odd : { "%1", "..", "N*s" })
+        CHECK_FALSE (r.question.text().contains (odd));
+}
+
+TEST_CASE ("stems follow the gesture or the recording that moves the tool now", "[app][stems]")
+{
+    DeskRig r ("dry_wood.json");
+    StemExport stems (r.desk);
+    r.playback.changeHand ({ LiveRun::Hand::Kind::path, "circle" });
+    stems.ask();
+    CHECK (r.question.text().contains ("circle"));
+    CHECK_FALSE (r.question.text().contains ("stroke"));
+    r.question.cancel();
+
+    const auto file = r.home / "pushed.csv";
+    std::ofstream rows (file);
+    rows << "t,x,y,z\n";
+    for (int k = 0; k < 250; ++k)
+        rows << 0.01 * k << ',' << 1e-4 * k << ",0,-0.001\n";
+    rows.close();
+    r.playback.changeHand ({ LiveRun::Hand::Kind::path, file.string() });
+    r.desk.chooseFile = [&] (bool, const auto&, const auto& chosen) { chosen (r.home / "wood"); };
+    stems.ask();
+    CHECK (r.question.text().contains ("pushed.csv"));
+    r.question.answer (4);
+    REQUIRE (until ([&] {
+        stems.attend();
+        return ! stems.isRunning();
+    }));
+    const auto mix = readWav (r.home / "wood" / "mix.wav");
+    REQUIRE (mix);
+    CHECK (static_cast<double> (mix->channels.at (0).size()) / mix->rate_hz == Approx (2.5).margin (0.01));   // as long as the recording
 }
 
 TEST_CASE ("a clip of each layer is exported in each format", "[app][stems]")

@@ -195,6 +195,11 @@ TEST_CASE ("the search for commands finds what a click can do, wherever it is", 
     const auto before = w.graph().controls.size();
     find ("stiffness new control");
     CHECK (w.graph().controls.size() == before + 1);
+    w.view->canvas().select ({});
+    const auto nodes = w.graph().root.nodes.size();
+    find ("roughness modulate lfo");
+    CHECK (w.graph().root.nodes.size() == nodes + 1);
+    CHECK (w.graph().root.nodes.back().type == "signal.lfo");
 }
 
 TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[app][keyboard]")
