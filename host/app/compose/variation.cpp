@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -126,11 +127,25 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
                 const auto* m = other->find (n.name);
                 return m != nullptr && (m->params != n.params || m->overrides != n.overrides);
             }));
-    for (std::size_t i = 0; i < first.controls.size() && i < last.controls.size(); ++i)
-        left_out += first.controls[i].value != last.controls[i].value ? 1 : 0;
+    std::vector<graph::Command> ended;
+    Morph made;
+    for (const auto& c : first.controls)
+    {
+        if (c.value == findControl (last, c.id)->value) continue;
+        const auto before = control.to.size();
+        for (const auto& t : c.to)
+            if (driverAt (g, t.path).empty()) control.to.push_back ({ t.path, controlOf (first, t.path)->value, controlOf (last, t.path)->value });
+        if (control.to.size() == before)
+        {
+            ++left_out;
+            continue;
+        }
+        ended.push_back (graph::RemoveControl { c.id });
+        made.replaced.push_back (c.name.empty() ? c.id : c.name);
+    }
     if (control.to.empty())
         return Message::error ("morph/same", {}, filled (TRANS ("snapshots %1 and %2 differ in no number that a control can move"), from, to).toStdString(),
-                               TRANS ("change a number that neither a wire nor a control sets, and store a snapshot again").toStdString());
+                               TRANS ("change a number that no wire sets, and store a snapshot again").toStdString());
 
     const auto id = "morph_" + std::to_string (from) + "_" + std::to_string (to);
     control.id = id;
@@ -140,7 +155,11 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
     control.value = 0.0;
     graph::Batch batch { filled (NEEDS_TRANS ("morph from snapshot %1 to %2"), from, to).toStdString(), {} };
     if (auto recalled = recallSnapshot (g, from)) batch.commands.push_back (std::move (*recalled));
-    Morph made { .control = control.id, .params = static_cast<int> (control.to.size()), .left_out = left_out };
+    std::ranges::move (ended, std::back_inserter (batch.commands));
+    batch.commands.push_back (graph::SetHeader { .ui = withControlIn (g, control.id, { { from, 0.0 }, { to, 1.0 } }) });
+    made.control = control.id;
+    made.params = static_cast<int> (control.to.size());
+    made.left_out = left_out;
     batch.commands.push_back (graph::AddControl { std::move (control) });
     made.command = std::move (batch);
     return made;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tactus::host
 {
@@ -18,13 +19,15 @@ namespace tactus::host
 struct Morph
 {
     graph::Command command = graph::Batch {};
-    std::string control;   ///< the id of the new control
-    int params = 0;        ///< the number of parameters that it moves
-    int left_out = 0;      ///< differing values that it cannot move: choices, vectors, values in subgraphs, and what a wire or another control sets
+    std::string control;                    ///< the id of the new control
+    int params = 0;                         ///< the number of parameters that it moves
+    int left_out = 0;                       ///< differing values that it cannot move: choices, vectors, values in subgraphs, and what a wire sets
+    std::vector<std::string> replaced {};   ///< the names of the controls whose place it takes, because their values differ
 };
 
-/// Recalls a snapshot, and adds a control that moves numbers linearly from there to another snapshot, in one undo step. Ids: morph/empty (a snapshot
-/// is), morph/same (no number differs).
+/// Recalls a snapshot, and adds a control that moves numbers linearly from there to another snapshot, in one undo step. It takes the place of the controls
+/// that differ, because a parameter has one control. In both snapshots, it is at its end, so that recalling one moves it. Ids: morph/empty (a snapshot is),
+/// morph/same (no number differs).
 Result<Morph> morphBetween (const graph::Graph&, int from, int to, const Catalogue&);
 
 /// Gives the numbers of these nodes of a patch, and of what is inside of them but mixers, new values, at random within their usual ranges: evenly, or by

@@ -117,6 +117,14 @@ graph::Command storeSnapshot (const graph::Graph& g, int number)
     return graph::Batch { filled (TRANS ("store snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
 }
 
+Json withControlIn (const graph::Graph& g, const std::string& control, const std::vector<std::pair<int, double>>& values)
+{
+    Json ui = at (g.extra, "ui");
+    for (const auto& [number, value] : values)
+        ui["snapshots"][std::to_string (number)]["controls"][control] = value;
+    return ui;
+}
+
 graph::Command clearSnapshot (const graph::Graph& g, int number)
 {
     Json ui = at (g.extra, "ui");
@@ -156,6 +164,14 @@ std::vector<std::string> missingNodes (const graph::Graph& g, int number)
         for (const auto& [name, nodes] : graphs.items())
             look (nodes, g.find (name), name + "/");
     return missing;
+}
+
+std::vector<std::string> laterControls (const graph::Graph& g, int number)
+{
+    std::vector<std::string> names;
+    for (const auto& c : g.controls)
+        if (! at (at (snapshot (g, number), "controls"), c.id).is_number()) names.push_back (c.name.empty() ? c.id : c.name);
+    return names;
 }
 
 Json snapshotsAfter (const graph::Graph& before, const graph::Command& command)

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -19,6 +20,9 @@ bool hasSnapshot (const graph::Graph&, int number);   ///< 1…9
 /// Stores the current values. One undo step.
 graph::Command storeSnapshot (const graph::Graph&, int number);
 
+/// `ui` with the value of a control in the snapshots of these numbers, which must exist.
+Json withControlIn (const graph::Graph&, const std::string& control, const std::vector<std::pair<int, double>>& values);
+
 /// Empties a snapshot. One undo step.
 graph::Command clearSnapshot (const graph::Graph&, int number);
 
@@ -27,6 +31,9 @@ std::optional<graph::Command> recallSnapshot (const graph::Graph&, int number);
 
 /// The nodes of a snapshot that the graph no longer has, or that have another type now: recalling leaves them out.
 std::vector<std::string> missingNodes (const graph::Graph&, int number);
+
+/// The names of the controls that a snapshot does not hold, because they were added later: what they set stays when it is recalled.
+std::vector<std::string> laterControls (const graph::Graph&, int number);
 
 /// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes: each snapshot goes on holding the same
 /// nodes, under their new names. Null if there are no snapshots.

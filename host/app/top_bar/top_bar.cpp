@@ -5,6 +5,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/text/list_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -324,11 +325,9 @@ void TopBar::recall (int number)
     if (! hasSnapshot (document.graph(), number)) return desk.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
     if (auto command = recallSnapshot (document.graph(), number)) document.perform (std::move (*command));
     note (number);
-    const auto missing = missingNodes (document.graph(), number);
-    if (missing.empty())
-        return desk.notify (filled (document.graph().controls.empty() ? TRANS ("Recalled snapshot %1.")
-                                                                      : TRANS ("Recalled snapshot %1. What controls set stays as they set it."),
-                                    n));
+    const auto missing = missingNodes (document.graph(), number), later = laterControls (document.graph(), number);
+    if (missing.empty() && later.empty()) return desk.notify (filled (TRANS ("Recalled snapshot %1."), n));
+    if (missing.empty()) return desk.notify (filled (TRANS ("Recalled snapshot %1. What later knobs set stays: %2."), n, listText (later)));
     juce::StringArray names;
     for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
         names.add (valueText (missing[i]));
@@ -356,16 +355,18 @@ void TopBar::morph (int from, int to)
 {
     auto made = morphBetween (document.graph(), from, to, desk.types);
     if (! made) return desk.notify (fromUtf8 (messageText (made.error())));
-    const auto text = filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to);
+    auto text = filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to);
+    if (! made->replaced.empty()) text << " " << filled (TRANS ("It takes the place of the knobs %1; undo brings them back."), listText (made->replaced));
     const auto make = [this, command = std::move (made->command), text] {
         if (document.perform (command)) desk.notify (text);
     };
-    if (made->left_out == 0) return make();
-    desk.question.ask (filled (TRANS ("Morph from snapshot %1 to %2?"), from, to),
-                       text + " "
-                           + filled (TRANS ("Differences that stay as in snapshot %2: %1 (choices, vectors, values in subgraphs, and what a wire or a control "
-                                            "sets). To change these as well, recall snapshot %3."),
-                                     made->left_out, from, to),
+    if (made->left_out == 0 && made->replaced.empty()) return make();
+    const auto left = made->left_out == 0 ? juce::String()
+                                          : " "
+                                                + filled (TRANS ("Differences that stay as in snapshot %2: %1 (choices, vectors, values in subgraphs, and what "
+                                                                 "a wire sets). To change these as well, recall snapshot %3."),
+                                                          made->left_out, from, to);
+    desk.question.ask (filled (TRANS ("Morph from snapshot %1 to %2?"), from, to), text + left,
                        { { TRANS ("Make the control"), make }, { TRANS ("Cancel"), {} } });
 }
 

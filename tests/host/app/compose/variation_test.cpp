@@ -3,6 +3,7 @@
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/variation.hpp>
 #include <host/app/layers/mixer_parts.hpp>
+#include <host/app/model/controlled_param.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/storage/snapshots.hpp>
 
@@ -109,9 +110,48 @@ TEST_CASE ("a morph says what it cannot move, and needs two snapshots that diffe
     mustPerform (h, storeSnapshot (h.graph(), 2));
     mustPerform (h, morphBetween (h.graph(), 1, 2, catalogue())->command);
     mustPerform (h, storeSnapshot (h.graph(), 3));
-    const auto again = morphBetween (h.graph(), 1, 2, catalogue());   // another control moves it already
-    REQUIRE_FALSE (again);
-    CHECK (again.error().id == "morph/same");
+    const auto again = morphBetween (h.graph(), 1, 2, catalogue());   // it takes the place of the first one
+    REQUIRE (again);
+    CHECK (again->replaced == std::vector<std::string> { "Morph 1-2" });
+}
+
+TEST_CASE ("a morph moves what knobs have set, takes their place, and follows the keys of its snapshots", "[snapshots]")
+{
+    auto g = loud (1.0);
+    graph::Control knob;
+    knob.id = knob.name = "push";
+    knob.value = 0.25;
+    knob.to = { { "a.value", 0.0, "4 N" } };
+    g.controls.push_back (knob);
+    graph::History h (g);
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    knob.value = 0.75;
+    mustPerform (h, graph::ChangeControl { "push", knob });
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    const auto before = writeGraph (h.graph());
+    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE (made);
+    CHECK (made->params == 1);
+    CHECK (made->left_out == 0);
+    CHECK (made->replaced == std::vector<std::string> { "push" });
+    auto other = h.graph();
+    other.controls[0].id = other.controls[0].name = "late";
+    CHECK (laterControls (other, 1) == std::vector<std::string> { "late" });
+    mustPerform (h, made->command);
+    REQUIRE (h.graph().controls.size() == 1);
+    const auto now = [&] { return controlOf (h.graph(), "a.value")->value; };
+    CHECK (now() == Approx (1.0));
+    mustPerform (h, *recallSnapshot (h.graph(), 2));
+    CHECK (h.graph().controls[0].value == 1.0);
+    CHECK (now() == Approx (3.0));
+    CHECK (isAtSnapshot (h.graph(), 2));
+    CHECK (laterControls (h.graph(), 2).empty());
+    mustPerform (h, *recallSnapshot (h.graph(), 1));
+    CHECK (now() == Approx (1.0));
+    CHECK (readGraph (writeGraph (h.graph())).messages.empty());
+    for (int i = 0; i < 3; ++i)
+        h.undo();
+    CHECK (writeGraph (h.graph()) == before);
 }
 
 TEST_CASE ("a recalled snapshot blends in without a step of the force", "[snapshots]")

@@ -146,7 +146,7 @@ TEST_CASE ("an opened subgraph with several instances shows the values of the ch
     CHECK (canvas.instance()->number == canvas.instance()->count - 1);
 }
 
-TEST_CASE ("a morph says before what it leaves, such as what a control sets", "[app][snapshots]")
+TEST_CASE ("a morph says before which knobs it takes the place of, and the keys of its snapshots move it", "[app][snapshots]")
 {
     BarStage w;
     w.key ("ctrl + 1");
@@ -162,13 +162,15 @@ TEST_CASE ("a morph says before what it leaves, such as what a control sets", "[
     CHECK (w.question.isOpen() == has_turned);
     CHECK (w.graph().controls.size() == before + (has_turned ? 0 : 1));
     if (! has_turned) return;
-    CHECK (w.question.text().contains ("Differences that stay as in snapshot 1: 1 "));
+    CHECK (w.question.text().contains ("It takes the place of the knobs " + juce::String (turned.name)));
     w.click ("Cancel");
-    CHECK (w.graph().controls.size() == before);
+    CHECK (w.graph().controls[0].id == turned.id);
     morph();
     w.click ("Make the control");
-    CHECK (w.graph().controls.size() == before + 1);
-    CHECK (w.graph().controls.back().to.size() == 1);
-    w.key ("2");   // moves the stiffness that the control sets, but not the control
-    CHECK (w.status.text().contains ("What controls set stays"));
+    REQUIRE (w.graph().controls.size() == before);
+    CHECK (w.graph().controls[0].to.size() == turned.to.size() + 1);
+    CHECK (w.graph().controls[0].value == 0.0);
+    w.key ("2");
+    CHECK (w.graph().controls[0].value == 1.0);
+    CHECK (w.status.text() == "Recalled snapshot 2.");
 }
