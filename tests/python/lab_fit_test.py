@@ -9,7 +9,7 @@ import numpy as np
 import lab_coverage
 from support import TestCase
 from tactus import lab
-from tactus.lab import _analysis, _functions
+from tactus.lab import _analysis
 from tactus.lab._draw import Draw
 
 LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
@@ -37,7 +37,7 @@ class Functions(TestCase):
             fit = lab.psychometric(LEVELS, YES, np.full(7, 40), function=function, lapse=0.02)
             self.assertAlmostEqual(float(fit(fit.level(0.7))), 0.7, 9)
             self.assertTrue(math.isnan(fit.level(0.99)))
-            shares = _functions.core(function, [fit.level(0.98 * 0.5), fit.level(0.98 * 0.5) + fit.jnd], fit.threshold, fit.width)
+            shares = _analysis.core(function, [fit.level(0.98 * 0.5), fit.level(0.98 * 0.5) + fit.jnd], fit.threshold, fit.width)
             self.assertTrue(np.allclose(shares, [0.5, 0.75], atol=1e-9), shares)
             step = 1e-5
             self.assertAlmostEqual(fit.slope, float(fit(fit.threshold + step) - fit(fit.threshold - step)) / (2 * step), 6)

@@ -12,14 +12,12 @@ renders, on one computer or on a cluster (docs/studies.md).
 Levels are in the unit of what varies, times in s. Problems raise tactus.Error.
 """
 
-from ._analysis import (Detection, Interval, PowerLaw, Psychometric, d_prime_of_two_intervals, detection, plot_staircase, power_law, psychometric,
-                        save_plot)
+from ._analysis import (Detection, Interval, PowerLaw, Psychometric, d_prime_of_two_intervals, detection, plot_staircase, power_law, probability,
+                        psychometric, save_plot)
 from ._experiment import Experiment
 from ._design import Factor, FromTable, Grid, Latin, Sobol
-from ._functions import probability
 from ._marks import Receiver, mark
 from ._points import Measure
-from ._observers import Observer
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
 from ._results import Results
@@ -28,7 +26,7 @@ from ._study import Map, Study
 from ._tables import SessionData, load
 from ._trials import Plan, Text, Trial
 from ._web import Browser
-from ._windows import Aborted, Simulated, Terminal, Window
+from ._windows import Aborted, Observer, Simulated, Terminal, Window
 from ._writers import Table, table_of
 
 load_results = Results

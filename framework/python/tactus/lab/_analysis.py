@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Psychometric functions, fitted with intervals by profile likelihood or from a posterior; d' and criterion; the exponent of magnitude estimation; plots."""
+"""Psychometric functions, and fits of them with intervals by profile likelihood or from a posterior; d' and criterion; the exponent of magnitude estimation;
+plots."""
 
 from __future__ import annotations
 
@@ -8,7 +9,7 @@ import math
 import os
 import statistics
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Literal, NamedTuple, Optional, Sequence, Tuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,10 +19,29 @@ from .._checks import Array, Path
 from .._messages import fail
 from .._plot import axes_of
 from .._views import html_table
-from ._functions import FUNCTIONS, Function, core, probability
 
+Function = Literal["logistic", "normal", "weibull"]
 _CLIP = 1e-12   # chances of 0 and 1 have no likelihood
 _MOST_LAPSE = 0.06
+_erfc = np.vectorize(math.erfc, otypes=[float])
+
+
+def core(function: Function, level: Any, threshold: Any, width: Any) -> Array:
+    """F, from 0 to 1, without guesses and lapses.
+
+    logistic: 1 / (1 + exp (-(x - threshold) / width)), 0.5 at the threshold. normal: Phi ((x - threshold) / width), 0.5 at the threshold.
+    weibull: 1 - exp (-(x / threshold)^width), 1 - 1/e at the threshold; x >= 0, and width is an exponent without a unit."""
+    x = np.asarray(level, dtype=float)
+    if function == "weibull":
+        with np.errstate(over="ignore", divide="ignore"):
+            return np.asarray(-np.expm1(-np.power(np.maximum(x, 0.0) / threshold, width)))
+    z = (x - threshold) / width
+    return np.asarray(0.5 * (1.0 + np.tanh(0.5 * z)) if function == "logistic" else 0.5 * _erfc(z * -math.sqrt(0.5)))
+
+
+def probability(function: Function, level: Any, threshold: Any, width: Any, guess: Any = 0.0, lapse: Any = 0.0) -> Array:
+    """guess + (1 - guess - lapse) F: the chance of a "yes" or a right answer."""
+    return np.asarray(guess + (1.0 - guess - lapse) * core(function, level, threshold, width))
 
 
 class Interval(NamedTuple):
@@ -205,8 +225,8 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
     levels: shape (n,), in `unit`. yes: shape (n,): 0 or 1 for each trial, or numbers of "yes" or right answers out of `trials`. guess: the rate without a
     stimulus: 0.5 for two intervals. lapse: the rate of mistakes at any level; without it, it is fitted, from 0 to 0.06 (Wichmann and Hill 2001).
     An interval that the data do not bound is infinite. docs/lab.md tells how often the intervals hold the truth."""
-    if function not in FUNCTIONS:
-        fail("lab/value", "function", f"there is no function {_checks.shown(function)}", f"the functions: {', '.join(FUNCTIONS)}")
+    if function not in get_args(Function):
+        fail("lab/value", "function", f"there is no function {_checks.shown(function)}", f"the functions: {', '.join(get_args(Function))}")
     _checks.number("guess", guess, "give a rate from 0 to 0.99", low=0.0, high=0.99)
     _checks.number("confidence", confidence, "give a share such as 0.95", above=0.0, high=0.9999)
     if lapse is not None:

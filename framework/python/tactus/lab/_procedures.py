@@ -10,9 +10,8 @@ import numpy as np
 
 from .._checks import Array
 from .._messages import fail
+from ._analysis import Function, probability
 from ._draw import Draw
-from ._functions import Function, probability
-
 
 
 def note(text: str, **more: Any) -> Any:

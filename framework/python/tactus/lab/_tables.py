@@ -13,8 +13,7 @@ import numpy as np
 from .._checks import Path
 from .._messages import fail
 from . import _journal
-from ._analysis import Detection, PowerLaw, Psychometric, detection, power_law, psychometric
-from ._functions import Function
+from ._analysis import Detection, Function, PowerLaw, Psychometric, detection, power_law, psychometric
 from ._procedures import Constant, Psi, Staircase, StaircaseTrack
 from ._protocol import Block, Protocol
 from ._schema import read
