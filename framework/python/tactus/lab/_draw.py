@@ -44,8 +44,5 @@ def latin_square(count: int, row: int) -> List[int]:
     """A row of a balanced square (Williams 1949): over `count` rows, each item comes once at each place, and with an even count each item follows each other
     one once; an odd count needs the mirrored rows too, so there are 2 * count of them."""
     row %= count if count % 2 == 0 else 2 * count
-    first = [0]
-    for i in range(1, count):
-        first.append((i + 1) // 2 if i % 2 else count - i // 2)
-    found = [(item + row) % count for item in first]
+    found = [((i + 1 if i % 2 else -i) // 2 + row) % count for i in range(count)]
     return found[::-1] if row >= count else found

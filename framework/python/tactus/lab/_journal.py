@@ -22,22 +22,19 @@ def read(path: pathlib.Path) -> List[Event]:
     """The events of a journal, the header first. A line that was cut off by a crash is left out: it is the last one, or a line `resumed` follows it."""
     events: List[Event] = []
     try:
-        lines = path.read_bytes().split(b"\n")
+        lines = [line for line in path.read_bytes().split(b"\n") if line]
     except OSError as why:
         fail("lab/journal", str(path), f"the journal cannot be read: {why.strerror}",
              "begin the session without --resume, or give its --out, --participant and --session")
-    for i, line in enumerate(lines):
-        if not line:
-            continue
+    for number, (line, after) in enumerate(zip(lines, [*lines[1:], None]), 1):
         try:
-            event = json.loads(line.decode())
+            event = json.loads(line)
             if not isinstance(event, dict):
                 raise ValueError("it is not an object")
         except ValueError as why:
-            after = next((other for other in lines[i + 1:] if other), None)
             if after is None or after.startswith(b'{"event": "resumed"'):
                 continue
-            fail("lab/journal", f"{path}:{i + 1}", f"the line cannot be read: {why}", "restore the file from a copy; lines of a journal must not be edited")
+            fail("lab/journal", f"{path}:{number}", f"the line cannot be read: {why}", "restore the file from a copy; lines of a journal must not be edited")
         events.append(event)
     if not events or events[0].get("format") != "tactus-journal" or events[0].get("version") != 1:
         fail("lab/journal", str(path), "the file is not a journal of version 1", "give the journal of a session")
@@ -68,9 +65,7 @@ class Journal:
             self._file.close()
             fail("lab/busy", str(path), "another process is running this session", "wait until it ends, or end it")
         if header is None:
-            with open(path, "rb") as file:
-                whole = file.read()[-1:] == b"\n"
-            if not whole:
+            if path.read_bytes()[-1:] != b"\n":   # a crash has cut the last line off
                 self._file.write(b"\n")
         else:
             self.add({"format": "tactus-journal", "version": 1, **header})
