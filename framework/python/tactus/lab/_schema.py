@@ -27,8 +27,7 @@ def read(kind: Type[T], value: Any, where: str = "") -> T:
 def write(value: Any) -> Any:
     """A dataclass as a JSON value, without what has its default; what says the kind stays."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        found = {f.name: write(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name == "kind" or getattr(value, f.name) != _default(f)}
-        return found
+        return {f.name: write(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name == "kind" or getattr(value, f.name) != _default(f)}
     if isinstance(value, (list, tuple)):
         return [write(each) for each in value]
     if isinstance(value, Mapping):
@@ -64,8 +63,7 @@ def schema(kind: Any, about: Mapping[str, Any] = {}) -> Dict[str, Any]:
     origin, inner = typing.get_origin(kind), typing.get_args(kind)
     found: Dict[str, Any] = {"description": about["about"]} if "about" in about else {}
     if origin is Union:
-        options = [each for each in inner if each is not type(None)]
-        return {**found, **(schema(options[0], about) if len(options) == 1 else {"oneOf": [schema(each) for each in options]})}
+        return {**found, **(schema(inner[0], about) if type(None) in inner else {"oneOf": [schema(each) for each in inner]})}
     if origin is Literal:
         return {**found, "enum": list(inner)}
     if origin in (list, tuple):
@@ -78,13 +76,9 @@ def schema(kind: Any, about: Mapping[str, Any] = {}) -> Dict[str, Any]:
         needed = [f.name for f in fields if f.name == "kind" or _default(f) is dataclasses.MISSING]
         return {**found, "type": "object", "description": " ".join((found.get("description") or kind.__doc__ or "").split()), "additionalProperties": False,
                 "properties": {f.name: schema(hints[f.name], f.metadata) for f in fields}, **({"required": needed} if needed else {})}
-    if kind in (int, float):
-        found["type"] = "integer" if kind is int else "number"
-        for key, name in (("low", "minimum"), ("above", "exclusiveMinimum"), ("high", "maximum")):
-            if key in about:
-                found[name] = about[key]
-        return found
-    return {**found, **({"type": {str: "string", bool: "boolean"}[kind]} if kind in (str, bool) else {})}
+    bounds = {name: about[key] for key, name in (("low", "minimum"), ("above", "exclusiveMinimum"), ("high", "maximum")) if key in about}
+    types = {int: "integer", float: "number", str: "string", bool: "boolean"}
+    return {**found, **({"type": types[kind]} if kind in types else {}), **bounds}
 
 
 def _default(field: Any) -> Any:
@@ -98,7 +92,12 @@ def _wrong(where: str, value: Any, what: str) -> typing.NoReturn:
 def _read(kind: Any, value: Any, where: str, about: Mapping[str, Any]) -> Any:
     origin, inner = typing.get_origin(kind), typing.get_args(kind)
     if origin is Union:
-        return _read_one_of([each for each in inner if each is not type(None)], type(None) in inner, value, where, about)
+        if type(None) in inner:   # Optional
+            return None if value is None else _read(inner[0], value, where, about)
+        kinds = {_default(dataclasses.fields(each)[0]): each for each in inner}   # the first field says the kind
+        if not isinstance(value, Mapping) or value.get("kind") not in kinds:
+            _wrong(where, value, f"an object whose kind is one of {', '.join(kinds)}")
+        return _read(kinds[value["kind"]], value, where, about)
     if origin is Literal:
         if value not in inner or isinstance(value, bool):
             _wrong(where, value, f"one of {', '.join(map(str, inner))}")
@@ -106,14 +105,13 @@ def _read(kind: Any, value: Any, where: str, about: Mapping[str, Any]) -> Any:
     if origin in (list, tuple):
         if not isinstance(value, (list, tuple)) or len(value) < about.get("fewest", 0):
             _wrong(where, value, f"a list of at least {about['fewest']}" if "fewest" in about else "a list")
-        found = [_read(inner[0], each, f"{where}/{i}", {}) for i, each in enumerate(value)]
-        return tuple(found) if origin is tuple else found
+        return origin(_read(inner[0], each, f"{where}/{i}", {}) for i, each in enumerate(value))
     if origin is dict:
         if not isinstance(value, Mapping):
             _wrong(where, value, "an object with names")
         return {key: _read(inner[1], each, f"{where}/{key}", {}) for key, each in value.items()}
     if dataclasses.is_dataclass(kind):
-        return value if isinstance(value, typing.cast(type, kind)) else _read_object(kind, value, where)
+        return _read_object(kind, value, where)
     if kind in (int, float):
         return _read_number(kind, value, where, about)
     if kind in (str, bool) and not isinstance(value, kind):
@@ -121,24 +119,10 @@ def _read(kind: Any, value: Any, where: str, about: Mapping[str, Any]) -> Any:
     return value
 
 
-def _read_one_of(options: Any, may_be_null: bool, value: Any, where: str, about: Mapping[str, Any]) -> Any:
-    if value is None and may_be_null:
-        return None
-    if len(options) == 1:
-        return _read(options[0], value, where, about)
-    if isinstance(value, tuple(options)):
-        return value
-    kinds = {_default(dataclasses.fields(each)[0]): each for each in options}   # the first field says the kind
-    if not isinstance(value, Mapping) or value.get("kind") not in kinds:
-        _wrong(where, value, f"an object whose kind is one of {', '.join(kinds)}")
-    return _read_object(kinds[value["kind"]], value, where)
-
-
 def _read_object(kind: Any, value: Any, where: str) -> Any:
     if not isinstance(value, Mapping):
         _wrong(where, value, f"an object ({kind.__name__})")
-    fields = {f.name: f for f in dataclasses.fields(kind)}
-    hints = typing.get_type_hints(kind)
+    fields, hints = {f.name: f for f in dataclasses.fields(kind)}, typing.get_type_hints(kind)
     for key in value:
         if key not in fields:
             near = difflib.get_close_matches(str(key), fields, 1)
@@ -147,8 +131,7 @@ def _read_object(kind: Any, value: Any, where: str) -> Any:
     for name, f in fields.items():
         if name not in value and _default(f) is dataclasses.MISSING:
             fail("lab/missing", where or "/", f"the key '{name}' is missing", f"{name}: {f.metadata.get('about', 'give it')}")
-    given = {name: _read(hints[name], value[name] if name in value else _default(f), f"{where}/{name}", f.metadata) for name, f in fields.items()}
-    return kind(**given)
+    return kind(**{name: _read(hints[name], value[name] if name in value else write(_default(f)), f"{where}/{name}", f.metadata) for name, f in fields.items()})
 
 
 def _read_number(kind: Any, value: Any, where: str, about: Mapping[str, Any]) -> Any:
