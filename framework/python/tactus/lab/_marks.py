@@ -16,21 +16,21 @@ from ._protocol import Triggers
 from ._stages import Marks, Moment, Silent
 
 PORT = 7771   # of experiments; 7770 is that of `tactus play`
+NO_MESSAGE = ValueError, KeyError, struct.error   # what is wrong with a packet
 
 Argument = Union[str, float, int]
+_NUMBERS = {"i": ">i", "f": ">f", "h": ">q", "d": ">d"}
 
 
 def osc(address: str, *arguments: Argument) -> bytes:
     """An OSC message with texts, whole numbers (32 bits) and other numbers (32 bits)."""
-    types, data = ",", b""
-    for each in arguments:
-        types += "s" if isinstance(each, str) else "i" if isinstance(each, int) else "f"
-        data += _padded(each) if isinstance(each, str) else struct.pack(">i" if isinstance(each, int) else ">f", each)
-    return _padded(address) + _padded(types) + data
+    kinds = ["s" if isinstance(each, str) else "i" if isinstance(each, int) else "f" for each in arguments]
+    data = (_padded(each) if isinstance(each, str) else struct.pack(_NUMBERS[kind], each) for kind, each in zip(kinds, arguments))
+    return b"".join([_padded(address), _padded("," + "".join(kinds)), *data])
 
 
 def read_osc(packet: bytes) -> Tuple[str, List[Argument]]:
-    """The address and the arguments of an OSC message. ValueError if the packet is not one."""
+    """The address and the arguments of an OSC message. It raises one of NO_MESSAGE if the packet is not one."""
     address, rest = _text(packet)
     types, rest = _text(rest)
     if not address.startswith("/") or not types.startswith(","):
@@ -38,16 +38,10 @@ def read_osc(packet: bytes) -> Tuple[str, List[Argument]]:
     found: List[Argument] = []
     for kind in types[1:]:
         if kind == "s":
-            text, rest = _text(rest)
-            found.append(text)
-        elif kind in "ifhd":
-            size = 4 if kind in "if" else 8
-            if len(rest) < size:
-                raise ValueError("it is cut off")
-            found.append(struct.unpack({"i": ">i", "f": ">f", "h": ">q", "d": ">d"}[kind], rest[:size])[0])
-            rest = rest[size:]
+            value, rest = _text(rest)
         else:
-            raise ValueError(f"the type {kind} is not known")
+            (value,), rest = struct.unpack_from(_NUMBERS[kind], rest), rest[struct.calcsize(_NUMBERS[kind]):]
+        found.append(value)
     return address, found
 
 
@@ -95,7 +89,7 @@ class Receiver:
                 else:
                     continue
                 self._socket.sendto(osc("/tactus/done", address, given[0]), sender)
-            except (ValueError, queue.Full, OSError):
+            except (*NO_MESSAGE, queue.Full, OSError):
                 continue   # a stranger's packet
 
     def answer(self) -> Optional[str]:
@@ -120,7 +114,7 @@ def mark(text: str, value: str = "", port: int = PORT, wait: float = 2.0) -> boo
         try:
             own.sendto(osc("/tactus/mark", text, *([value] if value else [])), ("127.0.0.1", port))
             return read_osc(own.recv(4096))[0] == "/tactus/done"
-        except (OSError, ValueError):
+        except (OSError, *NO_MESSAGE):
             return False
 
 
