@@ -5,7 +5,7 @@ journal give it again."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generator, List, Optional, Tuple, Union
+from typing import Dict, Generator, List, Optional, Sequence, Tuple, Union
 
 from ._draw import Draw, latin_square
 from ._procedures import Constant, Psi, Track, start
@@ -43,9 +43,7 @@ class Trial:
 
     def outcome(self, answer: Answer) -> Optional[float]:
         """The value of an answer: 1 or 0, or the number; None without an answer."""
-        if answer is None or isinstance(answer, float):
-            return answer
-        return float(answer == self.expected)
+        return answer if answer is None or isinstance(answer, float) else float(answer == self.expected)
 
 
 @dataclass(frozen=True)
@@ -65,8 +63,8 @@ class Plan:
         """participant, session: labels; a participant whose label is a number has that row of the latin square."""
         self._protocol, self._key = protocol, (protocol.seed, participant, session)
         self._row = int(participant) - 1 if participant.isdigit() else Draw(participant).below(1000)
-        self._number, self._now = 0, 0
-        self._tracks: List[List[Tuple[str, int, Track]]] = [[] for _ in protocol.blocks]
+        self._number = 0
+        self._tracks = [self._start(block) for block in protocol.blocks]
         self._steps = self._run()
         self.step: Optional[Step] = next(self._steps, None)
 
@@ -80,9 +78,7 @@ class Plan:
 
     def left(self) -> int:
         """The largest number of trials that are left, without practice and catch trials."""
-        begun = {i for i, tracks in enumerate(self._tracks) if tracks}
-        return sum(track.left() for tracks in self._tracks for _, _, track in tracks if track.level() is not None) + sum(
-            track.left() for i in range(len(self._tracks)) if i not in begun for _, _, track in self._start(i))
+        return sum(track.left() for tracks in self._tracks for _, _, track in tracks if track.level() is not None)
 
     def _run(self) -> Generator[Step, Answer, None]:
         if self._protocol.instructions:
@@ -92,15 +88,12 @@ class Plan:
         for index in order[self._protocol.order]:
             yield from self._block(index)
 
-    def _start(self, index: int) -> List[Tuple[str, int, Track]]:
-        block = self._protocol.blocks[index]
+    def _start(self, block: Block) -> List[Tuple[str, int, Track]]:
         names = block.conditions or [c.name for c in self._protocol.all_conditions()]
         return [(name, i, track) for name in names for i, track in enumerate(start(block.procedure, Draw(*self._key, block.name, name)))]
 
     def _block(self, index: int) -> Generator[Step, Answer, None]:
-        block, draw = self._protocol.blocks[index], Draw(*self._key, self._protocol.blocks[index].name)
-        tracks = self._start(index)
-        self._tracks[index] = tracks
+        block, tracks, draw = self._protocol.blocks[index], self._tracks[index], Draw(*self._key, self._protocol.blocks[index].name)
         if block.instructions:
             yield Text(block.instructions)
         for _ in range(block.practice):
@@ -115,7 +108,9 @@ class Plan:
                 yield Text("Take a break.")
             if draw.uniform() < block.catch / (1.0 - block.catch):
                 yield self._trial(block, "catch", still[draw.below(len(still))][0], 0, block.varies.standard)
-            name, number, track = still[draw.below(len(still))] if not isinstance(block.procedure, Constant) else self._by_what_is_left(still, draw)
+            if isinstance(block.procedure, Constant):   # all remaining trials are equally likely, so the conditions stay mixed up to the end
+                still = [each for each in still for _ in range(each[2].left())]
+            name, number, track = still[draw.below(len(still))]
             level = track.level()
             assert level is not None
             trial = self._trial(block, "main", name, number, level)
@@ -124,15 +119,6 @@ class Plan:
                 track.answer(level, outcome)
                 count += 1
 
-    def _by_what_is_left(self, tracks: List[Tuple[str, int, Track]], draw: Draw) -> Tuple[str, int, Track]:
-        """A track, drawn so that all remaining trials are equally likely: the conditions stay mixed up to the end."""
-        at = draw.below(sum(track.left() for _, _, track in tracks))
-        for each in tracks:
-            at -= each[2].left()
-            if at < 0:
-                return each
-        raise AssertionError
-
     def _practice_level(self, block: Block, draw: Draw) -> float:
         levels = block.procedure.levels if isinstance(block.procedure, (Constant, Psi)) else (block.procedure.start,)
         return levels[draw.below(len(levels))]
@@ -140,16 +126,11 @@ class Plan:
     def _trial(self, block: Block, kind: str, condition: str, track: int, level: float) -> Trial:
         self._number += 1
         draw, standard = Draw(*self._key, "trial", self._number), block.varies.standard
-        swapped = draw.below(2) == 1
-        if block.task in ("2ifc", "greater"):
-            levels, expected = ((level, standard), "first") if swapped else ((standard, level), "second")
-        elif block.task == "abx":
-            pair = (level, standard) if swapped else (standard, level)
-            last = draw.below(2)
-            levels, expected = (*pair, pair[last]), "ab"[last]   # type: ignore[assignment]
-        elif block.task == "match":
-            levels, expected = (standard, level), ""
-        else:
-            levels, expected = (level,), "yes" if block.task == "yes_no" else ""   # type: ignore[assignment]
-        labels = ("", "") if len(levels) == 1 else ("standard", "yours") if block.task == "match" else ("1", "2", "3")
+        is_first, last = draw.below(2), draw.below(2)
+        pair = (level, standard) if is_first else (standard, level)
+        of_two = pair, "first" if is_first else "second", "12"
+        tasks: Dict[str, Tuple[Tuple[float, ...], str, Sequence[str]]] = {   # levels, what is expected, labels
+            "2ifc": of_two, "greater": of_two, "abx": ((*pair, pair[last]), "ab"[last], "123"), "match": ((standard, level), "", ("standard", "yours")),
+            "yes_no": ((level,), "yes", ("",))}
+        levels, expected, labels = tasks.get(block.task, ((level,), "", ("",)))
         return Trial(self._number, block, kind, condition, track, level, tuple(Interval(a, b) for a, b in zip(labels, levels)), expected)
