@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any, List, Literal, Optional, Sequence, Tuple, Union
 
@@ -87,14 +88,14 @@ def check(procedure: Procedure, where: str) -> None:
 
 
 class Track:
-    """A procedure that runs: `level` is the next level, or None at the end; `answer` takes the outcome."""
+    """A procedure that runs: here, through a list of levels. Derived classes choose the levels."""
 
-    def __init__(self, most: int):
-        self._most, self._done = most, 0
+    def __init__(self, most: int, levels: Sequence[float] = ()):
+        self._most, self._done, self._levels = most, 0, levels
 
     def level(self) -> Optional[float]:
         """The level of the next trial, in the unit of what varies; None once the procedure is over. Asking changes nothing."""
-        raise NotImplementedError
+        return self._levels[self._done] if self.left() else None
 
     def answer(self, level: float, outcome: float) -> None:
         """Takes the outcome of a trial at this level: 1 for "yes" or right, 0 for the others."""
@@ -103,15 +104,6 @@ class Track:
     def left(self) -> int:
         """The largest number of trials that are left."""
         return self._most - self._done
-
-
-class ConstantTrack(Track):
-    def __init__(self, given: Constant, draw: Draw):
-        self._levels = [level for _ in range(given.repeats) for level in draw.order(given.levels)]
-        super().__init__(len(self._levels))
-
-    def level(self) -> Optional[float]:
-        return self._levels[self._done] if self.left() else None
 
 
 class StaircaseTrack(Track):
@@ -148,10 +140,9 @@ class PsiTrack(Track):
     """A running psi method. posterior: shape (thresholds, widths, lapses), its sum is 1."""
 
     def __init__(self, given: Psi):
-        super().__init__(given.trials)
-        self._levels = np.array(given.levels)
+        super().__init__(given.trials, given.levels)
         axes = np.array(given.thresholds or given.levels)[:, None, None], np.array(given.widths)[None, :, None], np.array(given.lapses)[None, None, :]
-        self._yes = np.stack([probability(given.function, np.array(x), axes[0], axes[1], given.guess, axes[2]) for x in self._levels])
+        self._yes = np.stack([probability(given.function, np.array(x), axes[0], axes[1], given.guess, axes[2]) for x in given.levels])
         self.posterior: Array = np.full(self._yes.shape[1:], 1.0 / self._yes[0].size)
         self._next: Optional[float] = None
 
@@ -168,22 +159,27 @@ class PsiTrack(Track):
         for yes in (self._yes, 1.0 - self._yes):
             joint = yes * self.posterior
             chance = joint.sum(axis=(1, 2, 3))
-            logs = np.log(np.where(joint > 0.0, joint, 1.0))
-            total += -(joint * logs).sum(axis=(1, 2, 3)) + np.where(chance > 0.0, chance * np.log(np.where(chance > 0.0, chance, 1.0)), 0.0)
+            total += -_times_log(joint).sum(axis=(1, 2, 3)) + _times_log(chance)
         return np.round(total, 12)   # so that a tie does not depend on the computer's rounding
 
     def answer(self, level: float, outcome: float) -> None:
-        yes = self._yes[int(np.argmin(np.abs(self._levels - level)))]
+        yes = self._yes[int(np.argmin(np.abs(np.subtract(self._levels, level))))]
         self.posterior = self.posterior * (yes if outcome else 1.0 - yes)
         self.posterior = self.posterior / self.posterior.sum()
         super().answer(level, outcome)
         self._next = None
 
 
+def _times_log(p: Array) -> Array:
+    """p log p, 0 for 0."""
+    return np.asarray(p * np.log(np.where(p > 0.0, p, 1.0)))
+
+
 def start(procedure: Procedure, draw: Draw) -> List[Track]:
     """The tracks of a procedure for one condition."""
     if isinstance(procedure, Constant):
-        return [ConstantTrack(procedure, draw)]
+        levels = [level for _ in range(procedure.repeats) for level in draw.order(procedure.levels)]
+        return [Track(len(levels), levels)]
     if isinstance(procedure, Staircase):
         return [StaircaseTrack(procedure) for _ in range(procedure.tracks)]
     return [PsiTrack(procedure)]
@@ -192,8 +188,7 @@ def start(procedure: Procedure, draw: Draw) -> List[Track]:
 def mean_of_turns(levels: Sequence[float], drop: int = 2, ratio: bool = False) -> float:
     """The classic estimate of a staircase: the mean of the levels at its reversals, geometric with `ratio`, without the first `drop`. If an odd number
     remains, one more is left out. NaN if none is left."""
-    kept = list(levels)[drop:]
-    kept = kept[len(kept) % 2:]
+    kept = list(levels)[drop + (len(levels) - drop) % 2:]
     if not kept:
-        return float("nan")
-    return float(np.exp(np.mean(np.log(kept)))) if ratio else float(np.mean(kept))
+        return math.nan
+    return float(np.exp(np.mean(np.log(kept))) if ratio else np.mean(kept))

@@ -27,9 +27,7 @@ class SessionData:
     """The results of a session. trials, events: tables; `write` writes them beside the journal, with names after BIDS."""
 
     def __init__(self, folder: pathlib.Path, stem: str, events: List[_journal.Event], protocol: Protocol):
-        self.folder, self.stem, self.protocol = folder, stem, protocol
-        self.header = events[0]
-        self._events = events
+        self.folder, self.stem, self.protocol, self.header, self._events = folder, stem, protocol, events[0], events
         self.is_complete = any(event.get("event") == "end" for event in events)
         about = {{"protocol": "protocol_sha256"}.get(key, key): value for key, value in self.header.items() if key not in ("format", "version")}
         units = {block.varies.unit for block in protocol.blocks}
@@ -64,11 +62,9 @@ class SessionData:
         written = []
         for name, table in (("beh", self.trials), ("events", self.events)):
             for extension in ("tsv", *formats):
-                path = self.folder / f"{self.stem}_{name}.{extension}"
-                if extension == "csv":   # a sidecar of its own
-                    path = self.folder / f"{self.stem}_{name}_copy.csv"
-                table.write(path)
-                written.append(path)
+                copy = "_copy" if extension == "csv" else ""   # with a sidecar of its own
+                written.append(self.folder / f"{self.stem}_{name}{copy}.{extension}")
+                table.write(written[-1])
         top = self.folder.parents[2] / "dataset_description.json"
         if not top.exists():
             top.write_text(json.dumps({"Name": self.protocol.name, "BIDSVersion": "1.8.0", "DatasetType": "raw", "GeneratedBy": [{"Name": "tactus.lab"}]},
@@ -78,17 +74,18 @@ class SessionData:
     # ------------------------------------------------------------------------ Analysis
 
     def _block(self, name: Optional[str]) -> Block:
-        found = [b for b in self.protocol.blocks if name is None or b.name == name]
-        if not found:
-            fail("lab/unknown", "block", f"there is no block '{name}'", f"the blocks: {', '.join(b.name for b in self.protocol.blocks)}")
-        return found[0]
+        for block in self.protocol.blocks:
+            if name in (None, block.name):
+                return block
+        fail("lab/unknown", "block", f"there is no block '{name}'", f"the blocks: {', '.join(b.name for b in self.protocol.blocks)}")
 
     def chosen(self, block: Optional[str] = None, condition: Optional[str] = None, kind: str = "main") -> Dict[str, Any]:
         """Levels and outcomes (both of shape (n,)) of the answered trials of a block, by default the first; of one condition, by default all."""
         name = self._block(block).name
-        mask = np.array([b == name and k == kind and (condition is None or c == condition) and not math.isnan(o) for b, k, c, o in
-                         zip(self.trials["block"], self.trials["kind"], self.trials["condition"], self.trials["outcome"])], dtype=bool)
-        return {"levels": np.asarray(self.trials["level"], dtype=float)[mask], "outcomes": np.asarray(self.trials["outcome"], dtype=float)[mask]}
+        rows = [(level, outcome) for b, k, c, level, outcome in zip(*(self.trials[key] for key in ("block", "kind", "condition", "level", "outcome")))
+                if (b, k, c) == (name, kind, c if condition is None else condition) and not math.isnan(outcome)]
+        levels, outcomes = np.array(rows, dtype=float).reshape(-1, 2).T
+        return {"levels": levels, "outcomes": outcomes}
 
     def fit(self, block: Optional[str] = None, condition: Optional[str] = None, *, function: Optional[Function] = None,
             lapse: Optional[float] = None) -> Union[Psychometric, PowerLaw]:
