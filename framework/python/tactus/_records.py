@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import importlib
 import json
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -34,14 +34,9 @@ class Records(Dict[str, Array]):
 
         Its attrs have "units", the SI unit of each column and of "t", and "rate_hz". pandas must be installed."""
         pandas = imported("pandas", "to_dataframe")
-        columns: Dict[str, Array] = {}
-        units = {"t": "s"}
-        for port, values in self._ports():
-            for i, name in enumerate(names_of(port, 1 if values.ndim == 1 else 3)):
-                columns[name] = values if values.ndim == 1 else values[:, i]
-                units[name] = self.units.get(port, "")
+        columns, units = components(self._ports(), self.units)
         frame = pandas.DataFrame(columns, index=pandas.Index(self._t(), name="t"))
-        frame.attrs.update(units=units, rate_hz=self.rate_hz)
+        frame.attrs.update(units={"t": "s", **units}, rate_hz=self.rate_hz)
         return frame
 
     def to_xarray(self) -> Any:
@@ -105,6 +100,16 @@ class Layout:
 def names_of(port: str, width: int) -> List[str]:
     """The columns of a port."""
     return [port] if width == 1 else [f"{port}.{axis}" for axis in "xyz"]
+
+
+def components(ports: Iterable[Tuple[str, Array]], units: Mapping[str, str]) -> Tuple[Dict[str, Array], Dict[str, str]]:
+    """The columns of ports by name, and their units."""
+    columns, of_columns = {}, {}
+    for port, values in ports:
+        for i, name in enumerate(names_of(port, 1 if values.ndim == 1 else 3)):
+            columns[name] = values if values.ndim == 1 else values[:, i]
+            of_columns[name] = units.get(port, "")
+    return columns, of_columns
 
 
 def table_of(feed: Mapping[str, Any]) -> Tuple[List[str], Array]:

@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 import csv
+import io
+import itertools
 import json
 import math
-import os
 import pathlib
 import re
 import struct
@@ -17,8 +18,9 @@ import numpy as np
 
 from .._checks import Path
 from .._messages import fail
-from .._records import Records, imported, names_of
+from .._records import Records, components, imported
 from .._views import html_table
+from ._results import replace
 
 Column = Any   # an array of numbers, or a list of texts
 
@@ -53,17 +55,10 @@ class Table(Dict[str, Column]):
         kind = target.suffix.lower()
         if kind not in _WRITERS:
             fail("lab/format", str(path), f"the extension '{target.suffix}' is not known", f"use one of {', '.join(_WRITERS)}")
-        part = target.with_name(target.name + ".part")
-        try:
-            _WRITERS[kind](part, self)
-            if kind in (".csv", ".tsv"):
-                sidecar = target.with_suffix(".json")
-                beside = sidecar.with_name(sidecar.name + ".part")
-                beside.write_text(json.dumps(self.sidecar(), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
-                os.replace(beside, sidecar)
-            os.replace(part, target)
-        finally:
-            part.unlink(missing_ok=True)
+        data = _WRITERS[kind](self)
+        if kind in (".csv", ".tsv"):
+            replace(target.with_suffix(".json"), lambda file: file.write((json.dumps(self.sidecar(), indent=2, ensure_ascii=False) + "\n").encode()))
+        replace(target, lambda file: file.write(data))
 
     def sidecar(self) -> Dict[str, Any]:
         """Units, sampling rate and other facts about the table, as JSON."""
@@ -73,13 +68,7 @@ class Table(Dict[str, Column]):
 
 def table_of(records: Records, about: Optional[Mapping[str, Any]] = None) -> Table:
     """Records of a run as a table with one column for each component: "drag.force.x"."""
-    columns: Dict[str, Column] = {}
-    units: Dict[str, str] = {}
-    for port, values in records.items():
-        for i, name in enumerate(names_of(port, 1 if values.ndim == 1 else 3)):
-            columns[name] = values if values.ndim == 1 else values[:, i]
-            units[name] = records.units.get(port, "")
-    return Table(columns, units, about, records.rate_hz)
+    return Table(*components(records.items(), records.units), about, records.rate_hz)
 
 
 def _is_text(values: Column) -> bool:
@@ -88,32 +77,28 @@ def _is_text(values: Column) -> bool:
 
 def _shown(value: Any) -> str:
     """A cell as BIDS has it: numbers as the shortest text that reads back as the same number."""
-    if value is None or (isinstance(value, (float, np.floating)) and math.isnan(value)):
-        return "n/a"
-    if isinstance(value, (np.generic,)):
-        value = value.item()
-    return repr(value) if isinstance(value, float) else str(value)
+    plain = value.item() if isinstance(value, np.generic) else value
+    return "n/a" if plain is None or plain != plain else repr(plain) if isinstance(plain, float) else str(plain)
 
 
-def _write_text(path: pathlib.Path, table: Table, separator: str) -> None:
-    rows = [list(table), *zip(*(map(_shown, values) for values in table.values()))]
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        if separator == ",":
-            csv.writer(file, lineterminator="\n").writerows(rows)
-        else:   # BIDS has no quotes
-            file.writelines("\t".join(" ".join(re.split("[\t\r\n]+", cell)) for cell in row) + "\n" for row in rows)
+def _text(table: Table, separator: str) -> bytes:
+    rows, made = [list(table), *zip(*(map(_shown, values) for values in table.values()))], io.StringIO()
+    if separator == ",":
+        csv.writer(made, lineterminator="\n").writerows(rows)
+    else:   # BIDS has no quotes
+        made.writelines("\t".join(" ".join(re.split("[\t\r\n]+", cell)) for cell in row) + "\n" for row in rows)
+    return made.getvalue().encode()
 
 
-def _write_hdf5(path: pathlib.Path, table: Table) -> None:
-    h5py = imported("h5py", str(path.with_suffix("")))
-    with h5py.File(path, "w") as file:
+def _hdf5(table: Table) -> bytes:
+    h5py, out = imported("h5py", ".h5"), io.BytesIO()
+    with h5py.File(out, "w") as file:
         file.attrs["about"] = json.dumps(table.sidecar(), ensure_ascii=False)
         for name, values in table.items():
-            if _is_text(values):
-                made = file.create_dataset(name, data=[str(v) for v in values], dtype=h5py.string_dtype())
-            else:
-                made = file.create_dataset(name, data=np.asarray(values))
+            data, kind = ([str(v) for v in values], h5py.string_dtype()) if _is_text(values) else (np.asarray(values), None)
+            made = file.create_dataset(name, data=data, dtype=kind)
             made.attrs["units"] = table.units.get(name, "")
+    return out.getvalue()
 
 
 # ------------------------------------------------------------------------ MAT, version 5 (MathWorks, "MAT-File Format"). Octave 7 does not read the letters
@@ -133,28 +118,22 @@ def _characters(name: str, text: str) -> bytes:
     return _matrix(name, 4, (1 if data else 0, len(data) // 2), _element(17, data))
 
 
-def mat_name(name: str, taken: Sequence[str] = ()) -> str:
+def mat_name(name: str, taken: Sequence[str]) -> str:
     """A name of a variable that MATLAB and Octave take: letters, digits and _, at most 63."""
     plain = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
     plain = (plain if plain[:1].isalpha() else "x" + plain)[:59]
-    found, count = plain, 1
-    while found in taken:
-        count += 1
-        found = f"{plain}_{count}"
-    return found
+    names = itertools.chain([plain], (f"{plain}_{count}" for count in itertools.count(2)))
+    return next(name for name in names if name not in taken)
 
 
-def _write_mat(path: pathlib.Path, table: Table) -> None:
+def _mat(table: Table) -> bytes:
     names: List[str] = []
-    with open(path, "wb") as file:
-        file.write(b"MATLAB 5.0 MAT-file, written by tactus.lab".ljust(116) + b"\0" * 8 + struct.pack("<H", 0x0100) + b"IM")
-        for column, values in table.items():
-            names.append(mat_name(column, [*names, "about"]))
-            if _is_text(values):
-                file.write(_matrix(names[-1], 1, (table.rows, 1), b"".join(_characters("", str(v)) for v in values)))
-            else:
-                file.write(_matrix(names[-1], 6, (table.rows, 1), _element(9, np.asarray(values, "<f8").tobytes())))
-        file.write(_characters("about", json.dumps({**table.sidecar(), "columns": dict(zip(names, table))}, ensure_ascii=False)))
+    made = [b"MATLAB 5.0 MAT-file, written by tactus.lab".ljust(116) + b"\0" * 8 + struct.pack("<H", 0x0100) + b"IM"]
+    for column, values in table.items():
+        names.append(mat_name(column, [*names, "about"]))
+        kind, content = (1, b"".join(_characters("", str(v)) for v in values)) if _is_text(values) else (6, _element(9, np.asarray(values, "<f8").tobytes()))
+        made.append(_matrix(names[-1], kind, (table.rows, 1), content))
+    return b"".join([*made, _characters("about", json.dumps({**table.sidecar(), "columns": dict(zip(names, table))}, ensure_ascii=False))])
 
 
 # ------------------------------------------------------------------------ XDF (https://github.com/sccn/xdf, version 1.0)
@@ -190,24 +169,21 @@ def _texts(times: Any, texts: Sequence[str]) -> bytes:
     return b"".join(struct.pack("<BdBI", 8, time, 4, len(data)) + data for time, data in zip(times, encoded))
 
 
-def _write_xdf(path: pathlib.Path, table: Table) -> None:
+def _xdf(table: Table) -> bytes:
     """One stream of all numbers, and one for each column of texts (marks): libxdf reads only one text of a sample. The times are those of the column
     monotonic, t or onset, in s."""
     clock = next((name for name in ("monotonic", "t", "onset") if name in table), None)
     if clock is None:
-        fail("lab/no_times", str(path), "the table has no times", "give it a column 't', 'onset' or 'monotonic', in s")
+        fail("lab/no_times", "columns", "the table has no times", "give it a column 't', 'onset' or 'monotonic', in s")
     times = np.asarray(table[clock], dtype=float)
     numbers = [name for name in table if not _is_text(table[name])]
     texts = [name for name in table if _is_text(table[name])]
     about = json.dumps(table.sidecar(), ensure_ascii=False)
-    with open(path, "wb") as file:
-        file.write(b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'))
-        values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
-        file.write(_stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64",
-                           times, _samples(times, values), about))
-        for i, name in enumerate(texts):
-            file.write(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about))
+    values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
+    return b"".join([
+        b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'),
+        _stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64", times, _samples(times, values), about),
+        *(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about) for i, name in enumerate(texts))])
 
 
-_WRITERS = {".csv": lambda path, table: _write_text(path, table, ","), ".tsv": lambda path, table: _write_text(path, table, "\t"),
-            ".h5": _write_hdf5, ".mat": _write_mat, ".xdf": _write_xdf}
+_WRITERS = {".csv": lambda table: _text(table, ","), ".tsv": lambda table: _text(table, "\t"), ".h5": _hdf5, ".mat": _mat, ".xdf": _xdf}
