@@ -77,12 +77,12 @@ class Psychometric:
     def level(self, chance: float = 0.75) -> float:
         """The level at which the function has this value, in the unit of the levels; NaN if it never has."""
         share = (chance - self.guess) / (1.0 - self.guess - self.lapse)
-        if not 0.0 < share < 1.0:
-            return math.nan
+        return self._level(share) if 0.0 < share < 1.0 else math.nan
+
+    def _level(self, share: float) -> float:
         if self.function == "weibull":
-            return float(self.threshold * math.pow(-math.log1p(-share), 1.0 / self.width))
-        z = math.log(share / (1.0 - share)) if self.function == "logistic" else statistics.NormalDist().inv_cdf(share)
-        return self.threshold + self.width * z
+            return float(self.threshold * (-math.log1p(-share)) ** (1.0 / self.width))
+        return self.threshold + self.width * (math.log(share / (1.0 - share)) if self.function == "logistic" else statistics.NormalDist().inv_cdf(share))
 
     @property
     def slope(self) -> float:
@@ -93,9 +93,7 @@ class Psychometric:
     @property
     def jnd(self) -> float:
         """The just noticeable difference, in the unit of the levels: from a share of 0.5 to one of 0.75, without guesses and lapses."""
-        if self.function == "weibull":
-            return float(self.threshold * (math.log(4.0) ** (1.0 / self.width) - math.log(2.0) ** (1.0 / self.width)))
-        return self.width * (math.log(3.0) if self.function == "logistic" else 0.6744897501960817)
+        return self._level(0.75) - self._level(0.5)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the data and the function with matplotlib; returns the axes."""
@@ -210,9 +208,7 @@ def _gathered(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike]) ->
     if not (np.isfinite(x).all() and np.isfinite(k).all() and np.isfinite(n).all()) or (k < 0.0).any() or (k > n).any():
         fail("lab/value", "yes", "a level is not finite, or there are more answers than trials", "give levels, and the yes or right answers out of trials")
     known, where = np.unique(x, return_inverse=True)
-    total, right = np.zeros(len(known)), np.zeros(len(known))
-    np.add.at(total, where, n)
-    np.add.at(right, where, k)
+    total, right = np.bincount(where, n), np.bincount(where, k)
     return known[total > 0], right[total > 0], total[total > 0]
 
 
@@ -289,14 +285,9 @@ def power_law(levels: ArrayLike, answers: ArrayLike) -> PowerLaw:
     x, y = _checks.array("levels", levels).ravel(), _checks.array("answers", answers).ravel()
     if len(x) != len(y) or len(x) < 3 or not ((x > 0.0).all() and (y > 0.0).all()) or np.ptp(x) == 0.0:
         fail("lab/data", "levels", "a power law needs three pairs of levels and answers or more, all above 0, at two levels or more", "leave out answers of 0")
-    u, v = np.log(x), np.log(y)
-    spread = float(((u - u.mean()) ** 2).sum())
-    exponent = float(((u - u.mean()) * (v - v.mean())).sum() / spread)
-    gain = float(v.mean() - exponent * u.mean())
-    free = len(x) - 2
-    error = math.sqrt(float(((v - gain - exponent * u) ** 2).sum()) / free / spread)
-    half = t_quantile(free) * error
-    return PowerLaw(math.exp(gain), exponent, Interval(exponent - half, exponent + half))
+    (exponent, gain), covariance = np.polyfit(np.log(x), np.log(y), 1, cov=True)
+    half = t_quantile(len(x) - 2) * math.sqrt(covariance[0, 0])
+    return PowerLaw(math.exp(gain), float(exponent), Interval(float(exponent) - half, float(exponent) + half))
 
 
 def t_quantile(free: int, share: float = 0.975) -> float:
