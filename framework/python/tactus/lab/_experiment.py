@@ -55,13 +55,10 @@ class Experiment:
         bound = {**protocol.devices, **device}
         if not resume:
             self.folder.mkdir(parents=True, exist_ok=True)
-        self._triggers = TriggerLine(protocol.triggers) if protocol.triggers else None
-        try:
-            self._journal = _journal.Journal(path, None if resume else {**self._header(), "devices": bound})
-        except BaseException:
-            if self._triggers:
-                self._triggers.close()
-            raise
+        with contextlib.ExitStack() as used:   # a session without triggers does not begin
+            self._triggers = used.enter_context(contextlib.closing(TriggerLine(protocol.triggers))) if protocol.triggers else None
+            self._journal = used.enter_context(contextlib.closing(_journal.Journal(path, None if resume else {**self._header(), "devices": bound})))
+            self._used = used.pop_all()
         if resume:
             self._journal.add({"event": "resumed", "devices": bound, **Silent().now()._asdict()})
         own = self.folder / f"{self.stem}_protocol.json"
@@ -70,8 +67,7 @@ class Experiment:
         self.run_number = 1 + sum(event.get("event") == "resumed" for event in past) + bool(resume)
         self.log = self.folder / f"{self.stem}_run-{self.run_number:02d}_log.{'tlog' if packed else 'jsonl'}"
         self.stage = stage if stage is not None else Live(protocol, str(self.log), devices, device) if protocol.graph or protocol.conditions else Silent()
-        window.stop = self.stage.stop
-        window.now = self.stage.now
+        window.stop, window.now = self.stage.stop, self.stage.now
         if receiver is not None:
             receiver.now = self.stage.now
         self._trials = [event for event in past if event.get("event") == "trial"]
@@ -86,9 +82,7 @@ class Experiment:
 
     def _replay(self, past: List[_journal.Event]) -> None:
         """Goes to the end of the journal."""
-        if not past:
-            return
-        if past[0]["protocol"] != self.protocol.hash():
+        if past and past[0]["protocol"] != self.protocol.hash():
             fail("lab/protocol", str(self.folder), "the session began with another protocol",
                  f"give the file with which it began, or {self.stem}_protocol.json in this folder")
         for event in past:
@@ -103,8 +97,7 @@ class Experiment:
                     event[key] for key in ("number", "block", "kind", "condition")) or abs(trial.level - event["level"]) > 1e-9 * max(1.0, abs(trial.level)):
                 fail("lab/order", str(self.folder), f"trial {event['number']} of the journal is not the one that follows from its answers",
                      "resume with the version of tactus with which the session began")
-            answer = event["answer"]
-            self.plan.answer(float(answer) if isinstance(answer, (int, float)) else answer)
+            self.plan.answer(event["answer"])
 
     # ------------------------------------------------------------------------ The run
 
@@ -121,16 +114,15 @@ class Experiment:
                 else:
                     self._trial(step)
             why = "end"
-        except (Aborted, KeyboardInterrupt) as reason:
+        except Aborted:
             why = "aborted"
-            if isinstance(reason, KeyboardInterrupt):
-                raise
+        except KeyboardInterrupt:
+            why = "aborted"
+            raise
         finally:
             self.stage.close()
             self._journal.add({"event": why, **Silent().now()._asdict()})
-            self._journal.close()
-            if self._triggers:
-                self._triggers.close()
+            self._used.close()
             self.window.close()
         data = _tables.load(self.folder, self.protocol.name)
         data.write()
@@ -167,14 +159,12 @@ class Experiment:
         self._journal.add(event)
         self._trials.append(event)
         self.plan.answer(answer)
-        if trial.kind == "practice" or trial.block.feedback:
-            if trial.expected:
-                self.window.say("No answer" if answer is None else "Right" if outcome else "Wrong")
-                self.stage.wait(trial.block.gap)
+        if trial.expected and (trial.kind == "practice" or trial.block.feedback):
+            self.window.say("No answer" if answer is None else "Right" if outcome else "Wrong")
+            self.stage.wait(trial.block.gap)
 
     def _answer(self, trial: Trial, level: float) -> Answer:
-        names = ANSWERS[trial.block.task]
-        keys = {name: self.protocol.key(name) for name in names}
+        keys = {name: self.protocol.key(name) for name in ANSWERS[trial.block.task]}
         condition, block = self.protocol.condition(trial.condition), trial.block
         while True:
             answer = self.window.ask(trial, level, keys, block.time_limit, lambda: self._by_hand(keys))
@@ -197,11 +187,9 @@ class Experiment:
         """The answer of the hand or by OSC: one of the answers, or their keys; without these, a number. Others are left out."""
         self._take_marks()
         answer = self.stage.hand() or (self.receiver.answer() if self.receiver else None)
-        if answer is None or answer in keys:
-            return answer
-        if keys:
-            return next((name for name, key in keys.items() if key == answer), None)
-        return answer if number_of(answer) is not None else None
+        if answer is None or not keys:
+            return answer if answer and number_of(answer) is not None else None
+        return {**{key: name for name, key in keys.items()}, **{name: name for name in keys}}.get(answer)
 
     # ------------------------------------------------------------------------ Marks
 

@@ -4,6 +4,7 @@ devices, and STOP."""
 
 from __future__ import annotations
 
+import contextlib
 import http.server
 import json
 import math
@@ -137,7 +138,9 @@ class Browser(Window):
                 if place == "stop":
                     window._stopped.set()
                     window.stop()
-                elif place in ("answer", "mark"):
+                elif place not in ("answer", "mark"):
+                    return self._send("text/plain", "not here", 404)
+                else:
                     try:
                         given = json.loads(body)
                         if place == "mark":
@@ -145,11 +148,7 @@ class Browser(Window):
                         else:
                             window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
                     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, queue.Full):
-                        self._send("text/plain", f"no {place}", 400)
-                        return
-                else:
-                    self._send("text/plain", "not here", 404)
-                    return
+                        return self._send("text/plain", f"no {place}", 400)
                 self._send("application/json", "{}")
 
         self._server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
@@ -161,7 +160,7 @@ class Browser(Window):
 
     def show(self, text: str) -> None:
         self._question(text, {"go on": " "}, False)
-        self._wait({" ", "Enter", "Pad0"}, math.inf, lambda: None)
+        self.awaited(lambda: self._key({" ", "Enter", "Pad0"}.__contains__), math.inf, lambda: None)
 
     def say(self, text: str) -> None:
         self._state = {"text": text}
@@ -170,29 +169,24 @@ class Browser(Window):
     def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
         is_number = trial.block.task == "magnitude"
         self._question(trial.question, keys, is_number)
-        until = time.monotonic() + limit if limit > 0.0 else math.inf
         by_key = {**{f"Pad{i}": name for i, name in enumerate(keys)}, **{key: name for name, key in keys.items()}}
-        found = self._wait(None if is_number else set(by_key), until, hand)
+        fits = (lambda key: number_of(key) is not None) if is_number else by_key.__contains__
+        found = self.awaited(lambda: self._key(fits), time.monotonic() + (limit or math.inf), hand)
         self._state = {"text": ""}
-        return number_of(found) if is_number and found is not None else None if found is None else by_key.get(found, found)
+        return None if found is None else number_of(found) if is_number else by_key.get(found, found)
 
     def _question(self, text: str, keys: Dict[str, str], is_number: bool) -> None:
         self._id += 1
         self._state = {"text": text, "keys": keys, "id": self._id, "number": is_number}
 
-    def _wait(self, keys: Optional[set[str]], until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
-        while True:
-            self._check()
-            if (answer := hand()) is not None:
-                return answer
-            if time.monotonic() >= until:
-                return None
-            try:
-                number, key = self._given.get(timeout=0.02)
-            except queue.Empty:
-                continue
-            if number == self._id and (key in keys if keys is not None else number_of(key) is not None):
+    def _key(self, fits: Callable[[str], bool]) -> Optional[str]:
+        """A key that was pressed for this question and fits; None after a moment without one."""
+        self._check()
+        with contextlib.suppress(queue.Empty):
+            number, key = self._given.get(timeout=0.02)
+            if number == self._id and fits(key):
                 return key
+        return None
 
     def _check(self) -> None:
         if self._stopped.is_set():

@@ -42,6 +42,12 @@ class Window:
         to be called regularly."""
         raise NotImplementedError
 
+    def awaited(self, take: Callable[[], Optional[str]], until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
+        """The first answer of the hand or from `take`, which gives None after a moment without any. None at a time of the monotonic clock."""
+        while (answer := hand()) is None and (answer := take()) is None and time.monotonic() < until:
+            pass
+        return answer
+
     def report(self, state: Dict[str, Any]) -> None:
         """Shows the state of the experiment to the experimenter."""
 
@@ -95,15 +101,15 @@ class Terminal(Window):
 
     def show(self, text: str) -> None:
         self.say(f"{text}\n(Enter goes on)")
-        self._line(math.inf, lambda: None)
+        self.awaited(self._line, math.inf, lambda: None)
 
     def say(self, text: str) -> None:
         print(text, file=self._out, flush=True)
 
     def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
         self.say(trial.question + (f" ({', '.join(f'{key}: {answer}' for answer, key in keys.items())})" if keys else ""))
-        until = time.monotonic() + limit if limit > 0.0 else math.inf
-        while (line := self._line(until, hand)) is not None:
+        until = time.monotonic() + (limit or math.inf)
+        while (line := self.awaited(self._line, until, hand)) is not None:
             answer = next((a for a, key in keys.items() if line in (a, key) or key == "Enter" and line == ""), None)
             if answer is not None:
                 return answer
@@ -112,17 +118,14 @@ class Terminal(Window):
             self.say("Give " + (f"one of {', '.join(keys.values())}" if keys else "a number"))
         return None
 
-    def _line(self, until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
-        while b"\n" not in self._held:
-            if (answer := hand()) is not None:
-                return answer
-            if time.monotonic() >= until:
-                return None
+    def _line(self) -> Optional[str]:
+        if b"\n" not in self._held:
             if select.select([self._source], [], [], 0.02)[0]:
                 read = os.read(self._source.fileno(), 4096)
                 if not read:
                     raise Aborted("the input has ended")
                 self._held += read
+            return None
         line, self._held = self._held.split(b"\n", 1)
         text = line.decode(errors="replace").strip()
         if text == "stop":
