@@ -9,7 +9,7 @@ import math
 import os
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -72,8 +72,8 @@ class Check:
 
     def _repr_html_(self) -> str:
         rows = [(c.role, c.node, c.id, c.verdict, with_unit(c.value, c.unit), with_unit(c.limit, c.unit), c.text) for c in self.conditions]
-        unjudged = "".join(f"<li>not judged: {html_text(n['what'])}: {html_text(n['why'])}</li>" for n in self.not_judged)
-        return f"<p>{html_text(self.scope)}</p><ul>{unjudged}</ul>" + html_table(("role", "node", "condition", "verdict", "value", "limit", ""), rows)
+        return f"<p>{html_text(self.scope)}</p>" + _html_list(f"not judged: {n['what']}: {n['why']}" for n in self.not_judged) + html_table(
+            ("role", "node", "condition", "verdict", "value", "limit", ""), rows)
 
 
 class Interval(NamedTuple):
@@ -84,6 +84,9 @@ class Interval(NamedTuple):
     high: float
     is_low_known: bool
     is_high_known: bool
+
+    def __str__(self) -> str:
+        return f"{self.low:.4g}{'' if self.is_low_known else ' (unknown below)'} to {self.high:.4g}{'' if self.is_high_known else ' (unknown above)'}"
 
 
 class Limits:
@@ -103,7 +106,7 @@ class Limits:
         return f"<tactus.Limits of {plain(self.role)}: {self.stiffness:.3g} N/m and {self.damping:.3g} N s/m at {self.rate:g} Hz>"
 
     def _repr_html_(self) -> str:
-        rows = [(f"{name} ({unit})", f"{now:.4g}", _shown(self.passive[name]), _shown(self.stable[name]))
+        rows = [(f"{name} ({unit})", f"{now:.4g}", self.passive[name] or "nowhere", self.stable[name] or "nowhere")
                 for name, unit, now in (("stiffness", "N/m", self.stiffness), ("damping", "N s/m", self.damping), ("rate", "Hz", self.rate))]
         return html_table((f"{self.role}, {self.node}", "now", "passive (sufficient)", "stable"), rows)
 
@@ -114,16 +117,11 @@ class Limits:
         for name in (x, y):
             if name not in self.columns:
                 fail("plot/unknown", name, f"there is no column '{plain(name)}'", f"use one of {', '.join(self.columns)}")
-        column = {name: self.points[:, i] for i, name in enumerate(self.columns)}
-        ax = axes_of(axes)
-        stable, passive = column["stable"] == 1.0, column["passive"] == 1.0
-        unknown = np.isnan(column["stable"]) & ~passive
-        for label, which in (("passive", passive), ("stable, not passive", stable & ~passive), ("not stable", ~stable & ~passive & ~unknown),
-                             ("unknown", unknown)):
-            ax.plot(column[x][which], column[y][which], ".", label=label)
-        ax.set(xlabel=x, ylabel=y)
-        ax.legend(frameon=False, fontsize="small")
-        return ax.figure
+        column = dict(zip(self.columns, self.points.T))
+        passive, stable = column["passive"] == 1.0, column["stable"]
+        kinds = {"passive": passive, "stable, not passive": ~passive & (stable == 1.0), "not stable": ~passive & (stable < 1.0),
+                 "unknown": ~passive & np.isnan(stable)}
+        return _drawn(axes, x, y, [(label, column[x][which], column[y][which], ".") for label, which in kinds.items()])
 
 
 class FitValue(NamedTuple):
@@ -172,18 +170,13 @@ class Fit:
         rows = [(v.name, with_unit(v.value, v.unit), f"{v.low:.4g} to {v.high:.4g}") for v in self.values.values()]
         lines = [f"verdict: {self.verdict}; residual {with_unit(self.residual, self.residual_unit)} of {with_unit(self.size, self.residual_unit)}",
                  *self.lacking, *self.notes]
-        return html_table((self.kind, "value", "95 % interval"), rows) + "<ul>" + "".join(f"<li>{html_text(line)}</li>" for line in lines) + "</ul>"
+        return html_table((self.kind, "value", "95 % interval"), rows) + _html_list(lines)
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the recording and the fit, and returns the matplotlib figure."""
-        picture = self.json["picture"]
-        ax = axes_of(axes)
-        for curve in picture["curves"]:
-            x, y = (np.array(curve[k], dtype=np.float64) for k in "xy")
-            ax.plot(x, y, "." if curve["recorded"] else "-", label=curve["label"], markersize=2)
-        ax.set(xlabel=f"{picture['x']} ({picture['x_unit'] or '1'})", ylabel=f"{picture['y']} ({picture['y_unit'] or 'as recorded'})")
-        ax.legend(frameon=False, fontsize="small")
-        return ax.figure
+        p = self.json["picture"]
+        curves = [(c["label"], *(np.array(c[k], dtype=np.float64) for k in "xy"), "." if c["recorded"] else "-") for c in p["curves"]]
+        return _drawn(axes, f"{p['x']} ({p['x_unit'] or '1'})", f"{p['y']} ({p['y_unit'] or 'as recorded'})", curves, markersize=2)
 
 
 class Conversion:
@@ -201,8 +194,7 @@ class Conversion:
         return f"<tactus.Conversion to {', '.join(map(plain, self.files))}: {len(self.losses)} losses; {plain('; '.join(self.differences), 200)}>"
 
     def _repr_html_(self) -> str:
-        lines = [*(f"wrote {name}" for name in self.files), *(f"lost: {loss.where}: {loss.text}" for loss in self.losses), *self.differences]
-        return "<ul>" + "".join(f"<li>{html_text(line)}</li>" for line in lines) + "</ul>"
+        return _html_list([*(f"wrote {name}" for name in self.files), *(f"lost: {loss.where}: {loss.text}" for loss in self.losses), *self.differences])
 
 
 class Devices(List[Dict[str, Any]]):
@@ -330,11 +322,19 @@ def _intervals(ranges: Mapping[str, Any]) -> Dict[str, Optional[Interval]]:
             for name in ("stiffness", "damping", "rate")}
 
 
+def _drawn(axes: Any, x: str, y: str, curves: Iterable[Tuple[Any, ...]], **style: Any) -> Any:
+    """The figure with curves: label, x, y, and format of matplotlib."""
+    ax = axes_of(axes)
+    for label, xs, ys, form in curves:
+        ax.plot(xs, ys, form, label=label, **style)
+    ax.set(xlabel=x, ylabel=y)
+    ax.legend(frameon=False, fontsize="small")
+    return ax.figure
+
+
+def _html_list(lines: Iterable[str]) -> str:
+    return f"<ul>{''.join(f'<li>{html_text(line)}</li>' for line in lines)}</ul>"
+
+
 def _finite(value: Optional[float], otherwise: float) -> float:
     return otherwise if value is None else float(value)
-
-
-def _shown(interval: Optional[Interval]) -> str:
-    if interval is None:
-        return "nowhere"
-    return f"{interval.low:.4g}{'' if interval.is_low_known else ' (unknown below)'} to {interval.high:.4g}{'' if interval.is_high_known else ' (unknown above)'}"

@@ -105,19 +105,15 @@ class Live(Silent):
             if self._protocol.hand:
                 self._session.probe(*sorted({answer.port for answer in self._protocol.hand.values()}))
         elif graph.text != self._playing.text:
-            self._edit(graph)
+            if _shape(graph) != _shape(self._playing):
+                for quiet in (without_motors(self._playing), without_motors(graph)):
+                    self._session.edit(quiet)
+                    self.wait(FADE)
+            self._session.edit(graph)
         self._playing = graph
         values, controls = self._protocol.values_of(condition)
         for name, value in [*values.items(), *controls.items(), (target, level)]:
             self._session.control(name, value) if name in graph.controls else self._session.set(name, value)
-
-    def _edit(self, graph: Graph) -> None:
-        assert self._session is not None
-        if _shape(graph) != _shape(self._playing):
-            for quiet in (without_motors(self._playing), without_motors(graph)):
-                self._session.edit(quiet)
-                self.wait(FADE)
-        self._session.edit(graph)
 
     def wait(self, duration: float) -> None:
         until = time.monotonic() + duration
@@ -144,11 +140,7 @@ class Live(Silent):
         if self._session is None or not self._protocol.hand:
             return None
         values = self._session.values()
-        for answer, given in self._protocol.hand.items():
-            value = float(values.get(given.port, math.nan))
-            if value > given.above:
-                return answer
-        return None
+        return next((answer for answer, given in self._protocol.hand.items() if values.get(given.port, math.nan) > given.above), None)
 
     def events(self) -> List[str]:
         self._look()
