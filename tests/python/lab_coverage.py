@@ -30,10 +30,9 @@ def holds(function, levels, yes, trials, guess):
     return [low <= truth <= high for best in (given.best(), None) for (low, _, high), truth in zip(given.ends(0.95, best)[0], truths)]
 
 
-def constant(function, draw, guess=0.0):
-    chances = lab.probability(function, LEVELS, THRESHOLD, WIDTH[function], guess, LAPSE)
-    yes = np.array([sum(draw.uniform() < p for _ in range(40)) for p in chances])
-    return LEVELS, yes, np.full(7, 40), guess
+def constant(function, draw):
+    chances = lab.probability(function, LEVELS, THRESHOLD, WIDTH[function], 0.0, LAPSE)
+    return LEVELS, [sum(draw.uniform() < p for _ in range(40)) for p in chances], np.full(7, 40), 0.0
 
 
 def adaptive(procedure, function, draw):
@@ -54,10 +53,8 @@ def adaptive(procedure, function, draw):
 def run(method, draw):
     if method == "detection":
         d, c = 1.5, 0.3
-        rates = [float(lab.probability("normal", x, 0.0, 1.0)) for x in (0.5 * d - c, -0.5 * d - c)]
-        hits, alarms = (sum(draw.uniform() < rate for _ in range(100)) for rate in rates)
-        found = lab.detection(hits, 100, alarms, 100)
-        return [found.d_prime_interval.low <= d <= found.d_prime_interval.high, found.criterion_interval.low <= c <= found.criterion_interval.high]
+        hits, alarms = (sum(draw.uniform() < rate for _ in range(100)) for rate in lab.probability("normal", [0.5 * d - c, -0.5 * d - c], 0.0, 1.0))
+        return [low <= truth <= high for (low, high), truth in zip(lab.detection(hits, 100, alarms, 100)[2:], (d, c))]
     if method == "power":
         levels = np.repeat([1.0, 2.0, 4.0, 8.0, 16.0], 10)
         answers = [5.0 * level ** 0.8 * math.exp(0.3 * draw.normal()) for level in levels]
@@ -67,8 +64,7 @@ def run(method, draw):
     return holds(function, *(constant(function, draw) if procedure == "constant" else adaptive(procedure, function, draw)))
 
 
-METHODS = [f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in ("logistic", "normal", "weibull")]
-METHODS += ["detection", "power"]
+METHODS = [*(f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in WIDTH), "detection", "power"]
 
 
 def main():

@@ -8,7 +8,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from support import ROOT, TestCase
@@ -26,37 +25,32 @@ except ImportError:
 
 def run_cell(source, names):
     """What a cell prints, and then the value of its last expression, as Jupyter shows them."""
-    tree = ast.parse(source)
-    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    *parts, last = ast.parse(source).body
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        exec(compile(tree, "cell", "exec"), names)
-        if last is not None:
-            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
-            if value is not None:
-                said.write(repr(value))
-    return said.getvalue()
+        exec(compile(ast.Module(parts, []), "cell", "exec"), names)
+        shown = eval(compile(ast.Expression(last.value), "cell", "eval"), names)   # each cell ends with an expression
+    return said.getvalue() + ("" if shown is None else repr(shown))
 
 
 class Literature(TestCase):
-    def run_one(self, name, observer):
-        protocol = lab.Protocol.load(EXAMPLES / f"{name}.json")
-        return lab.Experiment(protocol, self.folder, window=lab.Simulated(observer), stage=lab.Silent()).run()
+    def run_one(self, name, **observer):
+        window = lab.Simulated(lab.Observer(**observer, seed=3))
+        return lab.Experiment(lab.Protocol.load(EXAMPLES / f"{name}.json"), self.folder, window=window, stage=lab.Silent()).run()
 
     def test_the_stiffness_jnd(self):
-        data = self.run_one("stiffness", lab.Observer(threshold=500.0, width=105.0, lapse=0.01, seed=3))
-        fit = data.fit()
+        fit = self.run_one("stiffness", threshold=500.0, width=105.0, lapse=0.01).fit()
         self.assertEqual(int(fit.trials.sum()), 280)
         self.assertTrue(fit.threshold_interval.low < 500.0 < fit.threshold_interval.high, fit)
         self.assertTrue(fit.width_interval.low < 105.0 < fit.width_interval.high, fit)
         self.assertLess(abs(fit.jnd / 500.0 - 0.23), 0.07)   # ln (3) * 105 / 500
 
     def test_the_magnitude_of_roughness(self):
-        law = self.run_one("roughness", lab.Observer(threshold=1.0, width=1.0, gain=40.0, exponent=0.6, noise=0.2, seed=3)).fit()
+        law = self.run_one("roughness", threshold=1.0, width=1.0, gain=40.0, exponent=0.6, noise=0.2).fit()
         self.assertTrue(law.exponent_interval.low < 0.6 < law.exponent_interval.high, law)
 
     def test_the_detection_of_a_grating(self):
-        data = self.run_one("grating", lab.Observer(threshold=0.02, width=0.004, seed=3))
+        data = self.run_one("grating", threshold=0.02, width=0.004)
         fit = data.fit()
         self.assertTrue(fit.threshold_interval.low < 0.02 < fit.threshold_interval.high, fit)
         self.assertLess(abs(lab.mean_of_turns(data.turns()["graph/0"], ratio=True) - 0.0185), 0.006)
@@ -101,15 +95,4 @@ class Notebook(TestCase):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["--write"]:   # writes the outputs of this program into the notebook
-        notebook, known = json.loads(NOTEBOOK.read_text(encoding="utf-8")), {}
-        with tempfile.TemporaryDirectory() as place:
-            os.chdir(place)
-            for one in notebook["cells"]:
-                if one["cell_type"] == "code":
-                    shown = run_cell("".join(one["source"]), known)
-                    one["outputs"] = [{"name": "stdout", "output_type": "stream", "text": shown.splitlines(keepends=True)}] if shown else []
-            os.chdir("/")
-        NOTEBOOK.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    else:
-        unittest.main()
+    unittest.main()

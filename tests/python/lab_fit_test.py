@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The analysis of tactus.lab, against closed forms, scipy and brute force."""
+"""The analysis of tactus.lab, against closed forms, psyphy and brute force."""
 
 import importlib.util
 import math
@@ -26,11 +26,8 @@ def likelihood(fit, threshold, width, lapse):
 class Functions(TestCase):
     def test_values_at_the_threshold_and_far_away(self):
         for function, at in (("logistic", 0.5), ("normal", 0.5), ("weibull", 1.0 - math.exp(-1.0))):
-            ends = lab.probability(function, [1e-9, 10.0, 1e9], 10.0, 2.0, 0.5, 0.02)
-            self.assertAlmostEqual(float(ends[1]), 0.5 + 0.48 * at, 12)
-            self.assertAlmostEqual(float(ends[2]), 0.98, 12)
-            if function == "weibull":
-                self.assertAlmostEqual(float(ends[0]), 0.5, 12)
+            chances = lab.probability(function, [1e-9 if function == "weibull" else -1e9, 10.0, 1e9], 10.0, 2.0, 0.5, 0.02)
+            self.assertTrue(np.allclose(chances, [0.5, 0.5 + 0.48 * at, 0.98], rtol=0.0, atol=1e-12), chances)
 
     def test_level_jnd_and_slope_follow_from_the_function(self):
         for function in ("logistic", "normal", "weibull"):
@@ -45,7 +42,7 @@ class Functions(TestCase):
 
 class Fits(TestCase):
     def test_the_fit_is_the_most_likely_one(self):
-        """Against 20000 points near and far, and a search of scipy where it is installed."""
+        """Against 20000 points near and far."""
         draws = np.random.default_rng(3).normal(0, 1, (3, 20000)) * np.repeat([1e-3, 1.0], 10000)
         for function in ("logistic", "normal", "weibull"):
             for guess, lapse in ((0.0, 0.0), (0.0, None), (0.1, 0.03)):
@@ -53,20 +50,13 @@ class Fits(TestCase):
                 best = likelihood(fit, fit.threshold, fit.width, fit.lapse)
                 lapses = np.clip(fit.lapse + 0.01 * draws[2], 0.0, 0.06) if lapse is None else np.full(20000, lapse)
                 self.assertLessEqual(likelihood(fit, fit.threshold + draws[0], fit.width * np.exp(draws[1]), lapses).max(), best + 1e-9)
-                if importlib.util.find_spec("scipy"):
-                    from scipy.optimize import differential_evolution
-                    ends = (0.0, 0.06) if lapse is None else (lapse, lapse + 1e-12)
-                    found = differential_evolution(lambda x: -likelihood(fit, *x), [(1.0, 20.0), (0.1, 20.0), ends], seed=1, tol=1e-10)
-                    self.assertLess(-found.fun - best, 1e-5, (function, guess, lapse))
 
     def test_the_logistic_without_guess_and_lapse_has_the_closed_form_of_its_scores(self):
         """At the maximum of a logistic regression, the sums of residuals, and of residuals times levels, are 0."""
         fit = lab.psychometric(LEVELS, YES, np.full(7, 40), lapse=0.0)
         residuals = YES - 40 * fit(LEVELS)
         self.assertLess(abs(residuals.sum()), 1e-4)
-        self.assertLess(abs((residuals * LEVELS).sum()), 1e-3)
-        parts = [y * math.log(y / (40 * p)) + (40 - y) * math.log((40 - y) / (40 - 40 * p)) for y, p in zip(YES, fit(LEVELS))]
-        self.assertAlmostEqual(fit.deviance, 2 * sum(parts), 8)
+        self.assertLess(abs(residuals @ LEVELS), 1e-3)
 
     def test_threshold_width_and_deviance_are_those_of_psyphy(self):
         """psyphy 0.2-3 of R (Debian: r-cran-psyphy): glm (cbind (k, n - k) ~ x, binomial (mafc.logit (2))), and mafc.probit, mafc.weib over log (x)."""
@@ -146,12 +136,11 @@ class Others(TestCase):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
     def test_plots_are_the_same_bytes_each_time(self):
         fit = lab.psychometric(LEVELS, YES, np.full(7, 40), unit="N/m")
-        for end, head in (("svg", b"<?xml"), ("pdf", b"%PDF")):
-            written = []
-            for i in range(2):
-                lab.save_plot(fit.plot(), self.folder / f"{i}.{end}")
-                written.append((self.folder / f"{i}.{end}").read_bytes())
-            self.assertTrue(written[0].startswith(head) and written[0] == written[1])
+        for name, head in (("a.svg", b"<?xml"), ("a.pdf", b"%PDF")):
+            lab.save_plot(fit.plot(), self.folder / name)
+            before = (self.folder / name).read_bytes()
+            lab.save_plot(fit.plot(), self.folder / name)
+            self.assertTrue(before.startswith(head) and before == (self.folder / name).read_bytes())
         ax = lab.plot_staircase([3.0, 2.0, 1.0, 2.0], [1, 1, 0, 1], unit="N")
         self.same_bits(ax.get_lines()[0].get_ydata(), [3.0, 2.0, 1.0, 2.0])
         self.assertIn("threshold", fit._repr_html_())
