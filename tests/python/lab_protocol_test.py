@@ -38,11 +38,8 @@ def trials_of(plan, answer):
 
 class Files(TestCase):
     def load(self, data):
-        (self.folder / "p.json").write_text(json.dumps(data), encoding="utf-8")
+        (self.folder / "p.json").write_text(data if isinstance(data, str) else json.dumps(data), encoding="utf-8")
         return lab.Protocol.load(self.folder / "p.json")
-
-    def data(self):
-        return json.loads(protocol(block(procedure=lab.Staircase(start=2.0, high=5.0))).text())
 
     def test_a_file_and_python_say_the_same(self):
         made = protocol(block("a", conditions=["rough"]), block("b", "yes_no", lab.Staircase(start=2.0, high=5.0), catch=0.2),
@@ -51,55 +48,45 @@ class Files(TestCase):
                         seed=7, order="latin_square", triggers=lab.Triggers(port="/dev/null"), hand={"yes": lab.HandAnswer(port="hand.x", above=0.1)})
         made.save(self.folder / "p.json")
         read = lab.Protocol.load(self.folder / "p.json")
-        self.assertEqual(read, made)
-        self.assertEqual(read.hash(), made.hash())
+        self.assertEqual((read, read.hash()), (made, made.hash()))
 
     def test_each_mistake_names_its_place_and_the_remedy(self):
-        def with_change(change):
-            data = self.data()
-            change(data)
-            return data
-        cases = [("lab/unknown_key", "/seeed", lambda d: d.update(seeed=1)), ("lab/missing", "/", lambda d: d.pop("name")),
-                 ("lab/type", "/blocks/0/task", lambda d: d["blocks"][0].update(task="4afc")),
-                 ("lab/type", "/blocks/0/procedure", lambda d: d["blocks"][0]["procedure"].update(kind="quest")),
-                 ("lab/value", "/blocks/0/procedure/down", lambda d: d["blocks"][0]["procedure"].update(down=0)),
-                 ("lab/type", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start="1")),
-                 ("lab/type", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start=math.nan)),
-                 ("lab/type", "/blocks/0/practice", lambda d: d["blocks"][0].update(practice=1.5)),
-                 ("lab/type", "/blocks/0/practice", lambda d: d["blocks"][0].update(practice=True)),
-                 ("lab/value", "/blocks/0/procedure/start", lambda d: d["blocks"][0]["procedure"].update(start=9.0)),
-                 ("lab/type", "/blocks", lambda d: d.update(blocks=[])), ("lab/value", "/name", lambda d: d.update(name="a/b")),
-                 ("lab/value", "/blocks/0/conditions", lambda d: d["blocks"][0].update(conditions=["none"])),
-                 ("lab/device", "/devices/stylus", lambda d: d.update(devices={"stylus": "hid:auto"})),
-                 ("lab/value", "/hand/maybe", lambda d: d.update(hand={"maybe": {"port": "a.b", "above": 1}})),
-                 ("lab/value", "/triggers/codes/trial", lambda d: d.update(triggers={"port": "x", "codes": {"trial": 256}})),
-                 ("lab/value", "/blocks/0/procedure", lambda d: d["blocks"][0].update(task="magnitude"))]
-        for id, where, change in cases:
+        stairs = {"kind": "staircase", "start": 2.0, "high": 5.0}
+        for id, where, key, value in (   # what is changed in the protocol or, below /blocks/0, in its block
+                ("lab/unknown_key", "/seeed", "seeed", 1), ("lab/type", "/blocks", "blocks", []), ("lab/value", "/name", "name", "a/b"),
+                ("lab/type", "/blocks/0/task", "task", "4afc"), ("lab/type", "/blocks/0/procedure", "procedure", {**stairs, "kind": "quest"}),
+                ("lab/value", "/blocks/0/procedure/down", "procedure", {**stairs, "down": 0}),
+                ("lab/value", "/blocks/0/procedure/start", "procedure", {**stairs, "start": 9.0}),
+                *(("lab/type", "/blocks/0/procedure/start", "procedure", {**stairs, "start": start}) for start in ("1", math.nan)),
+                *(("lab/type", "/blocks/0/practice", "practice", count) for count in (1.5, True)),
+                ("lab/value", "/blocks/0/conditions", "conditions", ["none"]), ("lab/value", "/blocks/0/procedure", "task", "magnitude"),
+                ("lab/device", "/devices/stylus", "devices", {"stylus": "hid:auto"}),
+                ("lab/value", "/hand/maybe", "hand", {"maybe": {"port": "a.b", "above": 1}}),
+                ("lab/value", "/triggers/codes/trial", "triggers", {"port": "x", "codes": {"trial": 256}})):
             with self.subTest(id + where):
-                self.assertEqual(self.fails(id, self.load, with_change(change)).where, where)
+                data = json.loads(protocol(block(procedure=lab.Staircase(start=2.0, high=5.0))).text())
+                (data["blocks"][0] if where.startswith("/blocks/0") else data)[key] = value
+                self.assertEqual(self.fails(id, self.load, data).where, where)
+        self.assertEqual(self.fails("lab/missing", self.load, {"blocks": []}).where, "/")
         for text in ("", "[1]", "{", '{"format": 3}', "[" * 100000):
-            (self.folder / "p.json").write_text(text, encoding="utf-8")
-            with self.assertRaises(tactus.Error):
-                lab.Protocol.load(self.folder / "p.json")
+            self.assertRaises(tactus.Error, self.load, text)
 
     def test_levels_must_fit_the_graph(self):
         data = {"name": "wood", "graph": "dry_wood", "blocks": [{"name": "a", "task": "greater", "varies": {"target": "roughness"},
                                                                "procedure": {"kind": "constant", "levels": [0.2, 0.9]}}]}
         self.assertEqual(self.load(data).graph_of(lab.Condition(name="a")).name, "Dry wood")
-        data["blocks"][0]["procedure"]["levels"] = [0.2, 1.5]
-        self.fails("lab/value", self.load, data)
-        data["blocks"][0]["varies"]["target"] = "no_such_control"
-        self.fails("lab/value", self.load, data)
-        data["blocks"][0]["varies"]["target"] = "drag.nothing"
-        self.fails("param/unknown", self.load, data)
+        for id, key, value in (("lab/value", "procedure", {"kind": "constant", "levels": [0.2, 1.5]}), ("lab/value", "varies", {"target": "no_such_control"}),
+                               ("param/unknown", "varies", {"target": "drag.nothing"})):
+            data["blocks"][0][key] = value
+            self.fails(id, self.load, data)
 
     def test_the_schema_has_every_field_with_its_meaning(self):
         schema = lab.schema()
-        self.assertEqual(set(schema["properties"]), {f for f in lab.Protocol.__dataclass_fields__})
+        self.assertEqual(set(schema["properties"]), set(lab.Protocol.__dataclass_fields__))
         blocks = schema["properties"]["blocks"]["items"]
-        kinds = [option["properties"]["kind"]["enum"] for option in blocks["properties"]["procedure"]["oneOf"]]
-        self.assertEqual(kinds, [["constant"], ["staircase"], ["psi"]])
-        for part in (schema, blocks, *blocks["properties"]["procedure"]["oneOf"]):
+        procedures = blocks["properties"]["procedure"]["oneOf"]
+        self.assertEqual([option["properties"]["kind"]["enum"] for option in procedures], [["constant"], ["staircase"], ["psi"]])
+        for part in (schema, blocks, *procedures):
             for name, field in part["properties"].items():
                 self.assertTrue(field.get("description") or "oneOf" in field, name)
             self.assertFalse(part["additionalProperties"])
@@ -124,11 +111,11 @@ class Files(TestCase):
 
 class Order(TestCase):
     def test_it_follows_from_the_seed_and_the_participant(self):
-        def order(seed, participant):
-            return [(t.level, t.expected) for t in trials_of(lab.Plan(protocol(seed=seed), participant), lambda t: "first")]
-        self.assertEqual(order(1, "01"), order(1, "01"))
-        self.assertNotEqual(order(1, "01"), order(2, "01"))
-        self.assertNotEqual(order(1, "01"), order(1, "02"))
+        first, again, other_seed, other_participant = (
+            [(t.level, t.expected) for t in trials_of(lab.Plan(protocol(seed=seed), participant), lambda t: "first")]
+            for seed, participant in ((1, "01"), (1, "01"), (2, "01"), (1, "02")))
+        self.assertEqual(first, again)
+        self.assertNotIn(first, (other_seed, other_participant))
 
     def test_the_draws_are_those_of_every_version(self):
         self.assertEqual(Draw(1, "01", "main").order(range(8)), [0, 6, 5, 4, 1, 7, 3, 2])

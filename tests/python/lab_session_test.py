@@ -12,7 +12,6 @@ import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import threading
 import tty
 import unittest
@@ -30,10 +29,11 @@ from waiting import eventually
 
 OBSERVER = lab.Observer(threshold=2.0, width=0.3)
 
+
 class Asked(lab.Simulated):
     """An observer. A function of the trial, the keys and the hand may answer first."""
 
-    def __init__(self, first, observer=OBSERVER):
+    def __init__(self, first=lambda *asked: None, observer=OBSERVER):
         super().__init__(observer)
         self.first = first
 
@@ -58,12 +58,20 @@ def awaited(hand):
 
 
 class Case(TestCase):
-    def run_session(self, made, window=None, **more):
-        return lab.Experiment(made, self.folder, window=window or lab.Simulated(OBSERVER), **more).run()
+    def session(self, made, window=None, **more):
+        return lab.Experiment(made, more.pop("out", self.folder), window=window or Asked(), **more)
+
+    def run_session(self, *given, **more):
+        return self.session(*given, **more).run()
 
     def browser(self):
         made = lab.Browser()
         self.addCleanup(made.end)
+        return made
+
+    def receiver(self):
+        made = lab.Receiver(0)
+        self.addCleanup(made.close)
         return made
 
     def web(self, address, data=None, **headers):
@@ -92,19 +100,19 @@ class Sessions(Case):
             with open(path, "ab") as file:   # as if the power had failed
                 file.write(b'{"event": "trial", "numb')
             before = path.read_bytes()
-        resumed = self.run_session(self.made, resume=True)
-        with tempfile.TemporaryDirectory() as other:
-            whole = lab.Experiment(self.made, other, window=lab.Simulated(OBSERVER)).run()
+        resumed, whole = self.run_session(self.made, resume=True), self.run_session(self.made, out=self.folder / "whole")
         self.assertEqual(self.answers(resumed), self.answers(whole))
         self.assertTrue(resumed.is_complete)
         self.assertEqual([resumed.turns(), [e for e in resumed.events["trial_type"]].count("run")], [whole.turns(), 4])
 
-    def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol(self):
+    def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol_in_one_process(self):
         data = self.run_session(self.made, leaves(5))
         self.assertEqual((data.trials.rows, data.is_complete), (4, False))
         self.fails("lab/exists", self.run_session, self.made)
         self.fails("lab/protocol", self.run_session, protocol(block()), resume=True)
-        self.assertTrue(self.run_session(self.made, resume=True).is_complete)
+        held = self.session(self.made, resume=True)
+        self.fails("lab/busy", self.session, self.made, resume=True)
+        self.assertTrue(held.run().is_complete)
         self.fails("lab/exists", self.run_session, self.made, resume=True)
         self.fails("lab/value", self.run_session, self.made, participant="../x")
         self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
@@ -116,28 +124,24 @@ class Sessions(Case):
         made = protocol(lab.Block(name="a", task="2ifc", procedure=lab.Constant(levels=(0.2, 0.4), repeats=2), varies=lab.Varies(target="roughness")),
                         graph="own.json")
         made.save(study / "p.json")
-        self.run_session(lab.Protocol.load(study / "p.json"), leaves(2), stage=lab.Silent())
+        folder = self.run_session(lab.Protocol.load(study / "p.json"), leaves(2), stage=lab.Silent()).folder
         (study / "p.json").unlink()
-        own = next(self.folder.rglob("*_protocol.json"))
-        self.fails("lab/protocol", self.run_session, self.made, stage=lab.Silent(), resume=True)
+        own = next(folder.glob("*_protocol.json"))
         again = lab.Protocol.load(own)
         self.assertIsNotNone(again.graph_of(again.all_conditions()[0]))
-        self.assertTrue(self.run_session(again, stage=lab.Silent(), resume=True).is_complete)
-        self.assertTrue(lab.load(own.parent).is_complete)
+        self.run_session(again, stage=lab.Silent(), resume=True)
+        self.assertTrue(lab.load(folder).is_complete)
         self.assertNotIn(str(self.folder), own.read_text(encoding="utf-8"))   # no path of this computer
 
     def test_a_session_that_ended_before_its_protocol_was_written_goes_on(self):
-        experiment = lab.Experiment(self.made, self.folder, window=lab.Simulated(OBSERVER))
-        experiment._journal.close()
-        experiment.stage.close()
+        self.session(self.made)._journal.close()
         own = next(self.folder.rglob("*_protocol.json"))
         own.unlink()
         self.assertTrue(self.run_session(self.made, resume=True).is_complete)
         self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
 
     def test_answers_by_osc_that_are_none_or_come_early_do_not_count(self):
-        answers, receiver = [], lab.Receiver(0)
-        self.addCleanup(receiver.close)
+        answers, receiver = [], self.receiver()
 
         def first(trial, keys, hand):
             receiver.answers.put("xyz")
@@ -156,13 +160,8 @@ class Sessions(Case):
                 if level > 2.5:
                     _messages.fail("param/range", "/", "too large", "give less")
         made = protocol(block("set", "adjust", lab.Constant(levels=(1.0,), repeats=1), step=0.25))
-        data = self.run_session(made, lab.Simulated(lab.Observer(threshold=9.0, width=0.0)), stage=Narrow())
+        data = self.run_session(made, Asked(observer=lab.Observer(threshold=9.0, width=0.0)), stage=Narrow())
         self.assertEqual(list(data.chosen("set")["outcomes"]), [2.5])
-
-    def test_one_process_at_a_time(self):
-        held = lab.Experiment(self.made, self.folder, window=lab.Simulated(OBSERVER))
-        self.fails("lab/busy", lab.Experiment, self.made, self.folder, window=lab.Simulated(OBSERVER), resume=True)
-        held.run()
 
     def test_a_changed_line_is_an_error_not_a_loss(self):
         self.run_session(self.made)
@@ -194,13 +193,11 @@ class Sessions(Case):
 
     def test_tables_have_times_and_what_others_must_know(self):
         data = self.run_session(self.made, device={"stylus": "hid:auto"})
-        names = sorted(p.name for p in data.folder.iterdir())
-        stem = "sub-01_ses-01_task-tried"
-        self.assertEqual(names, sorted(f"{stem}_{end}" for end in ("beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json")))
+        ends = "beh.json", "beh.tsv", "events.json", "events.tsv", "journal.jsonl", "protocol.json"
+        self.assertEqual(sorted(p.name for p in data.folder.iterdir()), [f"sub-01_ses-01_task-tried_{end}" for end in ends])
         self.assertTrue((self.folder / "dataset_description.json").exists())
-        self.assertEqual(json.loads((data.folder / f"{stem}_beh.json").read_text())["level"]["Units"], "N")
-        about = json.loads((data.folder / f"{stem}_events.json").read_text())
-        self.assertEqual((about["seed"], about["onset"]["Units"], about["protocol_sha256"]), (1, "s", self.made.hash()))
+        levels, about = (json.loads((data.folder / f"{data.stem}_{name}.json").read_text()) for name in ("beh", "events"))
+        self.assertEqual((levels["level"]["Units"], about["seed"], about["onset"]["Units"], about["protocol_sha256"]), ("N", 1, "s", self.made.hash()))
         self.assertEqual((set(about["versions"]), about["devices"]), ({"tactus", "python", "numpy"}, {"stylus": "hid:auto"}))
         onset = np.asarray(data.events["onset"])
         self.assertTrue((np.diff(onset) >= 0.0).all() and onset[0] >= 0.0)
@@ -209,31 +206,31 @@ class Sessions(Case):
 
 class Marks(Case):
     def test_marks_and_answers_come_by_osc_and_wrong_packets_do_nothing(self):
-        receiver = lab.Receiver(0)
-        self.addCleanup(receiver.close)
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
-            for packet in (b"x", b"/tactus/mark\0\0\0\0,q\0\0", b"/tactus/mark\0\0\0\0,s\0\0", b"#bundle\0" + b"\0" * 12, b"\xff" * 64,
-                           _marks.osc("/tactus/other", "a")):
-                other.sendto(packet, ("127.0.0.1", receiver.port))
-        self.assertTrue(lab.mark("blink", "left", receiver.port))
+        receiver = self.receiver()
+
+        def send(*packets):
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+                for packet in packets:
+                    own.sendto(packet, ("127.0.0.1", receiver.port))
 
         def first(trial, keys, hand):
             if trial.number == 2:
-                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-                    for words in (("first", "wrong"), ("first",), ("second", receiver.token)):
-                        own.sendto(_marks.osc("/tactus/answer", *words), ("127.0.0.1", receiver.port))
+                send(*(_marks.osc("/tactus/answer", *words) for words in (("first", "wrong"), ("first",), ("second", receiver.token))))
                 return awaited(hand)
+        send(b"x", b"/tactus/mark\0\0\0\0,q\0\0", b"/tactus/mark\0\0\0\0,s\0\0", b"#bundle\0" + b"\0" * 12, b"\xff" * 64, _marks.osc("/tactus/other", "a"))
+        self.assertTrue(lab.mark("blink", "left", receiver.port))
         data = self.run_session(protocol(), Asked(first), receiver=receiver)
         row = list(data.events["trial_type"]).index("blink")
         self.assertEqual(data.events["value"][row], "left")
         self.assertEqual(data.trials["answer"][1], "second")
         self.assertFalse(lab.mark("nobody", port=1, wait=0.05))
+        self.assertEqual(_marks.read_osc(_marks.osc("/a", "text", 3, 0.5)), ("/a", ["text", 3, 0.5]))
 
     def test_marks_come_through_the_page_of_the_participant(self):
         """As docs/examples/lab/jspsych_marks.html sends them: text, from another origin."""
         page = (ROOT / "docs/examples/lab/jspsych_marks.html").read_text(encoding="utf-8")
         self.assertIn('fetch(participant + "mark", {method: "POST", mode: "no-cors", body: JSON.stringify({name, value', page)
-        browser, window = self.browser(), lab.Simulated(OBSERVER)
+        browser, window = self.browser(), Asked()
         for status, body in ((200, '{"name": "picture", "value": "hölzern"}'.encode()), *((400, wrong) for wrong in
                              (b"", b"[]", b"{}", b"\xff", b'{"value": "x"}', b"3"))):
             self.assertEqual(self.web(browser.participant + "mark", body, **{"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})[0], status, body)
@@ -241,9 +238,6 @@ class Marks(Case):
         data = self.run_session(protocol(), window)
         row = list(data.events["trial_type"]).index("picture")
         self.assertEqual((data.events["value"][row], list(data.events["trial_type"]).count("picture")), ("hölzern", 1))
-
-    def test_osc_messages_read_back(self):
-        self.assertEqual(_marks.read_osc(_marks.osc("/a", "text", 3, 0.5)), ("/a", ["text", 3, 0.5]))
 
     def test_triggers_are_bytes_on_a_serial_line(self):
         ours, theirs = pty.openpty()
@@ -255,7 +249,7 @@ class Marks(Case):
         data = self.run_session(made)
         self.assertEqual(os.read(ours, 100), b"\x01\x02\x02\xff" * 3)
         self.assertEqual([code for code in data.events["code"] if not math.isnan(code)], [1, 2, 2, 255] * 3)
-        self.fails("lab/triggers", lab.Experiment, protocol(triggers=lab.Triggers(port="/dev/null")), self.folder, "02", window=lab.Simulated(OBSERVER))
+        self.fails("lab/triggers", self.session, protocol(triggers=lab.Triggers(port="/dev/null")), participant="02")
 
 
 class Windows(Case):
