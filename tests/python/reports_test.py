@@ -4,7 +4,7 @@
 
 import _thread
 import copy
-import csv
+import importlib.util
 import json
 import math
 import pathlib
@@ -47,11 +47,14 @@ def strokes(rows=4000):
 
 
 class Case(TestCase):
-    def said(self, *words, status=0):
-        """What a command prints, as JSON."""
-        done = subprocess.run([PROGRAM, *map(str, words), "--json"], capture_output=True, text=True, cwd=self.folder, check=False)
+    def ran(self, *words, status=0):
+        """What a command prints."""
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=self.folder, check=False)
         self.assertEqual(done.returncode, status, done.stderr)
-        return json.loads(done.stdout)
+        return done.stdout
+
+    def said(self, *words, **more):
+        return json.loads(self.ran(*words, "--json", **more))
 
 
 class Reports(Case):
@@ -81,25 +84,20 @@ class Reports(Case):
         self.fails("plot/nothing", found.plot)
         points = tactus.limits("granite_wall", x="wall.stiffness=500:4000", y="rate=1000:4000", steps=4)
         self.assertEqual(points.points.shape, (25, len(points.columns)))
-        subprocess.run([PROGRAM, "limits", "granite_wall", "--x", "wall.stiffness=500:4000", "--y", "rate=1000:4000", "--steps", "4", "-o", "l.csv"],
-                       cwd=self.folder, check=True, capture_output=True)
-        with open(self.folder / "l.csv", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        self.assertEqual(rows[0], points.columns)
-        self.same_bits(np.array(rows[1:], dtype=float), points.points)
+        self.ran("limits", "granite_wall", "--x", "wall.stiffness=500:4000", "--y", "rate=1000:4000", "--steps", 4, "-o", "l.csv")
+        self.assertEqual((self.folder / "l.csv").read_text().splitlines()[0], ",".join(points.columns))
+        self.same_bits(np.loadtxt(self.folder / "l.csv", delimiter=",", skiprows=1), points.points)
 
     def test_a_fit_is_that_of_the_command_from_a_file_and_from_arrays(self):
         x, force = strokes()
-        with open(self.folder / "strokes.csv", "w", encoding="utf-8") as file:
-            file.write("position,force\n" + "".join(f"{a!r},{b!r}\n" for a, b in zip(map(float, x), map(float, force))))
+        lab.Table({"position": x, "force": force}).write(self.folder / "strokes.csv")
         told = self.said("fit", "friction", "strokes.csv", "-o", "wood.json", "--load", "2 N")
         fits = [tactus.fit("friction", self.folder / "strokes.csv", options={"load": "2 N"}),
                 tactus.fit("friction", {"position": x, "force": force}, options={"load": 2.0}),
                 tactus.fit("friction", {"a [mm]": 1e3 * x, "b": 1e3 * force}, columns={"position": "a [mm]", "force": "b"}, units={"force": "1 mN"},
                            options={"load": 2.0})]
         for fit in fits[:2]:
-            self.assertEqual({k: fit.json[k] for k in told if k not in ("recording", "preset")},
-                             {k: v for k, v in told.items() if k not in ("recording", "preset")})
+            self.assertEqual({**told, **fit.json, "recording": 0, "preset": 0}, {**fit.json, **told, "recording": 0, "preset": 0})
         mu = fits[0].values["mu"]
         self.assertTrue(mu.low < 0.15 < mu.high and mu.unit in ("", "1"), mu)   # 0.3 N at 2 N
         self.assertAlmostEqual(fits[2].values["mu"].value, mu.value, places=6)
@@ -124,7 +122,7 @@ class Reports(Case):
                                              (pen, "pen.csv", {"options": {"force": 2.0}}, ["--force", "2 N"])):
             with self.subTest(name=name):
                 made = tactus.convert(source, self.folder / name, **options)
-                told = subprocess.run([PROGRAM, "convert", source, f"c_{name}", *words], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+                told = self.ran("convert", source, f"c_{name}", *words)
                 for file in map(pathlib.Path, made.files):
                     self.assertEqual(file.read_bytes(), (self.folder / f"c_{file.name}").read_bytes())
                 said = [sentence.replace(str(self.folder / name), f"c_{name}") for file in made.json["files"] for sentence in
@@ -132,12 +130,10 @@ class Reports(Case):
                 self.assertEqual(said, re.findall(r"  loss: (.*)", told))
                 self.assertEqual(len(said), len(made.losses) + len(made.differences))
                 self.assertIn("wrote", made._repr_html_())
-        self.fails("output/is_input", tactus.convert, clip, clip)
-        self.fails("wav/not_a_wav", tactus.convert, pen.rename(wav), self.folder / "e.ahap")
-        self.fails("clip/unknown_kind", tactus.convert, clip, self.folder / "d.xyz")
-        self.fails("api/option", tactus.convert, clip, self.folder / "d.hjif", split=True)
-        self.fails("api/option", tactus.convert, clip, self.folder / "d.hjif", options={"pitch": 1e-6})
-        self.fails("file/unreadable", tactus.convert, self.folder / "none.ahap", self.folder / "d.hjif")
+        for id, source, name, options in (("wav/not_a_wav", pen.rename(wav), "e.ahap", {}), ("clip/unknown_kind", clip, "d.xyz", {}),
+                                          ("api/option", clip, "d.hjif", {"split": True}), ("api/option", clip, "d.hjif", {"options": {"pitch": 1e-6}}),
+                                          ("file/unreadable", self.folder / "none.ahap", "d.hjif", {}), ("output/is_input", clip, clip, {})):
+            self.fails(id, tactus.convert, source, self.folder / name, **options)
 
     def test_pictures_and_recordings_are_read(self):
         self.assertEqual(tactus.check("pebbled_leather").json, self.said("check", "pebbled_leather"))
@@ -160,25 +156,18 @@ class Reports(Case):
 
     def test_mistakes_have_a_place_a_cause_and_a_remedy(self):
         x, force = strokes(200)
-        for id, call in (("fit/column", lambda: tactus.fit("friction", {"a": x, "b": force})),
-                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"lod": 1})),
-                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"load": "2 m"})),
-                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, options={"load": -1})),
-                         ("fit/option", lambda: tactus.fit("friction", {"position": x, "force": force}, columns={"depth": "a"})),
-                         ("api/option", lambda: tactus.fit("wood", {"position": x, "force": force})),
-                         ("wav/unreadable", lambda: tactus.fit("modes", "bell.wav")),
-                         ("feed/shape", lambda: tactus.fit("friction", {"position": x, "force": force[1:]})),
-                         ("argument/type", lambda: tactus.fit("friction", 3)),
-                         ("device/unknown_role", lambda: tactus.check("granite_wall", devices={"pen": "tactus_board"})),
-                         ("api/option", lambda: tactus.check("granite_wall", rate=1.0)),
-                         ("port/unknown_node", lambda: tactus.check("granite_wall", set={"wal.stiffness": 1})),
-                         ("argument/unknown", lambda: tactus.check("granite_wall", sped=1)),
-                         ("api/option", lambda: tactus.limits("granite_wall", x="stiffness=0:1")),
-                         ("limits/axis", lambda: tactus.limits("granite_wall", x="none.x=0:1", y="rate=500:600")),
-                         ("file/unreadable", lambda: tactus.check("granit_wall"))):
+        held, wall = {"position": x, "force": force}, ("granite_wall",)
+        for id, call, given, more in (
+                ("fit/column", tactus.fit, ("friction", {"a": x, "b": force}), {}), ("api/option", tactus.fit, ("wood", held), {}),
+                *(("fit/option", tactus.fit, ("friction", held), {"options": options}) for options in ({"lod": 1}, {"load": "2 m"}, {"load": -1})),
+                ("fit/option", tactus.fit, ("friction", held), {"columns": {"depth": "a"}}), ("wav/unreadable", tactus.fit, ("modes", "bell.wav"), {}),
+                ("feed/shape", tactus.fit, ("friction", {**held, "force": force[1:]}), {}), ("argument/type", tactus.fit, ("friction", 3), {}),
+                ("device/unknown_role", tactus.check, wall, {"devices": {"pen": "tactus_board"}}), ("api/option", tactus.check, wall, {"rate": 1.0}),
+                ("port/unknown_node", tactus.check, wall, {"set": {"wal.stiffness": 1}}), ("argument/unknown", tactus.check, wall, {"sped": 1}),
+                ("file/unreadable", tactus.check, ("granit_wall",), {}), ("api/option", tactus.limits, wall, {"x": "stiffness=0:1"}),
+                ("limits/axis", tactus.limits, wall, {"x": "none.x=0:1", "y": "rate=500:600"})):
             with self.subTest(id=id):
-                why = self.fails(id, call)
-                self.assertTrue(why is None or why.remedy, why)
+                self.assertTrue(self.fails(id, call, *given, **more).remedy)
 
     def test_text_of_files_never_becomes_markup(self):
         report = copy.deepcopy(tactus.check("granite_wall").json)
@@ -190,16 +179,13 @@ class Reports(Case):
         self.assertNotIn("<script", tactus.Devices([{"product": HOSTILE}])._repr_html_())
 
     def test_pictures_are_drawn(self):
-        try:
-            import matplotlib
-        except ImportError:
+        if not importlib.util.find_spec("matplotlib"):
             self.skipTest("matplotlib is not installed")
-        matplotlib.use("Agg")
-        x, force = strokes()
-        figure = tactus.fit("friction", {"position": x, "force": force}).plot()
-        self.assertGreaterEqual(len(figure.axes[0].lines), 2)
-        figure = tactus.limits("granite_wall", steps=3).plot()
-        self.assertIn("stiffness", figure.axes[0].get_xlabel())
+        import matplotlib.figure
+        axes = matplotlib.figure.Figure().subplots(2)
+        tactus.fit("friction", dict(zip(("position", "force"), strokes()))).plot(axes[0])
+        tactus.limits("granite_wall", steps=3).plot(axes=axes[1])
+        self.assertEqual((len(axes[0].lines), axes[1].get_xlabel()), (2, "stiffness (N/m)"))
 
 
 class Logs(Case):
@@ -230,18 +216,14 @@ class Logs(Case):
                 self.same_bits(again["motor.force"], felt["motor.force"][:rows])
                 self.assertGreaterEqual(rows, 3000)
                 self.assertGreater(np.abs(felt["motor.force"]).max(), 0.1)   # it is felt
-                part = tactus.replay(log, record=["motor.force"], start=0.6, until=0.65)
-                self.same_bits(part["motor.force"], again["motor.force"][2400:2600])
-                self.same_bits(part["t"], again["t"][2400:2600])
-                some = tactus.read_log(log, start=0.6, until=0.65)
-                self.same_bits(some["stylus.position"], read["stylus.position"][2400:2600])
-                subprocess.run([PROGRAM, "render", "--replay", log, "--record", "motor.force", "--out", "r.csv"], cwd=self.folder, check=True,
-                               capture_output=True)
-                told = np.loadtxt(self.folder / "r.csv", delimiter=",", skiprows=1)
-                self.same_bits(told[:, 1:], again["motor.force"])
-                for words in (("capture", log, "--from", "0.6", "--until", "0.65", "--test", "t.jsonl"), ("test", "t.jsonl")):
-                    done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
-                    self.assertEqual(done.returncode, 0, done.stderr)
+                for part, whole in ((tactus.replay(log, record=["motor.force"], start=0.6, until=0.65), again),
+                                    (tactus.read_log(log, start=0.6, until=0.65), read)):
+                    for name, values in part.items():
+                        self.same_bits(values, whole[name][2400:2600])
+                self.ran("render", "--replay", log, "--record", "motor.force", "--out", "r.csv")
+                self.same_bits(np.loadtxt(self.folder / "r.csv", delimiter=",", skiprows=1)[:, 1:], again["motor.force"])
+                self.ran("capture", log, "--from", "0.6", "--until", "0.65", "--test", "t.jsonl")
+                self.ran("test", "t.jsonl")
 
     def test_marks_find_their_ticks(self):
         log = tactus.read_log(self.played()[0])
