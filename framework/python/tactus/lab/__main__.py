@@ -9,10 +9,10 @@ import sys
 import time
 from typing import List, Optional
 
-from .._messages import Error
+from .._messages import Error, fail
 from .._views import with_unit
-from . import (Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load, mark,
-               schema)
+from . import (Block, Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load,
+               mark, schema)
 from ._marks import PORT
 from ._schema import read
 
@@ -37,22 +37,15 @@ def experiment(given: argparse.Namespace) -> int:
     if given.osc != "off" and not (given.osc.isdecimal() and int(given.osc) <= 65535):
         raise ValueError(f"--osc: '{given.osc}' is not a port; give a number such as {PORT}, 0 for any free port, or off")
     receiver = None if given.osc == "off" else Receiver(int(given.osc))
-    stage = Silent() if given.no_devices else None
-    made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=stage, resume=given.resume, receiver=receiver,
-                      device=dict(words.split("=", 1) for words in given.device), devices=given.devices, packed=given.packed_log)
+    made = Experiment(protocol, given.out, given.participant, given.session, window=window, stage=Silent() if given.no_devices else None, resume=given.resume,
+                      receiver=receiver, device=dict(words.split("=", 1) for words in given.device), devices=given.devices, packed=given.packed_log)
     if receiver:
         print(f"OSC on 127.0.0.1:{receiver.port} (token for answers: {receiver.token})", flush=True)
     if browser:
         print(f"participant:  {browser.participant}\nexperimenter: {browser.experimenter}", flush=True)
-    try:
-        data = made.run()
-    finally:
-        if receiver:
-            receiver.close()
+    print(told(made.run()))
     if browser:
         time.sleep(0.5)   # so that the pages can show that it is over
-        browser.end()
-    print(told(data))
     return 0
 
 
@@ -62,21 +55,18 @@ def told(data: SessionData) -> str:
     for block in data.protocol.blocks if data.is_complete else []:
         for condition in block.conditions or [c.name for c in data.protocol.all_conditions()]:
             try:
-                said.append(f"{block.name}, {condition}: {describe(data, block.name, condition)}")
+                said.append(f"{block.name}, {condition}: {describe(data, block, condition)}")
             except Error as why:
                 said.append(f"{block.name}, {condition}: no fit: {why.text}")
     return "\n".join(said)
 
 
-def describe(data: SessionData, block: str, condition: str) -> str:
+def describe(data: SessionData, block: Block, condition: str) -> str:
     """The fit of a block and a condition in a few words."""
-    task = next(b for b in data.protocol.blocks if b.name == block).task
-    if task in ("adjust", "match"):
-        levels = data.chosen(block, condition)["outcomes"]
-        if len(levels) < 2:
-            return "fewer than two settings"
-        return f"mean {levels.mean():.4g}, standard deviation {levels.std(ddof=1):.4g} of {len(levels)} settings"
-    fit = data.fit(block, condition)
+    if block.task in ("adjust", "match"):
+        levels = data.chosen(block.name, condition)["outcomes"]
+        return f"mean {levels.mean():.4g}, standard deviation {levels.std(ddof=1):.4g} of {len(levels)} settings" if len(levels) > 1 else "fewer than two settings"
+    fit = data.fit(block.name, condition)
     if isinstance(fit, PowerLaw):
         return f"exponent {fit.exponent:.4g} (95 % {fit.exponent_interval.low:.4g} to {fit.exponent_interval.high:.4g})"
     ends = fit.threshold_interval
@@ -119,22 +109,15 @@ def main(arguments: Optional[List[str]] = None) -> int:
         if given.command == "study":
             return _study_command.run(given)
         if given.command == "tables":
-            for path in load(given.folder, given.name).write(*given.to):
-                print(path)
-            return 0
-        if given.command == "schema":
+            print(*load(given.folder, given.name).write(*given.to), sep="\n")
+        elif given.command == "schema":
             print(json.dumps(_study.schema() if given.of == "study" else schema(), indent=2, ensure_ascii=False))
-            return 0
-        if not mark(given.text, given.value, given.osc):
-            print(f"error: no experiment has answered at port {given.osc}\n    start one, or name its port with --osc", file=sys.stderr)
-            return 1
+        elif not mark(given.text, given.value, given.osc):
+            fail("lab/no_experiment", f"port {given.osc}", "no experiment has answered", "start one, or name its port with --osc")
         return 0
-    except Error as why:
+    except (Error, ValueError) as why:
         print(f"error: {why}", file=sys.stderr)
-        return 1
-    except ValueError as why:
-        print(f"error: {why}", file=sys.stderr)
-        return 2
+        return 1 if isinstance(why, Error) else 2
     except KeyboardInterrupt:
         print("stopped; go on with --resume", file=sys.stderr)
         return 1

@@ -105,9 +105,7 @@ class Psychometric:
         ax.axvline(self.threshold, color="gray", lw=0.6)
         if math.isfinite(high - low):
             ax.axvspan(low, high, color="gray", alpha=0.2, lw=0.0)
-        ax.set_xlabel(f"level ({self.unit})")
-        ax.set_ylabel("share of yes or right")
-        ax.set_ylim(-0.03, 1.03)
+        ax.set(xlabel=f"level ({self.unit})", ylabel="share of yes or right", ylim=(-0.03, 1.03))
         return ax
 
     def _repr_html_(self) -> str:
@@ -315,6 +313,5 @@ def plot_staircase(levels: Sequence[float], outcomes: Sequence[float], unit: str
     ax.plot(count, levels, color="gray", lw=0.8)
     for kind, face in ((right, "tab:blue"), (~right, "white")):
         ax.scatter(count[kind], np.asarray(levels, dtype=float)[kind], s=14, facecolor=face, edgecolor="tab:blue", zorder=3)
-    ax.set_xlabel("trial")
-    ax.set_ylabel(f"level ({unit})")
+    ax.set(xlabel="trial", ylabel=f"level ({unit})")
     return ax

@@ -144,12 +144,11 @@ class Protocol:
 
     def values_of(self, condition: Condition) -> Tuple[Dict[str, Any], Dict[str, float]]:
         """The values of parameters and of controls of a condition."""
-        values, controls = {}, {}
-        if condition.snapshot and not condition.snapshot.isdigit():
-            held = _schema.json_in(os.path.join(self.folder, condition.snapshot))
-            kept = _schema.read(Condition, {"name": condition.name, **held}, condition.snapshot)
-            values, controls = dict(kept.set), dict(kept.controls)
-        return {**values, **condition.set}, {**controls, **condition.controls}
+        if not condition.snapshot or condition.snapshot.isdigit():
+            return condition.set, condition.controls
+        held = _schema.json_in(os.path.join(self.folder, condition.snapshot))
+        kept = _schema.read(Condition, {"name": condition.name, **held}, condition.snapshot)
+        return {**kept.set, **condition.set}, {**kept.controls, **condition.controls}
 
     def text(self) -> str:
         """The protocol as the text of a file."""
@@ -159,7 +158,7 @@ class Protocol:
         """Writes the file. If it names files by relative paths, they are found from its folder, as `folder` says."""
         data, to = json.loads(self.text()), os.path.relpath(self.folder or os.curdir, os.path.dirname(os.path.abspath(path)))
         named = [self.graph, *(name for c in self.conditions for name in (c.graph, c.snapshot))]
-        if to != os.curdir and any(name and not os.path.isabs(name) and os.path.isfile(os.path.join(self.folder, name)) for name in named):
+        if to != os.curdir and any(not os.path.isabs(name) and os.path.isfile(os.path.join(self.folder, name)) for name in named):
             data["folder"] = to
         pathlib.Path(path).write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 

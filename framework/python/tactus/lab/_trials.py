@@ -5,7 +5,7 @@ journal give it again."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Generator, List, Optional, Sequence, Tuple, Union
+from typing import Dict, Generator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from ._draw import Draw, latin_square
 from ._procedures import Constant, Psi, Track, start
@@ -14,8 +14,7 @@ from ._protocol import QUESTIONS, Block, Protocol
 Answer = Union[str, float, None]
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(NamedTuple):
     """A stretch of time in which the participant feels one level, in the unit of what varies."""
 
     label: str
@@ -46,8 +45,7 @@ class Trial:
         return answer if answer is None or isinstance(answer, float) else float(answer == self.expected)
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """A page to read."""
 
     text: str
