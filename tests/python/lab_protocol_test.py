@@ -2,6 +2,7 @@
 """Protocols of tactus.lab, the order of their trials, and their procedures."""
 
 import collections
+import itertools
 import json
 import math
 import unittest
@@ -207,33 +208,26 @@ class Procedures(TestCase):
         given = lab.Psi(levels=tuple(np.linspace(1.0, 10.0, 19)), widths=(0.25, 0.5, 1.0, 2.0), lapses=(0.0, 0.02, 0.05), trials=150)
         track = PsiTrack(given)
         levels = self.run_track(track, lambda x: float(lab.probability("logistic", x, 4.0, 0.5, 0.5, 0.02)))
-        over = track.posterior.sum(axis=(1, 2))
-        mean = float(over @ given.levels)
-        self.assertLess(abs(mean - 4.0), 3.0 * math.sqrt(over @ (np.array(given.levels) - mean) ** 2) + 0.1)
+        over, possible = track.posterior.sum(axis=(1, 2)), np.array(given.levels)
+        mean = over @ possible
+        self.assertLess(abs(mean - 4.0), 3.0 * math.sqrt(over @ (possible - mean) ** 2) + 0.1)
         self.assertLess(np.median(np.abs(np.array(levels) - 4.0)), 1.6)
         self.assertAlmostEqual(float(track.posterior.sum()), 1.0, 12)
 
     def test_the_next_level_of_psi_is_that_of_the_least_expected_entropy(self):
-        """Written again, with loops over answers and hypotheses."""
+        """Written again, with a list of hypotheses."""
         given = lab.Psi(levels=(1.0, 2.0, 4.0), thresholds=(1.0, 3.0), widths=(0.5, 1.0), lapses=(0.0, 0.04), trials=9)
-        track = PsiTrack(given)
-        hypotheses = [(t, w, lapse) for t in given.thresholds for w in given.widths for lapse in given.lapses]
-        belief = {h: 1.0 / len(hypotheses) for h in hypotheses}
+        track, hypotheses = PsiTrack(given), list(itertools.product(given.thresholds, given.widths, given.lapses))
+        right = {x: np.array([0.5 + (0.5 - lapse) / (1.0 + math.exp(-(x - t) / w)) for t, w, lapse in hypotheses]) for x in given.levels}
+        belief = np.full(8, 0.125)
         for outcome in (1.0, 0.0, 1.0, 1.0, 0.0):
-            def chance(x, h):
-                return 0.5 + (0.5 - h[2]) / (1.0 + math.exp(-(x - h[0]) / h[1]))
-            expected = []
-            for x in given.levels:
-                total = 0.0
-                for right in (True, False):
-                    joint = [belief[h] * (chance(x, h) if right else 1.0 - chance(x, h)) for h in hypotheses]
-                    total -= sum(j * math.log(j / sum(joint)) for j in joint if j > 0.0)
-                expected.append(total)
+            joints = {x: (belief * right[x], belief * (1.0 - right[x])) for x in given.levels}
+            entropies = {x: -sum(joint @ np.log(joint / joint.sum()) for joint in both) for x, both in joints.items()}
             level = track.level()
-            self.assertAlmostEqual(expected[given.levels.index(level)], min(expected), 9)
+            self.assertAlmostEqual(entropies[level], min(entropies.values()), 9)
             track.answer(level, outcome)
-            belief = {h: b * (chance(level, h) if outcome else 1.0 - chance(level, h)) for h, b in belief.items()}
-            belief = {h: b / sum(belief.values()) for h, b in belief.items()}
+            belief = joints[level][0 if outcome else 1]
+            belief = belief / belief.sum()
 
     def test_the_mean_of_reversals(self):
         self.assertEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 3.0, 2.0]), 2.5)

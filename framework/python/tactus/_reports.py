@@ -77,8 +77,7 @@ class Check:
 
 
 class Interval(NamedTuple):
-    """A range of values around the present one. high: infinite if there is no limit. is_low_known, is_high_known: False: beyond it, the loop is not
-    known."""
+    """A range of values around the present one. high: infinite if there is no limit. is_low_known, is_high_known: False if the loop beyond is not known."""
 
     low: float
     high: float
@@ -218,8 +217,8 @@ def check(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = N
     graph: a tactus.Graph, a file, or the name of a preset. devices: by role, the id of a profile, a file, "gesture:circle" or "trace:FILE.csv"; set: values
     of parameters; rate: in Hz; duration: of the motion in s; sweep: the devices sweep their workspaces; speed: of strokes, in m/s; alpha, beta, gamma:
     samples and quanta per period, as in docs/check.md. Takes seconds; other threads run meanwhile."""
-    return Check(_examined("tactus_check", graph, devices, set, {"rate": rate, "duration": duration, "sweep": _checks.truth("sweep", sweep) or None,
-                                                                 "speed": speed, "alpha": alpha, "beta": beta, "gamma": gamma}))
+    return Check(_examined("tactus_check", graph, devices, set, rate=rate, duration=duration, sweep=_checks.truth("sweep", sweep) or None, speed=speed,
+                           alpha=alpha, beta=beta, gamma=gamma))
 
 
 @_checks.arguments
@@ -230,7 +229,7 @@ def limits(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = 
 
     graph, devices, set, rate, duration: as for tactus.check. role: whose contact. x, y: what varies, "stiffness=0:5000" (N/m), "damping=0:20" (N s/m),
     "rate=500:8000" (Hz) or "wall.stiffness=100:5000". steps: along x and y; with it, Limits.points has the points, which takes longer."""
-    return Limits(_examined("tactus_limits", graph, devices, set, {"rate": rate, "duration": duration, "role": role, "x": x, "y": y, "steps": steps}))
+    return Limits(_examined("tactus_limits", graph, devices, set, rate=rate, duration=duration, role=role, x=x, y=y, steps=steps))
 
 
 @_checks.arguments
@@ -243,10 +242,8 @@ def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Option
     "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them."""
     name = _checks.text("kind", kind, "give a kind, such as 'friction'").encode()
     given = _options({"columns": columns, "units": units, "signs": signs, **_checks.mapping("options", options, "{'load': '2 N'}")})
-    if isinstance(recording, (str, os.PathLike)):
-        return Fit(_asked("tactus_fit", name, os.fsencode(_checks.path("recording", recording)), None, given))
     if not hasattr(recording, "items"):
-        _checks.refuse("recording", recording, "a file or a dict of arrays", "give a path, or {'position': x, 'force': f}")
+        return Fit(_asked("tactus_fit", name, os.fsencode(_checks.path("recording", recording, "give a path, or {'position': x, 'force': f}")), None, given))
     names, values = table_of(dict(recording.items()))
     table = _ColumnsStruct(texts(names), len(names), values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values))
     return Fit(_asked("tactus_fit", name, None, ctypes.byref(table), given))
@@ -276,13 +273,11 @@ class _ColumnsStruct(ctypes.Structure):
                 ("rows", ctypes.c_size_t)]
 
 
-def _examined(function: str, graph: Union[Graph, Path], devices: Optional[Mapping[str, str]], values: Optional[Mapping[str, Any]],
-              options: Mapping[str, Any]) -> Dict[str, Any]:
+def _examined(function: str, graph: Union[Graph, Path], devices: Optional[Mapping[str, str]], values: Optional[Mapping[str, Any]], **options: Any) -> Any:
     roles = _checks.mapping("devices", devices, "{'stylus': 'tactus_board'}")
     given = {"devices": [f"{role}={_checks.text(f'devices[{role!r}]', what, 'give the id of a profile')}" for role, what in roles.items()],
              "set": dict(_checks.mapping("set", values, "{'drag.mu': 0.3}")) or None, **options}
-    found: Dict[str, Any] = _asked(function, _options(given), graph=graph)
-    return found
+    return _asked(function, _options(given), graph=graph)
 
 
 def _options(given: Mapping[str, Any]) -> bytes:

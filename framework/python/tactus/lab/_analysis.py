@@ -206,7 +206,7 @@ def _gathered(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike]) ->
     if not (np.isfinite(x).all() and np.isfinite(k).all() and np.isfinite(n).all()) or (k < 0.0).any() or (k > n).any():
         fail("lab/value", "yes", "a level is not finite, or there are more answers than trials", "give levels, and the yes or right answers out of trials")
     known, where = np.unique(x, return_inverse=True)
-    total, right = np.bincount(where, n), np.bincount(where, k)
+    total, right = np.bincount(where, n).astype(float), np.bincount(where, k).astype(float)
     return known[total > 0], right[total > 0], total[total > 0]
 
 

@@ -23,7 +23,7 @@ from ._marks import Receiver, TriggerLine
 from ._protocol import ANSWERS, Block, Protocol, checked
 from ._stages import Live, Moment, Silent
 from ._trials import Answer, Plan, Text, Trial
-from ._windows import Aborted, Simulated, Window, number_of
+from ._windows import Aborted, Simulated, Window, meant
 
 
 class Experiment:
@@ -183,13 +183,10 @@ class Experiment:
             level = moved
             self.mark("stimulus", f"{level!r}")
 
-    def _by_hand(self, keys: Dict[str, str]) -> Optional[str]:
-        """The answer of the hand or by OSC: one of the answers, or their keys; without these, a number. Others are left out."""
+    def _by_hand(self, keys: Dict[str, str]) -> Answer:
+        """The answer of the hand or by OSC. What is none is left out."""
         self._take_marks()
-        answer = self.stage.hand() or (self.receiver.answer() if self.receiver else None)
-        if answer is None or not keys:
-            return answer if answer and number_of(answer) is not None else None
-        return {**{key: name for name, key in keys.items()}, **{name: name for name in keys}}.get(answer)
+        return meant(self.stage.hand() or (self.receiver.answer() if self.receiver else None) or "", keys)
 
     # ------------------------------------------------------------------------ Marks
 

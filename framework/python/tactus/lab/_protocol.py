@@ -73,8 +73,7 @@ class Block:
     feedback: bool = field(default=False, metadata=note("whether the participant is told what was right"))
     interval: float = field(default=1.0, metadata=note("how long an interval lasts, in s", low=0.0, high=3600.0))
     gap: float = field(default=0.3, metadata=note("the time between intervals, in s", low=0.0, high=3600.0))
-    time_limit: float = field(default=0.0, metadata=note("for an answer, in s; 0: none. A trial that counts is repeated if it has none", low=0.0,
-                                                                    high=86400.0))
+    time_limit: float = field(default=0.0, metadata=note("for an answer, in s; 0: none. A trial that counts is repeated if it has none", low=0.0, high=86400.0))
     step: float = field(default=0.0, metadata=note("of adjust and match: what one key press adds, in the unit of what varies", low=0.0))
     guess: Optional[float] = field(default=None, metadata=note("for the analysis: the rate of \"yes\" or right answers without a stimulus; "
                                                                 "by default 0.5 for 2ifc and abx, else 0", low=0.0, high=0.99))

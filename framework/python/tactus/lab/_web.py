@@ -7,16 +7,14 @@ from __future__ import annotations
 import contextlib
 import http.server
 import json
-import math
 import queue
 import secrets
 import threading
-import time
 from typing import Any, Callable, Dict, Optional, Tuple
 
 from ._stages import Marks
 from ._trials import Answer, Trial
-from ._windows import Aborted, Window, number_of
+from ._windows import Aborted, Hand, Window, meant
 
 _STYLE = "body{background:#111;color:#eee;font:5vmin sans-serif;margin:0;text-align:center}button{font:inherit;margin:.3em;padding:.2em .8em}"
 
@@ -159,34 +157,30 @@ class Browser(Window):
         self._thread.start()
 
     def show(self, text: str) -> None:
-        self._question(text, {"go on": " "}, False)
-        self.awaited(lambda: self._key({" ", "Enter", "Pad0"}.__contains__), math.inf, lambda: None)
+        self._asked(text, {"go on": " "}, more={"Enter": "go on"})
 
     def say(self, text: str) -> None:
         self._state = {"text": text}
         self._check()
 
-    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
-        is_number = trial.block.task == "magnitude"
-        self._question(trial.question, keys, is_number)
-        by_key = {**{f"Pad{i}": name for i, name in enumerate(keys)}, **{key: name for name, key in keys.items()}}
-        fits = (lambda key: number_of(key) is not None) if is_number else by_key.__contains__
-        found = self.awaited(lambda: self._key(fits), time.monotonic() + (limit or math.inf), hand)
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Hand) -> Answer:
+        answer = self._asked(trial.question, keys, limit, hand)
         self._state = {"text": ""}
-        return None if found is None else number_of(found) if is_number else by_key.get(found, found)
+        return answer
 
-    def _question(self, text: str, keys: Dict[str, str], is_number: bool) -> None:
+    def _asked(self, text: str, keys: Dict[str, str], limit: float = 0.0, hand: Hand = lambda: None, more: Dict[str, str] = {}) -> Answer:
         self._id += 1
-        self._state = {"text": text, "keys": keys, "id": self._id, "number": is_number}
+        self._state = {"text": text, "keys": keys, "id": self._id, "number": not keys}
 
-    def _key(self, fits: Callable[[str], bool]) -> Optional[str]:
-        """A key that was pressed for this question and fits; None after a moment without one."""
-        self._check()
-        with contextlib.suppress(queue.Empty):
-            number, key = self._given.get(timeout=0.02)
-            if number == self._id and fits(key):
-                return key
-        return None
+        def take() -> Answer:
+            self._check()
+            with contextlib.suppress(queue.Empty):
+                number, key = self._given.get(timeout=0.02)
+                if number == self._id:
+                    return more.get(key) or meant(key, keys)
+            return None
+
+        return self.awaited(take, limit, hand)
 
     def _check(self) -> None:
         if self._stopped.is_set():

@@ -18,6 +18,9 @@ from ._stages import Marks, Moment, Silent
 from ._trials import Answer, Trial
 
 
+Hand = Callable[[], Answer]   # the answer of the hand or by OSC at this moment
+
+
 class Aborted(Exception):
     """The end of a session before its last trial, by a person. It can be resumed."""
 
@@ -36,14 +39,14 @@ class Window:
     def say(self, text: str) -> None:
         """Shows a few words, such as the number of an interval, and goes on."""
 
-    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
-        """Asks, and waits for the answer: one of the keys of `keys`, whose values are the keys of a keyboard, or a number for magnitude.
-        level: what is felt, in the unit of what varies. limit: in s, 0 without one; the answer is None after it. hand: the answer of the hand or by OSC,
-        to be called regularly."""
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Hand) -> Answer:
+        """Asks, and waits for the answer: one of `keys`, whose values are the keys of a keyboard, or a number for magnitude; None after `limit` (in s, 0
+        without one). level: what is felt, in the unit of what varies. hand: the answer of the hand or by OSC, to be called regularly."""
         raise NotImplementedError
 
-    def awaited(self, take: Callable[[], Optional[str]], until: float, hand: Callable[[], Optional[str]]) -> Optional[str]:
-        """The first answer of the hand or from `take`, which gives None after a moment without any. None at a time of the monotonic clock."""
+    def awaited(self, take: Callable[[], Answer], limit: float = 0.0, hand: Hand = lambda: None) -> Answer:
+        """The first answer of the hand or from `take`, which gives None after a moment without any. None after the limit in s, 0 without one."""
+        until = time.monotonic() + (limit or math.inf)
         while (answer := hand()) is None and (answer := take()) is None and time.monotonic() < until:
             pass
         return answer
@@ -89,7 +92,7 @@ class Simulated(Window):
     def __init__(self, observer: Observer):
         self.observer = observer
 
-    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Hand) -> Answer:
         return self.observer.answer(trial, level)
 
 
@@ -101,22 +104,22 @@ class Terminal(Window):
 
     def show(self, text: str) -> None:
         self.say(f"{text}\n(Enter goes on)")
-        self.awaited(self._line, math.inf, lambda: None)
+        self.awaited(self._line)
 
     def say(self, text: str) -> None:
         print(text, file=self._out, flush=True)
 
-    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Callable[[], Optional[str]]) -> Answer:
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Hand) -> Answer:
         self.say(trial.question + (f" ({', '.join(f'{key}: {answer}' for answer, key in keys.items())})" if keys else ""))
-        until = time.monotonic() + (limit or math.inf)
-        while (line := self.awaited(self._line, until, hand)) is not None:
-            answer = next((a for a, key in keys.items() if line in (a, key) or key == "Enter" and line == ""), None)
-            if answer is not None:
-                return answer
-            if trial.block.task == "magnitude" and (number := number_of(line)) is not None:
-                return number
-            self.say("Give " + (f"one of {', '.join(keys.values())}" if keys else "a number"))
-        return None
+
+        def take() -> Answer:
+            line = self._line()
+            answer = None if line is None else meant(line or "Enter", keys)
+            if line is not None and answer is None:
+                self.say("Give " + (f"one of {', '.join(keys.values())}" if keys else "a number"))
+            return answer
+
+        return self.awaited(take, limit, hand)
 
     def _line(self) -> Optional[str]:
         if b"\n" not in self._held:
@@ -133,8 +136,10 @@ class Terminal(Window):
         return text
 
 
-def number_of(text: str) -> Optional[float]:
-    """The finite number, 0 or more, that a text gives; None if it gives none."""
+def meant(text: str, keys: Dict[str, str]) -> Answer:
+    """The answer that a text gives: one of `keys` by its name, its key or its place (Pad0, Pad1, …); without any, a finite number, 0 or more. Else None."""
+    if keys:
+        return {**{f"Pad{i}": name for i, name in enumerate(keys)}, **{key: name for name, key in keys.items()}, **{name: name for name in keys}}.get(text)
     try:
         value = float(text.replace(",", "."))
     except ValueError:
