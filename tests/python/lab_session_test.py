@@ -429,9 +429,9 @@ class Commands(Case):
 
     def test_an_experiment_runs_and_tells_its_threshold(self):
         Sessions.made.save(self.folder / "p.json")
-        for status, said, words in ((0, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ", ("p.json", "--observer", "threshold=2,width=0.3", "--packed-log")),
-                                    (1, "--resume", ("p.json", "--observer", "threshold=2,width=0.3")), (2, "threshold=x", ("p.json", "--observer", "threshold=x")),
-                                    (2, "file", ()), (0, "--resume", ("--help",))):
+        given = "p.json", "--observer", "threshold=2,width=0.3"
+        for status, said, words in ((0, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ", (*given, "--packed-log")), (1, "--resume", given),
+                                    (2, "threshold=x", (*given[:2], "threshold=x")), (2, "file", ()), (0, "--resume", ("--help",))):
             ran = self.ran("experiment", *words, "--osc", "off")
             self.assertEqual(ran.returncode, status, ran.stderr)
             self.assertRegex(ran.stdout + ran.stderr, said)

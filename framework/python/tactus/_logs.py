@@ -37,11 +37,13 @@ class Log(Records):
     events: what was turned, hit and stopped. wall, monotonic: when tick 0 began, in s since 1970 (UTC) and by time.monotonic(); None if the run was not in
     real time. program: what wrote the log. is_cut_off: the program died."""
 
-    events: List[Event]
-    wall: Optional[float]
-    monotonic: Optional[float]
-    program: str
-    is_cut_off: bool
+    def __init__(self, rows: Records, about: Dict[str, Any]):
+        super().__init__(rows, units=rows.units, rate_hz=rows.rate_hz)
+        head, clocks = about["head"], about["head"]["clocks"] or {}
+        self.events = [Event(int(e["tick"]), str(e["kind"]), str(e["name"]), e["value"]) for e in about["events"]]
+        self.wall: Optional[float] = clocks.get("wall")
+        self.monotonic: Optional[float] = clocks.get("monotonic")
+        self.program, self.is_cut_off = str(head["program"]), bool(about["is_cut_off"])
 
     def at(self, time: float) -> float:
         """The tick, with its fraction, at a monotonic time in s, such as that of a mark or of another recording on this computer. The ticks are those of this
@@ -57,14 +59,7 @@ def read_log(log: Path, *, start: float = 0.0, until: Optional[float] = None) ->
     """Reads a log of `tactus play`, of a session or of an engine, packed or not. Nothing is played.
 
     start, until: the part that is read, in s of ticks; without `until`, to the end. A long log needs tactus.set_limits("numbers=1G")."""
-    rows, about = _read(_tactus.read_log(_checks.path("log", log), *_part(start, until)))
-    head = about["head"]
-    found = Log(rows, units=rows.units, rate_hz=rows.rate_hz)
-    clocks = head["clocks"] or {}
-    found.events = [Event(int(e["tick"]), str(e["kind"]), str(e["name"]), e["value"]) for e in about["events"]]
-    found.wall, found.monotonic = clocks.get("wall"), clocks.get("monotonic")
-    found.program, found.is_cut_off = str(head["program"]), bool(about["is_cut_off"])
-    return found
+    return Log(*_read(_tactus.read_log(_checks.path("log", log), *_part(start, until))))
 
 
 @_checks.arguments

@@ -237,9 +237,9 @@ def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Option
         signs: Optional[Mapping[str, str]] = None, options: Optional[Mapping[str, Amount]] = None) -> Fit:
     """Fits the model of a node to a recording, as `tactus fit` does, with the same numbers.
 
-    kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV or WAV file, or arrays by the name of the column, each
-    of shape (n,); names may have units, as in "force [mN]". columns: the name of the column of a role, "" if it was not recorded; units: what 1 in it means,
-    "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them."""
+    kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV or WAV file, or arrays by the name of the column,
+    each of shape (n,); names may have units, as in "force [mN]". columns: the name of the column of a role, "" if it was not recorded; units: what 1 in it
+    means, "1 mN"; signs: "+" or "-". options: of the kind, as numbers in SI or texts with units: {"load": "2 N"}; docs/fit.md lists them."""
     name = _checks.text("kind", kind, "give a kind, such as 'friction'").encode()
     given = _options({"columns": columns, "units": units, "signs": signs, **_checks.mapping("options", options, "{'load': '2 N'}")})
     if not hasattr(recording, "items"):

@@ -65,7 +65,9 @@ def describe(data: SessionData, block: Block, condition: str) -> str:
     """The fit of a block and a condition in a few words."""
     if block.task in ("adjust", "match"):
         levels = data.chosen(block.name, condition)["outcomes"]
-        return f"mean {levels.mean():.4g}, standard deviation {levels.std(ddof=1):.4g} of {len(levels)} settings" if len(levels) > 1 else "fewer than two settings"
+        if len(levels) < 2:
+            return "fewer than two settings"
+        return f"mean {levels.mean():.4g}, standard deviation {levels.std(ddof=1):.4g} of {len(levels)} settings"
     fit = data.fit(block.name, condition)
     if isinstance(fit, PowerLaw):
         return f"exponent {fit.exponent:.4g} (95 % {fit.exponent_interval.low:.4g} to {fit.exponent_interval.high:.4g})"

@@ -20,7 +20,7 @@ from .._views import with_unit
 from . import _journal, _tables
 from ._analysis import psychometric
 from ._marks import Receiver, TriggerLine
-from ._protocol import ANSWERS, Block, Protocol, checked
+from ._protocol import ANSWERS, KEYS, Block, Protocol, checked
 from ._stages import Live, Moment, Silent
 from ._trials import Answer, Plan, Text, Trial
 from ._windows import Aborted, Simulated, Window, meant
@@ -164,7 +164,7 @@ class Experiment:
             self.stage.wait(trial.block.gap)
 
     def _answer(self, trial: Trial, level: float) -> Answer:
-        keys = {name: self.protocol.key(name) for name in ANSWERS[trial.block.task]}
+        keys = {name: self.protocol.keys.get(name, KEYS[name]) for name in ANSWERS[trial.block.task]}
         condition, block = self.protocol.condition(trial.condition), trial.block
         while True:
             answer = self.window.ask(trial, level, keys, block.time_limit, lambda: self._by_hand(keys))

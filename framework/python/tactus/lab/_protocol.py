@@ -115,10 +115,6 @@ class Protocol:
     triggers: Optional[Triggers] = field(default=None, metadata=note("codes that go out with marks"))
     folder: str = field(default="", compare=False, repr=False, metadata=note("of files with relative paths, seen from the folder of this file"))
 
-    def key(self, answer: str) -> str:
-        """The key that gives an answer."""
-        return self.keys.get(answer, KEYS.get(answer, answer))
-
     def condition(self, name: str) -> Condition:
         """The condition with this name."""
         return next(c for c in self.all_conditions() if c.name == name)

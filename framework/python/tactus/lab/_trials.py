@@ -66,13 +66,12 @@ class Plan:
         self._steps = self._run()
         self.step: Optional[Step] = next(self._steps, None)
 
-    def answer(self, answer: Answer = None) -> Optional[Step]:
-        """Takes the answer to the step, and returns the next one. Texts need none; a trial that counts is repeated if it has none."""
+    def answer(self, answer: Answer = None) -> None:
+        """Takes the answer to the step. Texts need none; a trial that counts is repeated if it has none."""
         try:
             self.step = self._steps.send(answer)
         except StopIteration:
             self.step = None
-        return self.step
 
     def left(self) -> int:
         """The largest number of trials that are left, without practice and catch trials."""

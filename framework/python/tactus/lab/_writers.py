@@ -182,7 +182,8 @@ def _xdf(table: Table) -> bytes:
     values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
     return b"".join([
         b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'),
-        _stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64", times, _samples(times, values), about),
+        _stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64", times,
+                _samples(times, values), about),
         *(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about) for i, name in enumerate(texts))])
 
 
