@@ -13,7 +13,7 @@ from contextlib import suppress
 from unittest import mock
 
 import tactus
-from support import GRAPHS, PROGRAM, TestCase
+from support import GRAPHS, PROGRAM, TestCase, needs_live
 import pushed_board
 from pushed_board import PUSH
 from tactus import _play
@@ -230,16 +230,7 @@ class Forks(TestCase):
                         os.killpg(program.pid, signal.SIGKILL)   # a child that hangs
 
 
-try:
-    from tactus._library import live
-    live()
-except tactus.Error as why:
-    print(f"skipped: {why}")
-    sys.exit(77)
-
-if not PROGRAM:
-    print("skipped: there is no program that plays a board")
-    sys.exit(77)
+needs_live()   # the program plays a board
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,6 +3,7 @@
 
 import ast
 import contextlib
+import importlib.util
 import io
 import json
 import os
@@ -16,11 +17,8 @@ from tactus import lab
 EXAMPLES = ROOT / "docs/examples/lab"
 NOTEBOOK = ROOT / "docs/tutorials/lab.ipynb"
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-except ImportError:
-    matplotlib = None
+os.environ["MPLBACKEND"] = "Agg"
+matplotlib = importlib.util.find_spec("matplotlib")
 
 
 def run_cell(source, names):
@@ -63,8 +61,7 @@ class Examples(TestCase):
             ast.parse(path.read_text(encoding="utf-8"))
 
     def run_script(self, name, *words):
-        return subprocess.run([sys.executable, "-B", str(EXAMPLES / name), *words], capture_output=True, text=True, check=True,
-                              env={**os.environ, "MPLBACKEND": "Agg"}).stdout
+        return subprocess.run([sys.executable, "-B", str(EXAMPLES / name), *words], capture_output=True, text=True, check=True).stdout
 
     def test_the_staircase_finds_the_threshold(self):
         said = self.run_script("staircase.py", *([self.folder] if matplotlib else []))

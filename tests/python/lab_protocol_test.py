@@ -33,10 +33,6 @@ def walk(plan, answer):
     return [step.text for step in texts], trials
 
 
-def trials_of(plan, answer):
-    return walk(plan, answer)[1]
-
-
 class Files(TestCase):
     def load(self, data):
         (self.folder / "p.json").write_text(data if isinstance(data, str) else json.dumps(data), encoding="utf-8")
@@ -113,7 +109,7 @@ class Files(TestCase):
 class Order(TestCase):
     def test_it_follows_from_the_seed_and_the_participant(self):
         first, again, other_seed, other_participant = (
-            [(t.level, t.expected) for t in trials_of(lab.Plan(protocol(seed=seed), participant), lambda t: "first")]
+            [(t.level, t.expected) for t in walk(lab.Plan(protocol(seed=seed), participant), lambda t: "first")[1]]
             for seed, participant in ((1, "01"), (1, "01"), (2, "01"), (1, "02")))
         self.assertEqual(first, again)
         self.assertNotIn(first, (other_seed, other_participant))
@@ -127,7 +123,7 @@ class Order(TestCase):
     def test_constant_stimuli_come_equally_often_in_rounds_and_the_position_of_the_comparison_varies(self):
         made = protocol(block(conditions=["a", "b"], procedure=lab.Constant(levels=(1.0, 2.0, 3.0), repeats=20)),
                         conditions=[lab.Condition(name="a"), lab.Condition(name="b")])
-        trials = trials_of(lab.Plan(made), lambda t: "first")
+        trials = walk(lab.Plan(made), lambda t: "first")[1]
         self.assertEqual(set(collections.Counter((t.condition, t.level) for t in trials).values()), {20})
         of_a = [t.level for t in trials if t.condition == "a"]
         self.assertTrue(all(sorted(of_a[i:i + 3]) == [1.0, 2.0, 3.0] for i in range(0, 60, 3)))
@@ -154,9 +150,9 @@ class Order(TestCase):
         self.assertEqual(texts, ["Take a break."] * 2)   # after two and after four trials that count
 
     def test_abx_and_match_have_their_intervals(self):
-        for t in trials_of(lab.Plan(protocol(block(task="abx"))), lambda t: "a"):
+        for t in walk(lab.Plan(protocol(block(task="abx"))), lambda t: "a")[1]:
             self.assertEqual(t.intervals[2].level, t.intervals["ab".index(t.expected)].level)
-        for t in trials_of(lab.Plan(protocol(block(task="match", step=0.1))), lambda t: 2.0):
+        for t in walk(lab.Plan(protocol(block(task="match", step=0.1))), lambda t: 2.0)[1]:
             self.assertEqual([i.label for i in t.intervals], ["standard", "yours"])
 
     def test_a_latin_square_is_balanced(self):
@@ -167,7 +163,7 @@ class Order(TestCase):
             follows = collections.Counter((row[i], row[i + 1]) for row in rows for i in range(n - 1))
             self.assertEqual((len(follows), len(set(follows.values()))), (n * (n - 1), 1))
         made = protocol(block("a"), block("b"), order="latin_square")
-        firsts = [trials_of(lab.Plan(made, participant), lambda t: "first")[0].block.name for participant in ("01", "02", "03")]
+        firsts = [walk(lab.Plan(made, participant), lambda t: "first")[1][0].block.name for participant in ("01", "02", "03")]
         self.assertEqual(firsts, ["a", "b", "a"])
 
 

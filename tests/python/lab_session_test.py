@@ -21,9 +21,8 @@ import urllib.request
 import numpy as np
 import tactus
 from lab_protocol_test import block, protocol
-from support import PROGRAM, ROOT, TestCase
+from support import PROGRAM, ROOT, TestCase, why_not_live
 from tactus import _messages, lab
-from tactus._library import live
 from tactus.lab import _marks
 from waiting import eventually
 
@@ -316,16 +315,7 @@ class Windows(Case):
         self.assertEqual(stopped, [1])
 
 
-def why_no_devices():
-    """The reason why nothing can be played here, such as a build without libtactus_live; empty if it can."""
-    try:
-        live()
-        return ""
-    except tactus.Error as why:
-        return str(why)
-
-
-@unittest.skipIf(why_no_devices(), why_no_devices())
+@unittest.skipIf(why_not_live(), why_not_live())
 class OnDevices(Case):
     """A simulated hand strokes a preset. The first two marks come before the graph plays."""
 

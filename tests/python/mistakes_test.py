@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 import tactus
-from support import GRAPHS, TestCase, drag
+from support import GRAPHS, TestCase, drag, why_not_live
 
 WOOD = str(GRAPHS / "dry_wood.json")
 CIRCLE = {"stylus": "gesture:circle"}
@@ -156,7 +156,7 @@ def _assign(view, name):
 
 class Mistakes(TestCase):
     def test_each_is_refused_with_its_place_and_a_remedy_in_the_words_of_python(self):
-        without_library = is_library_missing()
+        without_library = bool(why_not_live())
         for typed, make, id, where in MISTAKES:
             with self.subTest(typed):
                 if without_library and "play" in make.__code__.co_names:
@@ -186,16 +186,6 @@ class Mistakes(TestCase):
         run = graph().render(duration=np.float32(0.01), rate=np.int64(4000), set={"drag.mu": np.array(0.3)})
         self.assertEqual(len(run["t"]), 40)
         self.assertEqual(len(engine().step(n=np.int64(5))["t"]), 5)
-
-
-def is_library_missing():
-    """True where the library for devices is not built."""
-    from tactus._library import live
-    try:
-        live()
-    except tactus.Error:
-        return True
-    return False
 
 
 if __name__ == "__main__":

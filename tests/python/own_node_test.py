@@ -3,7 +3,6 @@
 
 import concurrent.futures
 import math
-import pathlib
 import sys
 import unittest
 

@@ -9,7 +9,7 @@ import unittest
 
 import numpy as np
 import tactus
-from support import GRAPHS, TestCase
+from support import GRAPHS, TestCase, needs_live
 from waiting import eventually
 
 WOOD = str(GRAPHS / "dry_wood.json")
@@ -202,12 +202,7 @@ class Shown(TestCase):
             session.probe("motor.force")
 
 
-try:
-    from tactus._library import live
-    live()
-except tactus.Error as why:
-    print(f"skipped: {why}")
-    sys.exit(77)
+needs_live(needs_program=False)
 
 if __name__ == "__main__":
     unittest.main()

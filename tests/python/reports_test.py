@@ -11,27 +11,17 @@ import pathlib
 import pickle
 import re
 import subprocess
-import sys
 import threading
 import unittest
 import wave
 
 import numpy as np
 import tactus
-from support import PROGRAM, ROOT, TestCase
+from support import PROGRAM, ROOT, TestCase, needs_live
 from tactus import lab
-from tactus._library import live
 from waiting import eventually, while_busy
 
-try:
-    live()
-except tactus.Error as why:
-    print(f"skipped: {why}")
-    sys.exit(77)
-if not PROGRAM:
-    print("skipped: the program is not built")
-    sys.exit(77)
-
+needs_live()
 HOSTILE = "<script>alert(1)</script>"
 
 

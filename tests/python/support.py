@@ -19,6 +19,7 @@ except ImportError:
     sys.exit(77)
 
 import tactus
+from tactus import _library
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "tests/install"), str(ROOT / "tests/support")]
@@ -27,6 +28,22 @@ import png_to_pgm   # noqa: E402
 GRAPHS = ROOT / "graphs"
 PROGRAM = os.environ.get("TACTUS_PROGRAM", "")
 signal.signal(signal.SIGINT, signal.default_int_handler)   # a shell starts what runs in the background without it
+
+
+def why_not_live():
+    """The reason why nothing can be played or checked here, such as a build without libtactus_live; empty if it can."""
+    try:
+        _library.live()
+        return ""
+    except tactus.Error as why:
+        return str(why)
+
+
+def needs_live(needs_program=True):
+    """Skips a whole script where nothing can be played or, if it needs that, there is no program."""
+    if why := why_not_live() or (needs_program and not PROGRAM and "the program is not built"):
+        print(f"skipped: {why}")
+        sys.exit(77)
 
 
 def quiet(function, *args, **kwargs):

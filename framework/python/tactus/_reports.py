@@ -51,20 +51,16 @@ class Condition(NamedTuple):
 
 
 class Check:
-    """The conditions of a graph on its devices. json: all that `tactus check` prints as JSON. conditions: those that were judged. not_judged: what has no
-    verdict, each with `what` and `why`. scope: the motion and the places along which it was judged."""
+    """The conditions of a graph on its devices. json: all that `tactus check` prints as JSON. conditions: those that were judged. is_broken: one of them is
+    broken; False is no promise, as not everything can be judged. not_judged: what has no verdict, each with `what` and `why`. scope: the motion and the
+    places along which it was judged."""
 
     def __init__(self, report: Dict[str, Any]):
         self.json = report
         self.scope = str(report["scope"])
-        self.rate_hz = float(report["rate_hz"])
+        self.rate_hz, self.is_broken = float(report["rate_hz"]), bool(report["broken"])
         self.not_judged: List[Dict[str, str]] = report["not_judged"]
         self.conditions = [Condition(**{name: c.get(name, "") for name in Condition._fields}) for c in report["conditions"]]
-
-    @property
-    def is_broken(self) -> bool:
-        """True if a judged condition is broken. False is no promise: not everything can be judged."""
-        return bool(self.json["broken"])
 
     def __repr__(self) -> str:
         broken = [f"{c.id} of {plain(c.role)}" for c in self.conditions if c.is_broken]
@@ -136,26 +132,20 @@ class FitValue(NamedTuple):
 
 
 class Fit:
-    """A fit of a recording. values: the parameters by name. is_good: the verdict; lacking: what makes it poor, and which data would help. residual,
-    left_out_residual, size: root mean squares of what is left, of the same on a part that was left out, and of the recording, in residual_unit. graph: a
-    preset in which it can be felt. json: all that `tactus fit` prints as JSON, and the picture."""
+    """A fit of a recording. values: the parameters by name. verdict: "good" or "poor" (is_good); lacking: what makes it poor, and which data would help.
+    residual, left_out_residual, size: root mean squares of what is left, of the same on a part that was left out, and of the recording, in residual_unit.
+    graph: a preset in which it can be felt. json: all that `tactus fit` prints as JSON, and the picture."""
 
     def __init__(self, report: Dict[str, Any]):
         self.json = report
-        self.kind, self.is_good = str(report["kind"]), report["verdict"] == "good"
+        self.kind, self.verdict, self.is_good = str(report["kind"]), str(report["verdict"]), report["verdict"] == "good"
         self.values = {str(v["name"]): FitValue(str(v["name"]), str(v["unit"]), _finite(v["value"], math.nan), _finite(v["low"], -math.inf),
                                                 _finite(v["high"], math.inf), bool(v["main"])) for v in report["parameters"]}
         self.lacking: List[str] = report["lacking"]
         self.notes: List[str] = report["notes"]
         left = report["residual"]
         self.residual, self.left_out_residual, self.size = (_finite(left[k], math.nan) for k in ("rms", "left_out_rms", "recording_rms"))
-        self.residual_unit = str(left["unit"])
-        self.rows = int(report["rows"])
-
-    @property
-    def verdict(self) -> str:
-        """"good" or "poor"."""
-        return "good" if self.is_good else "poor"
+        self.residual_unit, self.rows = str(left["unit"]), int(report["rows"])
 
     @property
     def graph(self) -> Graph:

@@ -10,7 +10,7 @@ import json
 import queue
 import secrets
 import threading
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any, Dict, Tuple
 
 from ._stages import Marks
 from ._trials import Answer, Trial

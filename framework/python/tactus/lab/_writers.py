@@ -7,7 +7,6 @@ import csv
 import io
 import itertools
 import json
-import math
 import pathlib
 import re
 import struct
