@@ -215,7 +215,8 @@ class Reprs(TestCase):
         loss = dict(id="clip/rate", where="", text="text " * 100, remedy="remedy " * 100)
         written = tactus.Conversion({"files": [{"name": "a.ahap", "losses": [loss], "differences": ["word " * 100]}], "notes": []})
         return [check, check.conditions[0], written, limits, tactus.Interval(0.0, 1.0, True, True), fit, fit.values["mu"], tactus.Devices([condition] * 20),
-                tactus.Event(3, "turn", "drag.mu", "text " * 100), tactus.Log({"t": np.zeros(3)}, units={}, rate_hz=4000.0)]
+                tactus.Event(3, "turn", "drag.mu", "text " * 100), tactus.Log(tactus.Records({"t": np.zeros(3)}, rate_hz=4000.0), {
+                    "head": {"clocks": None, "program": ""}, "events": [], "is_cut_off": False})]
 
     def test_every_public_class_has_a_short_one(self):
         objects = self.objects()

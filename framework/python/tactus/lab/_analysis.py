@@ -232,13 +232,11 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
         fail("lab/value", "levels", "a level is less than 0", "the function weibull needs levels from 0; use logistic or normal")
     given = _Likelihood(function, x, k, n, guess, lapse)
     (ends, widths), missed = given.ends(confidence, given.best() if method == "profile" else None)
-    threshold, width = ends[1], widths[1]
-    if function == "weibull":
-        threshold, ends = math.exp(threshold), (math.exp(ends[0]), math.exp(ends[1]), math.exp(ends[2]))
-    share, p = (np.clip(chances, _CLIP, 1.0 - _CLIP) for chances in (k / n, probability(function, x, threshold, math.exp(width), guess, missed)))
+    low, threshold, high = map(math.exp, ends) if function == "weibull" else ends
+    narrow, width, wide = map(math.exp, widths)
+    share, p = (np.clip(chances, _CLIP, 1.0 - _CLIP) for chances in (k / n, probability(function, x, threshold, width, guess, missed)))
     deviance = 2.0 * float(k @ np.log(share / p) + (n - k) @ np.log((1.0 - share) / (1.0 - p)))
-    return Psychometric(function, threshold, math.exp(width), guess, missed, Interval(ends[0], ends[2]),
-                        Interval(math.exp(widths[0]), math.exp(widths[2])), deviance, confidence, x, k, n, unit)
+    return Psychometric(function, threshold, width, guess, missed, Interval(low, high), Interval(narrow, wide), deviance, confidence, x, k, n, unit)
 
 
 # ------------------------------------------------------------------------ Signals and noise

@@ -13,6 +13,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 from .._graph import Graph
 from .._messages import fail
 from .._play import Session, play
+from .._views import wires_in
 from ._protocol import Condition, Protocol, edited
 
 
@@ -66,8 +67,7 @@ def without_motors(graph: Graph) -> Graph:
     """A copy of a graph in which nothing is wired to its devices, except in files that it includes."""
     def unwire(whole: Dict[str, Any], part: Dict[str, Any]) -> None:
         sinks = {name for name, node in part.get("nodes", {}).items() if str(node.get("type")).startswith("device.")}
-        ends = [(wire if isinstance(wire, str) else wire["wire"]).split("->")[-1].replace("(+)", "").strip().split(".")[0] for wire in part.get("wires", [])]
-        part["wires"] = [wire for wire, end in zip(part.get("wires", []), ends) if end not in sinks]
+        part["wires"] = [wire for wire, view in zip(part.get("wires", []), wires_in(part)) if view.end.split(".")[0] not in sinks]
     return edited(graph, unwire)
 
 

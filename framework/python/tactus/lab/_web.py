@@ -72,10 +72,9 @@ function draw(s) {
     ["last answer", r.last.number ? `${r.last.answer ?? "none"}, outcome ${r.last.outcome}, trial ${r.last.number}` : ""]]);
   const h = r.health || {}; rows(document.getElementById("health"), [...Object.entries(h).filter(([k]) => k !== "devices"),
     ...(h.devices || []).map(d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
-  const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0])), svg = document.getElementById("plot");
-  svg.replaceChildren(); levels.forEach(([level, outcome], i) => { const c = document.createElementNS("http://www.w3.org/2000/svg", "circle");
-    c.setAttribute("cx", 10 + 580 * i / Math.max(1, levels.length - 1)); c.setAttribute("cy", 190 - 180 * (top > low ? (level - low) / (top - low) : 0.5));
-    c.setAttribute("r", 4); c.setAttribute("fill", outcome ? "#06c" : "#fff"); c.setAttribute("stroke", "#06c"); svg.append(c); });
+  const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0]));
+  document.getElementById("plot").innerHTML = levels.map(([level, outcome], i) => `<circle cx="${10 + 580 * i / Math.max(1, levels.length - 1)}" r="4"
+    cy="${190 - 180 * (top > low ? (level - low) / (top - low) : 0.5)}" fill="${outcome ? "#06c" : "#fff"}" stroke="#06c"/>`).join("");
 }
 async function loop() { try { draw(await (await fetch("report")).json()); }
   catch { document.getElementById("state").textContent = "The connection is lost."; } setTimeout(loop, 200); }
