@@ -12,7 +12,7 @@ from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._draw import Draw
 
-LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
+LEVELS = lab_coverage.LEVELS
 YES = np.array([1, 4, 11, 19, 30, 37, 39])
 
 

@@ -81,8 +81,11 @@ class Case(TestCase):
         except urllib.error.HTTPError as why:
             return why.code, ""
 
+    def rows(self, table, *names):
+        return list(zip(*(table[name] for name in names)))
+
     def answers(self, data):
-        return list(zip(*(list(data.trials[key]) for key in ("number", "kind", "condition", "level", "intervals", "answer"))))
+        return self.rows(data.trials, "number", "kind", "condition", "level", "intervals", "answer")
 
 
 class Sessions(Case):
@@ -102,7 +105,7 @@ class Sessions(Case):
         resumed, whole = self.run_session(self.made, resume=True), self.run_session(self.made, out=self.folder / "whole")
         self.assertEqual(self.answers(resumed), self.answers(whole))
         self.assertTrue(resumed.is_complete)
-        self.assertEqual([resumed.turns(), [e for e in resumed.events["trial_type"]].count("run")], [whole.turns(), 4])
+        self.assertEqual([resumed.turns(), list(resumed.events["trial_type"]).count("run")], [whole.turns(), 4])
 
     def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol_in_one_process(self):
         data = self.run_session(self.made, leaves(5))
@@ -219,8 +222,7 @@ class Marks(Case):
         send(b"x", b"/tactus/mark\0\0\0\0,q\0\0", b"/tactus/mark\0\0\0\0,s\0\0", b"#bundle\0" + b"\0" * 12, b"\xff" * 64, _marks.osc("/tactus/other", "a"))
         self.assertTrue(lab.mark("blink", "left", receiver.port))
         data = self.run_session(protocol(), Asked(first), receiver=receiver)
-        row = list(data.events["trial_type"]).index("blink")
-        self.assertEqual(data.events["value"][row], "left")
+        self.assertIn(("blink", "left"), self.rows(data.events, "trial_type", "value"))
         self.assertEqual(data.trials["answer"][1], "second")
         self.assertFalse(lab.mark("nobody", port=1, wait=0.05))
         self.assertEqual(_marks.read_osc(_marks.osc("/a", "text", 3, 0.5)), ("/a", ["text", 3, 0.5]))
@@ -235,8 +237,7 @@ class Marks(Case):
             self.assertEqual(self.web(browser.participant + "mark", body, **{"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})[0], status, body)
         window.marks = browser.marks
         data = self.run_session(protocol(), window)
-        row = list(data.events["trial_type"]).index("picture")
-        self.assertEqual((data.events["value"][row], list(data.events["trial_type"]).count("picture")), ("hölzern", 1))
+        self.assertEqual([row for row in self.rows(data.events, "trial_type", "value") if row[0] == "picture"], [("picture", "hölzern")])
 
     def test_triggers_are_bytes_on_a_serial_line(self):
         ours, theirs = pty.openpty()
@@ -449,5 +450,4 @@ class Commands(Case):
 
 
 if __name__ == "__main__":
-    assert ROOT
     unittest.main()

@@ -150,17 +150,12 @@ class PsiTrack(Track):
         if self.left() <= 0:
             return None
         if self._next is None:
-            self._next = float(self._levels[int(np.argmin(self._expected()))])
+            expected = np.zeros(len(self._levels))   # entropy after a trial at each level, in nats
+            for yes in (self._yes, 1.0 - self._yes):
+                joint = yes * self.posterior
+                expected += -_times_log(joint).sum(axis=(1, 2, 3)) + _times_log(joint.sum(axis=(1, 2, 3)))
+            self._next = float(self._levels[int(np.argmin(np.round(expected, 12)))])   # so that a tie does not depend on the computer's rounding
         return self._next
-
-    def _expected(self) -> Array:
-        """The expected entropy after a trial at each level, in nats."""
-        total = np.zeros(len(self._levels))
-        for yes in (self._yes, 1.0 - self._yes):
-            joint = yes * self.posterior
-            chance = joint.sum(axis=(1, 2, 3))
-            total += -_times_log(joint).sum(axis=(1, 2, 3)) + _times_log(chance)
-        return np.round(total, 12)   # so that a tie does not depend on the computer's rounding
 
     def answer(self, level: float, outcome: float) -> None:
         yes = self._yes[int(np.argmin(np.abs(np.subtract(self._levels, level))))]

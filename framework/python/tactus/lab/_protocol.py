@@ -237,12 +237,16 @@ def checked(protocol: Protocol) -> Protocol:
 
 
 def _check_targets(protocol: Protocol) -> None:
+    """Refuses controls and parameters that a graph has not, and levels that it refuses, as far as they are known before a block runs."""
     for i, block in enumerate(protocol.blocks):
+        given, varies = block.procedure, block.varies
+        known = [*(given.levels if isinstance(given, (Constant, Psi)) else (given.start, given.low, given.high)), varies.standard]
+        known += [varies.rest] if varies.rest is not None else []
         for condition in (protocol.condition(name) for name in block.conditions or [c.name for c in protocol.all_conditions()]):
             graph = protocol.graph_of(condition)
             if graph is None:
                 continue
-            for name, value in [*protocol.values_of(condition)[1].items(), *((block.varies.target, x) for x in levels_of(block))]:
+            for name, value in [*protocol.values_of(condition)[1].items(), *((varies.target, level) for level in known)]:
                 if name in graph.controls:
                     if not 0.0 <= value <= 1.0:
                         fail("lab/value", f"/blocks/{i}", f"the control {name} would be {value:g}", "give levels from 0 to 1")
@@ -252,13 +256,6 @@ def _check_targets(protocol: Protocol) -> None:
                 else:
                     fail("lab/value", f"/blocks/{i}", f"the graph of '{condition.name}' has no control '{name}'",
                          f"its controls: {', '.join(graph.controls) or 'none'}; a parameter is written NODE.PARAMETER")
-
-
-def levels_of(block: Block) -> List[float]:
-    """The levels of a block that are known before it runs: those of constant stimuli and psi, start and bounds of a staircase; the standard, the rest."""
-    procedure, varies = block.procedure, block.varies
-    found = list(procedure.levels) if isinstance(procedure, (Constant, Psi)) else [procedure.start, procedure.low, procedure.high]
-    return found + [varies.standard] + ([varies.rest] if varies.rest is not None else [])
 
 
 def schema() -> Dict[str, Any]:

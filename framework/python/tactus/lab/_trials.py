@@ -93,9 +93,10 @@ class Plan:
         block, tracks, draw = self._protocol.blocks[index], self._tracks[index], Draw(*self._key, self._protocol.blocks[index].name)
         if block.instructions:
             yield Text(block.instructions)
+        levels = block.procedure.levels if isinstance(block.procedure, (Constant, Psi)) else (block.procedure.start,)
         for _ in range(block.practice):
             name, number, track = tracks[draw.below(len(tracks))]
-            yield self._trial(block, "practice", name, number, self._practice_level(block, draw))
+            yield self._trial(block, "practice", name, number, levels[draw.below(len(levels))])
         if block.practice:
             yield Text("The practice is over.")
         count = rested = 0
@@ -115,10 +116,6 @@ class Plan:
             if outcome is not None:
                 track.answer(level, outcome)
                 count += 1
-
-    def _practice_level(self, block: Block, draw: Draw) -> float:
-        levels = block.procedure.levels if isinstance(block.procedure, (Constant, Psi)) else (block.procedure.start,)
-        return levels[draw.below(len(levels))]
 
     def _trial(self, block: Block, kind: str, condition: str, track: int, level: float) -> Trial:
         self._number += 1

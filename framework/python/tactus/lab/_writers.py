@@ -156,13 +156,6 @@ def _stream(number: int, name: str, kind: str, channels: Sequence[str], units: S
             + _chunk(6, number_of + foot.encode()))
 
 
-def _samples(times: Any, values: Any) -> bytes:
-    """Rows of doubles, each with its time."""
-    table = np.zeros(len(times), dtype=[("flag", "u1"), ("time", "<f8"), ("values", "<f8", (values.shape[1],))])
-    table["flag"], table["time"], table["values"] = 8, times, values
-    return table.tobytes()
-
-
 def _texts(times: Any, texts: Sequence[str]) -> bytes:
     encoded = [str(text).encode() for text in texts]
     return b"".join(struct.pack("<BdBI", 8, time, 4, len(data)) + data for time, data in zip(times, encoded))
@@ -178,11 +171,12 @@ def _xdf(table: Table) -> bytes:
     numbers = [name for name in table if not _is_text(table[name])]
     texts = [name for name in table if _is_text(table[name])]
     about = json.dumps(table.sidecar(), ensure_ascii=False)
-    values = np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
+    rows = np.zeros(len(times), dtype=[("flag", "u1"), ("time", "<f8"), ("values", "<f8", (len(numbers),))])
+    rows["flag"], rows["time"], rows["values"] = 8, times, np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
     return b"".join([
         b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'),
         _stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64", times,
-                _samples(times, values), about),
+                rows.tobytes(), about),
         *(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about) for i, name in enumerate(texts))])
 
 
