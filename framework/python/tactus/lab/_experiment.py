@@ -9,7 +9,7 @@ import pathlib
 import platform
 import queue
 import time
-from typing import Dict, List, Mapping, Optional, Tuple
+from typing import Dict, List, Mapping, Optional
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from .._views import with_unit
 from . import _journal, _tables
 from ._analysis import psychometric
 from ._marks import Receiver, TriggerLine
-from ._protocol import ANSWERS, KEYS, Block, Protocol, checked
+from ._protocol import ANSWERS, KEYS, Protocol, checked
 from ._stages import Live, Moment, Silent
 from ._trials import Answer, Plan, Text, Trial
 from ._windows import Aborted, Simulated, Window, meant
@@ -205,21 +205,15 @@ class Experiment:
                     self.mark(*marks.get_nowait())
 
     def _report(self, trial: Trial) -> None:
+        block, fit = trial.block, ""
         history = [(event["level"], event["outcome"]) for event in self._trials
-                   if event["block"] == trial.block.name and event["kind"] == "main" and event["outcome"] is not None]
-        last = {key: self._trials[-1][key] for key in ("number", "answer", "outcome")} if self._trials else {}
-        self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": trial.block.name,
-                            "kind": trial.kind, "trial": trial.number, "done": len(self._trials), "left": self.plan.left(),
-                            "level": with_unit(trial.level, trial.block.varies.unit), "last": last, "health": self.stage.health(),
-                            "history": history, "fit": self._running_fit(trial.block, history)})
-
-    def _running_fit(self, block: Block, history: List[Tuple[float, float]]) -> str:
-        data = np.array(history).reshape(-1, 2)
-        if len(data) < 10 or block.task in ("magnitude", "adjust", "match") or isinstance(self.window, Simulated):
-            return ""
-        try:
-            fit = psychometric(data[:, 0], data[:, 1], guess=block.guess_rate, method="posterior")
-        except Error:   # one level so far
-            return ""
-        low, high = fit.threshold_interval
-        return f"threshold {with_unit(fit.threshold, block.varies.unit)} ({low:.4g} to {high:.4g}), all conditions together"
+                   if event["block"] == block.name and event["kind"] == "main" and event["outcome"] is not None]
+        if len(history) >= 10 and trial.expected and not isinstance(self.window, Simulated):
+            with contextlib.suppress(Error):   # one level so far
+                found = psychometric(*np.array(history).T, guess=block.guess_rate, method="posterior")
+                low, high = found.threshold_interval
+                fit = f"threshold {with_unit(found.threshold, block.varies.unit)} ({low:.4g} to {high:.4g}), all conditions together"
+        self.window.report({"name": self.protocol.name, "participant": self.participant, "session": self.session, "block": block.name, "kind": trial.kind,
+                            "trial": trial.number, "done": len(self._trials), "left": self.plan.left(), "level": with_unit(trial.level, block.varies.unit),
+                            "last": {key: self._trials[-1][key] for key in ("number", "answer", "outcome")} if self._trials else {},
+                            "health": self.stage.health(), "history": history, "fit": fit})

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import queue
 import secrets
@@ -94,10 +95,9 @@ class Receiver:
 
     def answer(self) -> Optional[str]:
         """The oldest answer that was not taken yet; None if there is none."""
-        try:
+        with contextlib.suppress(queue.Empty):
             return self.answers.get_nowait()
-        except queue.Empty:
-            return None
+        return None
 
     def close(self) -> None:
         """Ends the thread."""
