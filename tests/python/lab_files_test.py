@@ -35,8 +35,8 @@ class Writers(TestCase):
             self.assertEqual([row[2] for row in rows[1:]], TEXTS)
             self.assertEqual(json.loads((self.folder / "x.json").read_text()),
                              {"SamplingFrequency": 1000.0, "graph": "abc", "t": {"Units": "s"}, "motor.force.x": {"Units": "N"}})
-        lab.Table({"a": [math.nan, 1.5]}).write(self.folder / "n.tsv")
-        self.assertEqual((self.folder / "n.tsv").read_text(), "a\nn/a\n1.5\n")
+        lab.Table({"a": [math.nan, None, 1.5]}).write(self.folder / "n.tsv")
+        self.assertEqual((self.folder / "n.tsv").read_text(), "a\nn/a\nn/a\n1.5\n")
 
     @unittest.skipUnless(has("h5py"), "h5py is not installed")
     def test_hdf5_is_read_by_h5py(self):

@@ -22,7 +22,6 @@ from .._views import html_table
 
 Function = Literal["logistic", "normal", "weibull"]
 _CLIP = 1e-12   # chances of 0 and 1 have no likelihood
-_MOST_LAPSE = 0.06
 _erfc = np.vectorize(math.erfc, otypes=[float])
 
 
@@ -128,7 +127,7 @@ class _Likelihood:
             self.low, self.high = np.log([low / 5.0 if low > 0.0 else span / 1e3, 0.05]), np.log([high * 5.0, 60.0])
         else:
             self.low, self.high = np.array([low - 2.0 * span, math.log(span / 300.0)]), np.array([high + 2.0 * span, math.log(6.0 * span)])
-        self.lapses = np.array([lapse]) if lapse is not None else np.linspace(0.0, min(_MOST_LAPSE, 0.99 - guess), 9)
+        self.lapses = np.array([lapse]) if lapse is not None else np.linspace(0.0, min(0.06, 0.99 - guess), 9)
         self.middle = math.log(3.0 if function == "weibull" else span / 6.0)   # of the prior of the log width
 
     def logs(self, thresholds: Array, widths: Array, lapses: Array) -> Array:

@@ -33,9 +33,8 @@ class SessionData:
         units = {block.varies.unit for block in protocol.blocks}
         of_levels = {"level": units.pop()} if len(units) == 1 else {}   # blocks may vary different things
         self.trials = _table([self._trial_row(event, onset) for event, onset in self._timed("trial")], {**_TRIAL_UNITS, **of_levels}, about)
-        self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a",
-                               "code": _number(event.get("code")), "tick": _number(event["tick"]), "wall": event["wall"], "monotonic": event["monotonic"]}
-                              for event, onset in self._timed("mark")], _EVENT_UNITS, about)
+        self.events = _table([{"onset": onset, "duration": 0.0, "trial_type": event["name"], "value": event["value"] or "n/a", "code": event.get("code"),
+                               **{key: event[key] for key in ("tick", "wall", "monotonic")}} for event, onset in self._timed("mark")], _EVENT_UNITS, about)
 
     def _timed(self, kind: str) -> Iterator[Tuple[_journal.Event, float]]:
         """The events of a kind, with the time since the session began, in s. It is taken from the monotonic clock within a run, which may begin anew
@@ -52,9 +51,9 @@ class SessionData:
         return {"onset": onset, "duration": event["end"]["monotonic"] - begin["monotonic"],
                 **{key: event[key] for key in ("number", "block", "kind", "condition", "track", "level")},
                 "intervals": " ".join(map(repr, event["intervals"])), "expected": event["expected"] or "n/a",
-                "answer": "n/a" if event["answer"] is None else str(event["answer"]), "outcome": _number(event["outcome"]),
+                "answer": "n/a" if event["answer"] is None else str(event["answer"]), "outcome": event["outcome"],
                 "response_time": event["response_time"], "guard": " ".join(event["guard"]) or "n/a", "guard_count": len(event["guard"]),
-                "tick": _number(begin["tick"]), "begin_wall": begin["wall"], "begin_monotonic": begin["monotonic"]}
+                "tick": begin["tick"], "begin_wall": begin["wall"], "begin_monotonic": begin["monotonic"]}
 
     def write(self, *formats: str) -> List[pathlib.Path]:
         """Writes _beh.tsv (trials) and _events.tsv with sidecars, and the same in further formats: "csv", "h5", "mat", "xdf". They are made from the journal,
@@ -121,10 +120,6 @@ class SessionData:
     def _repr_html_(self) -> str:
         state = "complete" if self.is_complete else "not complete"
         return f"<p>{self.stem}: {self.trials.rows} trials, {state}</p>{self.trials._repr_html_()}"
-
-
-def _number(value: Optional[float]) -> float:
-    return math.nan if value is None else value
 
 
 def _table(rows: List[Dict[str, Any]], units: Dict[str, str], about: Dict[str, Any]) -> Table:

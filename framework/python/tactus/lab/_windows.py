@@ -17,7 +17,6 @@ from ._protocol import ANSWERS
 from ._stages import Marks, Moment, Silent
 from ._trials import Answer, Trial
 
-
 Hand = Callable[[], Answer]   # the answer of the hand or by OSC at this moment
 
 

@@ -25,13 +25,13 @@ Column = Any   # an array of numbers, or a list of texts
 
 
 class Table(Dict[str, Column]):
-    """Columns of one length by name: arrays of shape (n,), or lists of texts. units: SI units of columns. about: what else is known, for the sidecar.
-    rate_hz: of rows that are ticks, 0 otherwise."""
+    """Columns of one length by name: arrays of shape (n,), or lists of texts. None among numbers is not a number. units: SI units of columns. about: what else
+    is known, for the sidecar. rate_hz: of rows that are ticks, 0 otherwise."""
 
     def __init__(self, columns: Mapping[str, Column], units: Optional[Mapping[str, str]] = None, about: Optional[Mapping[str, Any]] = None,
                  rate_hz: float = 0.0):
-        super().__init__({name: values if isinstance(values, list) and any(isinstance(v, str) for v in values) else np.asarray(values)
-                          for name, values in columns.items()})
+        super().__init__({name: values if isinstance(values, list) and any(isinstance(v, str) for v in values) else
+                          np.array(values, float) if isinstance(values, list) and None in values else np.asarray(values) for name, values in columns.items()})
         self.units, self.about, self.rate_hz = dict(units or {}), dict(about or {}), rate_hz
         lengths = {len(values) for values in self.values()}
         if len(lengths) > 1:
