@@ -281,7 +281,7 @@ TEST_CASE ("a live version without a port that is wired is refused by the graph,
 
     CHECK_FALSE (hasErrors (live.replace (save (replaced (code, "2.0 * v", "3.0 * v")))));
     live.scale.largest_step = 0.0;
-    live.tick (100);
+    live.tick (static_cast<int> (Bumpless::rise_s * rate_hz) + 1);
     CHECK (live.scale.force == Approx (1.5 * force));
     CHECK (live.scale.largest_step < 0.1 * force);
 }

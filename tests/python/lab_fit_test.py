@@ -57,6 +57,8 @@ class Fits(TestCase):
         residuals = YES - 40 * fit(LEVELS)
         self.assertLess(abs(residuals.sum()), 1e-4)
         self.assertLess(abs(residuals @ LEVELS), 1e-3)
+        parts = [y * math.log(y / (40 * p)) + (40 - y) * math.log((40 - y) / (40 - 40 * p)) for y, p in zip(YES, fit(LEVELS))]
+        self.assertAlmostEqual(fit.deviance, 2 * sum(parts), 8)
 
     def test_threshold_width_and_deviance_are_those_of_psyphy(self):
         """psyphy 0.2-3 of R (Debian: r-cran-psyphy): glm (cbind (k, n - k) ~ x, binomial (mafc.logit (2))), and mafc.probit, mafc.weib over log (x)."""
