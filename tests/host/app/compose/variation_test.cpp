@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -64,6 +65,19 @@ graph::Graph loud (double newtons)
     s.node ("a", "signal.constant", { { "value", newtons } }).node ("motor", "device.force").wire ("a.out -> motor.force.z");
     return s.graph;
 }
+
+/// Stores two snapshots that differ by one number, and returns the morph between them, and the file before it.
+std::pair<Morph, std::string> morphOver (graph::History& h, graph::Command change)
+{
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, std::move (change));
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    auto made = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE (made);
+    CHECK (made->params == 1);
+    CHECK (made->left_out == 0);
+    return { std::move (*made), writeGraph (h.graph()) };
+}
 }   // namespace
 
 TEST_CASE ("a morph moves the numbers from one snapshot to another on a line, and one undo takes it away", "[snapshots]")
@@ -72,22 +86,15 @@ TEST_CASE ("a morph moves the numbers from one snapshot to another on a line, an
     s.node ("wall", "deform.plane", { { "stiffness", "1 N/mm" } }).node ("hand", "device.position").wire ("hand.position -> wall.position");
     s.wire ("wall.force -> motor.force");
     graph::History h (s.graph);
-    mustPerform (h, storeSnapshot (h.graph(), 1));
-    mustPerform (h, graph::SetParam { "", "wall", "stiffness", Json ("3 N/mm") });
-    mustPerform (h, storeSnapshot (h.graph(), 2));
-    const auto before = writeGraph (h.graph());
-    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
-    REQUIRE (made);
-    CHECK (made->params == 1);
-    CHECK (made->left_out == 0);
+    const auto [made, before] = morphOver (h, graph::SetParam { "", "wall", "stiffness", Json ("3 N/mm") });
     const auto steps = h.position();
-    mustPerform (h, made->command);
+    mustPerform (h, made.command);
     CHECK (h.position() == steps + 1);
     CHECK (h.names().back() == "morph from snapshot 1 to 2");
     CHECK (readGraph (writeGraph (h.graph())).messages.empty());
     for (const double at : { 0.0, 0.25, 1.0 })
     {
-        auto c = *std::ranges::find (h.graph().controls, made->control, &graph::Control::id);
+        auto c = *std::ranges::find (h.graph().controls, made.control, &graph::Control::id);
         c.value = at;
         mustPerform (h, graph::ChangeControl { c.id, c });
         CHECK (valueIn (h.graph(), "wall", "stiffness") == Approx (1000.0 + 2000.0 * at));
@@ -124,20 +131,13 @@ TEST_CASE ("a morph moves what knobs have set, takes their place, and follows th
     knob.to = { { "a.value", 0.0, "4 N" } };
     g.controls.push_back (knob);
     graph::History h (g);
-    mustPerform (h, storeSnapshot (h.graph(), 1));
     knob.value = 0.75;
-    mustPerform (h, graph::ChangeControl { "push", knob });
-    mustPerform (h, storeSnapshot (h.graph(), 2));
-    const auto before = writeGraph (h.graph());
-    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
-    REQUIRE (made);
-    CHECK (made->params == 1);
-    CHECK (made->left_out == 0);
-    CHECK (made->replaced == std::vector<std::string> { "push" });
+    const auto [made, before] = morphOver (h, graph::ChangeControl { "push", knob });
+    CHECK (made.replaced == std::vector<std::string> { "push" });
     auto other = h.graph();
     other.controls[0].id = other.controls[0].name = "late";
     CHECK (laterControls (other, 1) == std::vector<std::string> { "late" });
-    mustPerform (h, made->command);
+    mustPerform (h, made.command);
     REQUIRE (h.graph().controls.size() == 1);
     const auto now = [&] { return controlOf (h.graph(), "a.value")->value; };
     CHECK (now() == Approx (1.0));
