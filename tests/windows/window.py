@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Drives tactus-host.exe in wine with mouse and keyboard: window.py TACTUS BIN WINE GRAPHS WORK. Arguments as for presets.py.
 
-It plays Dry wood with the mouse, and `tactus probe` on Linux reads the force over OSC; it stops, changes a parameter, saves, opens a preset and a file
-with another name, is killed with an edit that is not saved, and gets it back. Pictures are in WORK/window."""
+It plays Dry wood with the mouse, and `tactus probe` on Linux reads the force over OSC; it stops, also while the thread of the window hangs, changes a
+parameter, saves, opens a preset and a file with another name, is killed with an edit that is not saved, and gets it back. Pictures are in WORK/window."""
 
 import json
 import os
@@ -26,10 +26,10 @@ def there(path):
 
 
 class InWine(Walk):
-    def __init__(self, wine, exe, out):
+    def __init__(self, tactus, wine, exe, out):
         out.mkdir(parents=True, exist_ok=True)
         super().__init__(str(exe), out, "1600x1000", "dark")
-        self.wine = wine
+        self.tactus, self.wine, self.folder = tactus, wine, exe.parent
         self.environment.update(TACTUS_HOME=there(self.home / "settings"), HOME=os.environ["HOME"])
         restart(wine, self.environment)   # on this screen
 
@@ -64,6 +64,33 @@ def value(file, node, param):
     return json.loads(file.read_text())["nodes"][node]["params"][param]
 
 
+def stop_while_it_hangs(w):
+    """Stops by Esc and by STOP, while the thread of the window hangs: the thread of the ticks, which has waited most often, ends."""
+    tasks = pathlib.Path(f"/proc/{w.program.pid}/task")
+
+    def waits():
+        return {task.name: int((task / "status").read_text().split("\nvoluntary_ctxt_switches:")[1].split()[0]) for task in tasks.iterdir()}
+
+    for stop in ("escape", "click"):
+        w.key("F5")   # START takes no click within a second after a stop
+        w.wait(lambda: w.has("STOP"), "the start")
+        if stop == "click":
+            stop = "click {} {}".format(*w.at("STOP"))
+        hung = subprocess.Popen([w.wine, w.folder / "hung.exe"], env=w.environment, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        said = hung.stdout.readline()
+        assert said == "hung\n", said
+        before = waits()
+        assert force(w.tactus) is None, "the window that hangs answers"   # also, some time passes
+        after = waits()
+        ticks = max(after, key=lambda task: after[task] - before.get(task, 0))
+        assert after[ticks] - before.get(ticks, 0) > 50, "while the window hangs, nothing ticks"
+        hung.stdin.write(stop + "\n")
+        hung.stdin.flush()
+        w.wait(lambda: not (tasks / ticks).exists(), f"{stop}: a stop while the window hangs")
+        hung.communicate()
+        w.wait(lambda: w.has("START"), "a window that goes on")
+
+
 def walk(w, tactus, graphs):
     mine = w.home / "Brettchen ж 😀.json"
     shutil.copy(graphs / "dry_wood.json", mine)
@@ -86,6 +113,7 @@ def walk(w, tactus, graphs):
     w.wait(lambda: w.has("STOP"), "the start")
     w.click("STOP")
     w.wait(lambda: w.has("START"), "a stop by the mouse")
+    stop_while_it_hangs(w)
 
     before = value(mine, "board", "damping")
     damping = w.at("board.damping value")
@@ -124,7 +152,7 @@ def walk(w, tactus, graphs):
 
 def main():
     tactus, folder, wine, graphs, work = sys.argv[1], *map(pathlib.Path, sys.argv[2:6])
-    w = InWine(str(wine), folder / "tactus-host.exe", work / "window")
+    w = InWine(tactus, str(wine), folder / "tactus-host.exe", work / "window")
     try:
         walk(w, tactus, graphs)
     except (SystemExit, AssertionError):
@@ -132,7 +160,7 @@ def main():
         raise
     finally:
         w.end()
-    print("the window plays Dry wood by the mouse, stops, saves, opens, and recovers after kill -9")
+    print("the window plays Dry wood by the mouse, stops, also while it hangs, saves, opens, and recovers after kill -9")
 
 
 if __name__ == "__main__":
