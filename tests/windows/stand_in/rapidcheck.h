@@ -63,6 +63,7 @@ private:
 template <typename T>
 struct Arbitrary
 {
+    static_assert (std::is_arithmetic_v<T>, "the stand-in for RapidCheck draws no values of this type");
     static T draw()
     {
         auto& now = Case::now();
@@ -89,6 +90,18 @@ struct Arbitrary<std::string>
         std::string drawn (Case::now().below (static_cast<std::uint64_t> (Case::now().size) + 1), ' ');
         for (auto& c : drawn)
             c = static_cast<char> (Arbitrary<unsigned char>::draw());
+        return drawn;
+    }
+};
+
+template <typename T>
+struct Arbitrary<std::vector<T>>
+{
+    static std::vector<T> draw()
+    {
+        std::vector<T> drawn;
+        for (auto left = Case::now().below (static_cast<std::uint64_t> (Case::now().size) + 1); left > 0; --left)
+            drawn.push_back (Arbitrary<T>::draw());
         return drawn;
     }
 };
