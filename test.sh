@@ -66,7 +66,7 @@ case $mode in --long|--site) packages+=(chromium chromium-driver python3-seleniu
 [ "$mode" = --figures ] && packages+=(valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg sox fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
-[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix wine64 xauth imagemagick)
+[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix lld-14 wine64 xauth imagemagick)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
 
