@@ -261,20 +261,22 @@ inline std::string whyNot (const std::function<void()>& body)
     auto& now = Case::now();
     const auto size_before = now.size;
     std::string why;
-    std::uint64_t discarded = 0;
+    std::uint64_t discarded = 0, in_turn = 0;   // the latter makes inputs larger, as in RapidCheck: the smallest may all be discarded
     for (std::uint64_t done = 0, number = 0; done < count && why.empty(); ++number)
     {
         std::seed_seq seeds { seed, number };
         now.random.seed (seeds);
-        now.size = static_cast<int> (count > 1 ? largest * done / (count - 1) : largest);
+        now.size = static_cast<int> (count > 1 ? std::min (largest, largest * done / (count - 1) + in_turn / 10) : largest);
         now.log.str ({});
         try
         {
             body();
             ++done;
+            in_turn = 0;
         }
         catch (const Discarded&)
         {
+            ++in_turn;
             if (++discarded > 10 * count) why = "gave up: too many inputs are discarded";
         }
         catch (const Failed& failed)
