@@ -3,7 +3,8 @@
 """Drives tactus-host.exe in wine with mouse and keyboard: window.py TACTUS BIN WINE GRAPHS WORK. Arguments as for presets.py.
 
 It plays Dry wood with the mouse, and `tactus probe` on Linux reads the force over OSC; it stops, also while the thread of the window hangs, changes a
-parameter, saves, opens a preset and a file with another name, is killed with an edit that is not saved, and gets it back. Pictures are in WORK/window."""
+parameter, saves, opens a preset and a file with another name, is killed with an edit that is not saved, and gets it back. All this on a screen with the
+usual resolution, and on one with twice as many pixels for each length. Pictures are in WORK/window."""
 
 import json
 import os
@@ -26,11 +27,15 @@ def there(path):
 
 
 class InWine(Walk):
-    def __init__(self, tactus, wine, exe, out):
+    """The window on a screen with `scale` times 96 dots per inch."""
+
+    def __init__(self, tactus, wine, exe, out, scale):
         out.mkdir(parents=True, exist_ok=True)
-        super().__init__(str(exe), out, "1600x1000", "dark")
-        self.tactus, self.wine, self.folder = tactus, wine, exe.parent
+        super().__init__(str(exe), out, f"{1600 * scale}x{1000 * scale}", "dark")
+        self.tactus, self.wine, self.folder, self.scale = tactus, wine, exe.parent, scale
         self.environment.update(TACTUS_HOME=there(self.home / "settings"), HOME=os.environ["HOME"])
+        subprocess.run([wine, "reg", "add", "HKCU\\Control Panel\\Desktop", "/v", "LogPixels", "/t", "REG_DWORD", "/d", str(96 * scale), "/f"], check=True,
+                       capture_output=True)
         restart(wine, self.environment)   # on this screen
 
     def start(self, *arguments):
@@ -47,6 +52,20 @@ class InWine(Walk):
     def save(self, is_saved):
         """Ctrl+S, and again if the window, which may have just started, has lost it."""
         self.wait(lambda: is_saved() or self.key("ctrl+s") or is_saved(), "the file with the change")
+
+    def places(self):
+        """In pixels; the program does not know of them."""
+        def scaled(at):
+            if isinstance(at, dict):
+                return {name: scaled(place) for name, place in at.items()}
+            return [self.scale * pixel for pixel in at]
+        return scaled(super().places())
+
+    def stroke(self):
+        """Presses on the surface, and moves there."""
+        x, y = self.at("Surface")
+        self.press([x - 60 * self.scale, y])
+        self.glide([x - 60 * self.scale, y], [x + 20 * self.scale, y])
 
     def title(self):
         found = subprocess.run(["xdotool", "search", "--name", "Tactus$", "getwindowname"], env=self.environment, capture_output=True, text=True, check=False)
@@ -98,9 +117,7 @@ def walk(w, tactus, graphs):
     w.wait(lambda: w.has("drag.mu value") and w.has("STOP"), "a graph that runs")
     assert "Dry wood" in w.title(), w.title()
 
-    surface = w.at("Surface")
-    w.press([surface[0] - 60, surface[1]])
-    w.glide([surface[0] - 60, surface[1]], [surface[0] + 20, surface[1]])
+    w.stroke()
     w.shot("stroke")
     felt = force(tactus)
     assert felt is not None and felt > 0.1, f"the tool presses on the wood, and the force is {felt} N"
@@ -117,7 +134,7 @@ def walk(w, tactus, graphs):
 
     before = value(mine, "board", "damping")
     damping = w.at("board.damping value")
-    w.drag(damping, [damping[0], damping[1] - 30])
+    w.drag(damping, [damping[0], damping[1] - 30 * w.scale])
     w.save(lambda: value(mine, "board", "damping") != before)
     assert b"\r" not in mine.read_bytes()
     subprocess.run([tactus, "validate", mine], check=True, stdout=subprocess.DEVNULL)
@@ -125,7 +142,7 @@ def walk(w, tactus, graphs):
 
     saved = mine.read_bytes()
     damping = w.at("board.damping value")
-    w.drag(damping, [damping[0], damping[1] + 20])
+    w.drag(damping, [damping[0], damping[1] + 20 * w.scale])
     recovery = w.home / "settings"
     w.wait(lambda: any("damping" in f.read_text(errors="replace") for f in recovery.rglob("*.json") if "session" in str(f)), "the recovery file")
     w.kill()
@@ -152,15 +169,16 @@ def walk(w, tactus, graphs):
 
 def main():
     tactus, folder, wine, graphs, work = sys.argv[1], *map(pathlib.Path, sys.argv[2:6])
-    w = InWine(tactus, str(wine), folder / "tactus-host.exe", work / "window")
-    try:
-        walk(w, tactus, graphs)
-    except (SystemExit, AssertionError):
-        w.shot("failed")
-        raise
-    finally:
-        w.end()
-    print("the window plays Dry wood by the mouse, stops, also while it hangs, saves, opens, and recovers after kill -9")
+    for scale in (2, 1):   # wine keeps the last one
+        w = InWine(tactus, str(wine), folder / "tactus-host.exe", work / "window", scale)
+        try:
+            walk(w, tactus, graphs)
+        except (SystemExit, AssertionError):
+            w.shot("failed")
+            raise
+        finally:
+            w.end()
+        print(f"at {96 * scale} dpi, the window plays Dry wood by the mouse, stops, also while it hangs, saves, opens, and recovers after kill -9", flush=True)
 
 
 if __name__ == "__main__":
