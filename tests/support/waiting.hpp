@@ -11,7 +11,14 @@ namespace tactus::test
 {
 
 /// At least this time passes. For a fake with a pace of its own, and for code that counts wall time. What is tested may not depend on how much more passes.
-inline void letPass (std::chrono::nanoseconds least) { std::this_thread::sleep_for (least); }
+inline void letPass (std::chrono::nanoseconds least)
+{
+#if defined(_WIN32)
+    std::this_thread::sleep_for (std::chrono::ceil<std::chrono::milliseconds> (least));   // mingw leaves out what is less than a millisecond
+#else
+    std::this_thread::sleep_for (least);
+#endif
+}
 
 /// The wall time of something: to print it, to compare it with another one of the same run, or to know how much has passed at least.
 class Stopwatch
