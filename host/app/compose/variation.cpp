@@ -7,6 +7,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -40,6 +40,18 @@ graph::Graph at (graph::Graph g, int snapshot)
 {
     if (const auto recalled = recallSnapshot (g, snapshot)) static_cast<void> (graph::apply (g, *recalled));
     return g;
+}
+
+/// Removes controls, whose parameters keep their values.
+graph::Command withoutControls (graph::Graph g, const std::vector<std::string>& ids, const Catalogue& catalogue)
+{
+    graph::Batch all { {}, {} };
+    for (const auto& id : ids)
+    {
+        all.commands.push_back (removeControl (g, id, catalogue));
+        static_cast<void> (graph::apply (g, all.commands.back()));
+    }
+    return all;
 }
 
 /// A length on both sides of 0 is a place, such as the offset of a wall. At random, it would be out of reach, or jump into the hand.
@@ -127,7 +139,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
                 const auto* m = other->find (n.name);
                 return m != nullptr && (m->params != n.params || m->overrides != n.overrides);
             }));
-    std::vector<graph::Command> ended;
+    std::vector<std::string> ended;
     Morph made;
     for (const auto& c : first.controls)
     {
@@ -140,7 +152,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
             ++left_out;
             continue;
         }
-        ended.push_back (graph::RemoveControl { c.id });
+        ended.push_back (c.id);
         made.replaced.push_back (c.name.empty() ? c.id : c.name);
     }
     if (control.to.empty())
@@ -155,8 +167,14 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
     control.value = 0.0;
     graph::Batch batch { filled (NEEDS_TRANS ("morph from snapshot %1 to %2"), from, to).toStdString(), {} };
     if (auto recalled = recallSnapshot (g, from)) batch.commands.push_back (std::move (*recalled));
-    std::ranges::move (ended, std::back_inserter (batch.commands));
-    batch.commands.push_back (graph::SetHeader { .ui = withControlIn (g, control.id, { { from, 0.0 }, { to, 1.0 } }) });
+    for (const auto& id : ended)
+        batch.commands.push_back (graph::RemoveControl { id });
+    auto ui = *g.extra.find ("ui");
+    auto& snapshots = ui["snapshots"];
+    if (! made.replaced.empty()) snapshots = snapshotsAfter (g, [&] (const graph::Graph& held) { return withoutControls (held, ended, catalogue); });
+    for (const auto& [number, end] : { std::pair { from, 0.0 }, std::pair { to, 1.0 } })
+        snapshots[std::to_string (number)]["controls"][control.id] = end;
+    batch.commands.push_back (graph::SetHeader { .ui = std::move (ui) });
     made.control = control.id;
     made.params = static_cast<int> (control.to.size());
     made.left_out = left_out;

@@ -5,6 +5,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -57,12 +58,12 @@ void drawLimitLight (juce::Graphics& g, juce::Rectangle<float> area, bool is_bro
         g.drawEllipse (area.reduced (area.getWidth() * 0.15f), area.getWidth() * 0.3f);
 }
 
-void LimitLight::show (const LimitList& list)
+void LimitLight::show (const LimitList& list, bool is_up_to_date)
 {
     setVisible (list.is_checked);
-    if (list == shown) return;
+    if (std::exchange (is_of_now, is_up_to_date) == is_up_to_date && list == shown) return;
     shown = list;
-    setTooltip (tooltipOf (shown));
+    setTooltip (is_of_now ? tooltipOf (shown) : TRANS ("The limits are being checked. Before the latest change:") + "\n\n" + tooltipOf (shown));
     setTitle (getTooltip());
     repaint();
 }
@@ -73,16 +74,16 @@ void LimitLight::paintButton (juce::Graphics& g, bool over, bool)
     const auto& theme = look.theme();
     auto area = getLocalBounds().toFloat();
     const auto lamp = juce::Rectangle<float> (10.0f, 10.0f).withCentre ({ area.getX() + 11.0f, area.getCentreY() });
-    if (shown.limits.empty())
+    if (shown.limits.empty() || ! is_of_now)
     {
-        g.setColour (! shown.unjudged.empty() ? theme.dim : theme.of (Quantity::energy).withMultipliedAlpha (0.6f));
+        g.setColour (! is_of_now || ! shown.unjudged.empty() ? theme.dim : theme.of (Quantity::energy).withMultipliedAlpha (0.6f));
         g.fillEllipse (lamp);
     }
     else
         drawLimitLight (g, lamp, shown.broken() > 0, theme);
     g.setColour (over || ! shown.limits.empty() ? theme.text : theme.dim);
     g.setFont (look.font (13.0f));
-    g.drawText (labelOf (shown), area.withTrimmedLeft (24.0f), juce::Justification::centredLeft, false);
+    g.drawText (is_of_now ? labelOf (shown) : TRANS ("checking limits"), area.withTrimmedLeft (24.0f), juce::Justification::centredLeft, false);
 }
 
 }   // namespace tactus::host

@@ -24,12 +24,14 @@ public:
         setMouseClickGrabsKeyboardFocus (false);
     }
 
-    void show (const LimitList&);
+    /// The list of an earlier state is not shown as a verdict: until the new one is there, the light says that it is being checked.
+    void show (const LimitList&, bool is_up_to_date = true);
 
     void paintButton (juce::Graphics&, bool over, bool down) override;
 
 private:
     LimitList shown;
+    bool is_of_now = true;
 };
 
 /// Draws a light for a limit: a red disc if it is broken, an amber ring if it is near.

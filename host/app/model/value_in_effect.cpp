@@ -4,6 +4,7 @@
 #include "param_value.hpp"
 #include "quantity_text.hpp"
 
+#include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
@@ -107,12 +108,22 @@ graph::Graph withValuesInEffect (const graph::Graph& g, const SeenPatch& seen, c
 
 graph::Command removeControl (const graph::Graph& g, const std::string& id, const Catalogue& catalogue)
 {
-    const graph::RemoveControl removal { id };
-    graph::Batch all { graph::nameOf (removal), { removal } };
-    auto kept = g;
-    if (const auto* control = findControl (g, id))
-        for (const auto& t : control->to)
-            keep (kept, *control, t, t.path, catalogue, all.commands);
+    const auto removalFrom = [&] (const graph::Graph& from) {
+        const graph::RemoveControl removal { id };
+        graph::Batch all { graph::nameOf (removal), { removal } };
+        auto kept = from;
+        if (const auto* control = findControl (from, id))
+            for (const auto& t : control->to)
+                keep (kept, *control, t, t.path, catalogue, all.commands);
+        return all;
+    };
+    auto all = removalFrom (g);
+    if (auto snapshots = snapshotsAfter (g, removalFrom); snapshots.is_object())
+    {
+        auto ui = *g.extra.find ("ui");
+        ui["snapshots"] = std::move (snapshots);
+        all.commands.push_back (graph::SetHeader { .ui = std::move (ui) });
+    }
     return all;
 }
 

@@ -21,7 +21,7 @@ std::optional<double> valueInEffect (const graph::Graph&, const std::string& add
 /// The graph with the values in effect stored in the nodes of a patch, so that a copy of them feels the same.
 graph::Graph withValuesInEffect (const graph::Graph&, const SeenPatch&, const Catalogue&);
 
-/// Removes a control. Its parameters keep what it sets them to.
+/// Removes a control. Its parameters keep what it sets them to, and in each snapshot what it set them to there.
 graph::Command removeControl (const graph::Graph&, const std::string& control, const Catalogue&);
 
 /// Removes a target from a control. Its parameter keeps what the control sets it to. Empty if there is no such target.

@@ -97,7 +97,7 @@ graph::Command withNamesKept (const graph::Graph& before, graph::Command command
     if (! graph::apply (after, command) || ! after.extra.contains ("ui")) return command;
     auto ui = after.extra["ui"];
     if (! ui.is_object()) return command;
-    if (auto snapshots = snapshotsAfter (before, command); snapshots.is_object()) ui["snapshots"] = std::move (snapshots);
+    if (auto snapshots = snapshotsAfter (before, [&] (const auto&) { return command; }); snapshots.is_object()) ui["snapshots"] = std::move (snapshots);
     if (const auto sources = ui.find ("sources"); sources != ui.end() && sources->is_object()) *sources = sourcesAfter (before, after, *sources);
     if (ui == after.extra["ui"]) return command;
 

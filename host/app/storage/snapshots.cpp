@@ -117,14 +117,6 @@ graph::Command storeSnapshot (const graph::Graph& g, int number)
     return graph::Batch { filled (TRANS ("store snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
 }
 
-Json withControlIn (const graph::Graph& g, const std::string& control, const std::vector<std::pair<int, double>>& values)
-{
-    Json ui = at (g.extra, "ui");
-    for (const auto& [number, value] : values)
-        ui["snapshots"][std::to_string (number)]["controls"][control] = value;
-    return ui;
-}
-
 graph::Command clearSnapshot (const graph::Graph& g, int number)
 {
     Json ui = at (g.extra, "ui");
@@ -174,7 +166,7 @@ std::vector<std::string> laterControls (const graph::Graph& g, int number)
     return names;
 }
 
-Json snapshotsAfter (const graph::Graph& before, const graph::Command& command)
+Json snapshotsAfter (const graph::Graph& before, const std::function<graph::Command (const graph::Graph&)>& commandFor)
 {
     auto all = at (at (before.extra, "ui"), "snapshots");
     for (int number = 1; number <= snapshot_count; ++number)
@@ -189,16 +181,15 @@ Json snapshotsAfter (const graph::Graph& before, const graph::Command& command)
 
         // The command changes the values of the snapshot as it changes those of the graph.
         auto held = before;
+        std::erase_if (held.controls, [&] (const graph::Control& c) { return ! at (then, "controls").contains (c.id); });   // it does not hold what they set
         if (const auto recalled = recallSnapshot (before, number); recalled && ! graph::apply (held, *recalled, graph::Checks::none)) continue;
-        if (! graph::apply (held, command, graph::Checks::none)) continue;
+        if (! graph::apply (held, commandFor (held), graph::Checks::none)) continue;
         auto values = valuesOf (held);
         forEachPatch (held, [&] (const std::string& name, const graph::Patch& patch) {
             auto& nodes = name.empty() ? values["nodes"] : values["graphs"][name];
             for (const auto& n : patch.nodes)
                 if (others.contains (n.id)) nodes.erase (n.name);
         });
-        for (const auto& c : before.controls)
-            if (! at (then, "controls").contains (c.id)) values["controls"].erase (c.id);
         all[std::to_string (number)] = std::move (values);
     }
     return all;

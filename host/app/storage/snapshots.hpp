@@ -3,9 +3,9 @@
 
 #include <tactus/graph/edit.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -20,9 +20,6 @@ bool hasSnapshot (const graph::Graph&, int number);   ///< 1…9
 /// Stores the current values. One undo step.
 graph::Command storeSnapshot (const graph::Graph&, int number);
 
-/// `ui` with the value of a control in the snapshots of these numbers, which must exist.
-Json withControlIn (const graph::Graph&, const std::string& control, const std::vector<std::pair<int, double>>& values);
-
 /// Empties a snapshot. One undo step.
 graph::Command clearSnapshot (const graph::Graph&, int number);
 
@@ -35,9 +32,10 @@ std::vector<std::string> missingNodes (const graph::Graph&, int number);
 /// The names of the controls that a snapshot does not hold, because they were added later: what they set stays when it is recalled.
 std::vector<std::string> laterControls (const graph::Graph&, int number);
 
-/// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes: each snapshot goes on holding the same
-/// nodes, under their new names. Null if there are no snapshots.
-Json snapshotsAfter (const graph::Graph& before, const graph::Command&);
+/// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes, or removes a control: each snapshot goes on holding the
+/// same nodes, under their new names, and the values that it held by the control. `commandFor` returns the command for the graph with the values of a
+/// snapshot. Null if there are no snapshots.
+Json snapshotsAfter (const graph::Graph& before, const std::function<graph::Command (const graph::Graph&)>& commandFor);
 
 /// True if the snapshot exists, and all values are those that it holds, so that recalling it would change nothing.
 bool isAtSnapshot (const graph::Graph&, int number);

@@ -207,7 +207,7 @@ void MainView::timerCallback()
     parts.inspector.refreshLive();
     parts.limits.poll();
     pollLiveNodes();
-    strip.limitLight().show (parts.limits.list());
+    strip.limitLight().show (parts.limits.list(), parts.limits.isUpToDate());
     parts.inspector.showLimits (parts.limits.list().contacts);
     parts.files.poll();
     beginnings.poll();

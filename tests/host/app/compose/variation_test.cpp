@@ -5,6 +5,7 @@
 #include <host/app/layers/mixer_parts.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/quantity_text.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/storage/snapshots.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -132,6 +133,11 @@ TEST_CASE ("a morph moves what knobs have set, takes their place, and follows th
     g.controls.push_back (knob);
     graph::History h (g);
     knob.value = 0.75;
+    auto other_knob = knob;
+    other_knob.value = 0.5;
+    mustPerform (h, graph::ChangeControl { "push", other_knob });
+    mustPerform (h, storeSnapshot (h.graph(), 3));
+    mustPerform (h, graph::ChangeControl { "push", g.controls[0] });
     const auto [made, before] = morphOver (h, graph::ChangeControl { "push", knob });
     CHECK (made.replaced == std::vector<std::string> { "push" });
     auto other = h.graph();
@@ -149,9 +155,38 @@ TEST_CASE ("a morph moves what knobs have set, takes their place, and follows th
     mustPerform (h, *recallSnapshot (h.graph(), 1));
     CHECK (now() == Approx (1.0));
     CHECK (readGraph (writeGraph (h.graph())).messages.empty());
-    for (int i = 0; i < 3; ++i)
+    mustPerform (h, removeControl (h.graph(), made.control, catalogue()));
+    for (const auto& [number, push] : { std::pair { 2, 3.0 }, std::pair { 3, 2.0 }, std::pair { 1, 1.0 } })
+    {
+        mustPerform (h, *recallSnapshot (h.graph(), number));
+        CHECK (valueIn (h.graph(), "a", "value") == Approx (push));
+    }
+    for (int i = 0; i < 7; ++i)
         h.undo();
     CHECK (writeGraph (h.graph()) == before);
+}
+
+TEST_CASE ("a control that is removed leaves each snapshot with the values that it held by it", "[snapshots]")
+{
+    auto g = loud (1.0);
+    graph::Control knob;
+    knob.id = "push";
+    knob.to = { { "a.value", 0.0, "4 N" } };
+    g.controls.push_back (knob);
+    graph::History h (g);
+    for (const auto& [number, value] : { std::pair { 1, 0.25 }, std::pair { 2, 0.75 } })
+    {
+        knob.value = value;
+        mustPerform (h, graph::ChangeControl { "push", knob });
+        mustPerform (h, storeSnapshot (h.graph(), number));
+    }
+    mustPerform (h, removeControl (h.graph(), "push", catalogue()));
+    CHECK (valueIn (h.graph(), "a", "value") == Approx (3.0));
+    mustPerform (h, *recallSnapshot (h.graph(), 1));
+    CHECK (valueIn (h.graph(), "a", "value") == Approx (1.0));
+    CHECK (isAtSnapshot (h.graph(), 1));
+    mustPerform (h, *recallSnapshot (h.graph(), 2));
+    CHECK (valueIn (h.graph(), "a", "value") == Approx (3.0));
 }
 
 TEST_CASE ("a recalled snapshot blends in without a step of the force", "[snapshots]")
