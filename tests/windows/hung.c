@@ -16,18 +16,20 @@ static BOOL CALLBACK find (HWND window, LPARAM found)
     return FALSE;
 }
 
-/* Suspends it where it waits, so that it holds no lock: there, it is at the same place twice. */
-static BOOL hang (HANDLE thread)
+/* Suspends it where it waits for messages, so that it holds no lock: it has answered one before, and is at the place where it was after others. */
+static BOOL hang (HANDLE thread, HWND window)
 {
-    DWORD64 last = 0;
+    DWORD64 places[3] = { 0 };
     for (int tries = 0; tries < 1000; ++tries)
     {
+        DWORD_PTR unused;
         CONTEXT at = { .ContextFlags = CONTEXT_CONTROL };
+        SendMessageTimeoutA (window, WM_NULL, 0, 0, 0, 5000, &unused);
+        Sleep (5);
         if (SuspendThread (thread) == (DWORD)-1 || ! GetThreadContext (thread, &at)) return FALSE;
-        if (at.Rip == last) return TRUE;
-        last = at.Rip;
+        if (at.Rip == places[0] && at.Rip == places[1] && at.Rip == places[2]) return TRUE;
+        places[tries % 3] = at.Rip;
         ResumeThread (thread);
-        Sleep (3);
     }
     return FALSE;
 }
@@ -58,7 +60,7 @@ int main (void)
     EnumWindows (find, (LPARAM)&window);
     const DWORD id = window != NULL ? GetWindowThreadProcessId (window, NULL) : 0;
     const HANDLE thread = OpenThread (THREAD_SUSPEND_RESUME | THREAD_GET_CONTEXT, FALSE, id);
-    if (thread == NULL || ! hang (thread))
+    if (thread == NULL || ! hang (thread, window))
     {
         printf ("no window hangs\n");
         return 1;
