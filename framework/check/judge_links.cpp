@@ -132,16 +132,17 @@ private:
         auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, at->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, most, 1.0, remedy);
-        if (c.verdict == Verdict::broken) closeLoop (c, loads);
         std::vector<const RoleDemand*> its;
         for (const auto m : members)
             its.push_back (&demand.roles[m]);
         constexpr double precision = 2e-3;
         const bool turns = std::ranges::any_of (demand.linked, [&] (const Linked& l) { return l.is_smooth && turnOf (of (l.settled)) > precision; });
+        if (turns) std::ranges::fill (loads, inf);   // no slope shows whether hands with unequal damping swing, if each pulls the other with another force
+        if (c.verdict == Verdict::broken || turns) closeLoop (c, loads);
         weigh (demand, options.trials, c, its, turns, false);
     }
 
-    /// Judges the loops of all hands together at the places that are not passive, exactly.
+    /// Judges the loops of all hands together at the places whose load is above 1, exactly.
     void closeLoop (Condition& c, std::span<const double> loads) const
     {
         if (! know (&DeviceNumbers::mass)) return noLoop (c);

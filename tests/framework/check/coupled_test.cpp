@@ -32,6 +32,22 @@ TEST_CASE ("two hands that are stable alone but explode together break 'coupling
     CHECK (test::brokenIds (all).substr (2) == ":coupling");
 }
 
+TEST_CASE ("hands of unequal damping that pull each other with unequal forces are judged by their loop", "[check]")
+{
+    Loops loops { .tools = { { .mass = 0.23, .damping = 0.2 }, { .mass = 0.02, .damping = 1.0 } } };
+    loops.ground ("h0.y", 1.0);
+    loops.ground ("h1.y", 8.1);
+    loops.wire ("h1_at.position.y", "h0_motor.force.y", "-1 N/m");   // the Jacobian has real eigenvalues, so it breaks no condition on a turning field
+    const auto explodes = GENERATE (false, true);
+    loops.wire ("h0_at.position.y", "h1_motor.force.y", explodes ? "17 N/m" : "2 N/m");
+    const double growth = loops.growth (20'000);
+    CHECK ((growth > 2.0) == explodes);
+    CHECK ((growth < 1.0) == ! explodes);
+    const auto all = loops.conditions();
+    INFO (test::describe (all));
+    CHECK (isJudgedUnstable (all) == explodes);
+}
+
 TEST_CASE ("two hands on a spring begin to swing where the sampled loop of both does, within 2 %", "[check]")
 {
     test::property ("masses, dampings, delays, rates", [] {
