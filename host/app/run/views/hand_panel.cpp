@@ -201,7 +201,7 @@ void HandPanel::choose()
     chosen_hand = {};
     if (id == by_pointer) chosen_hand = LiveRun::Hand::pointer();
     if (id >= first_gesture) chosen_hand = { LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (id - first_gesture)].id) };
-    playback.changeHand (chosen_hand);
+    playback.moveBy (chosen_hand);
 }
 
 std::vector<std::pair<juce::String, std::function<void()>>> HandPanel::choices()
@@ -328,7 +328,7 @@ bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return
 void HandPanel::filesDropped (const juce::StringArray& files, int, int)
 {
     chosen_hand = {};   // a recording belongs to this graph
-    playback.changeHand ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
+    playback.moveBy ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
 }
 
 void HandPanel::paint (juce::Graphics& g)

@@ -84,7 +84,7 @@ void HandView::steer (double x, double y, bool presses)
 /// `by_pointer` is of the last refresh, so with it each event until the next one would restart the run.
 void HandView::takeTool()
 {
-    if (pressed && playback.current().hand() != LiveRun::Hand::pointer()) playback.changeHand (LiveRun::Hand::pointer());
+    if (pressed && playback.current().hand() != LiveRun::Hand::pointer()) playback.moveBy (LiveRun::Hand::pointer());
 }
 
 void HandView::mouseMove (const juce::MouseEvent& e)
