@@ -139,6 +139,11 @@ private:
         const bool turns = std::ranges::any_of (demand.linked, [&] (const Linked& l) { return l.is_smooth && turnOf (of (l.settled)) > precision; });
         if (turns) std::ranges::fill (loads, inf);   // no slope shows whether hands with unequal damping swing, if each pulls the other with another force
         if (c.verdict == Verdict::broken || turns) closeLoop (c, loads);
+        if (turns && c.verdict == Verdict::passive)   // closeLoop() does not know the loop
+        {
+            c.verdict = Verdict::unknown;
+            c.remedy = "forces between the hands that pull each as much as the other, or sections that all run on every tick";
+        }
         weigh (demand, options.trials, c, its, turns, false);
     }
 

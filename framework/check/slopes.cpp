@@ -23,10 +23,9 @@ using MatrixXd = Jacobian;
 using Eigen::VectorXd;
 using Matrix = Eigen::Matrix3d;
 
-constexpr std::size_t least_hold = 24;        // ticks; longer than the window of motion.velocity
-constexpr std::size_t longest_watch = 264;    // ticks
-constexpr double narrowest = 2e-8;            // m; a change of force over less is a jump
-constexpr double shortest = 16 * narrowest;   // m; along less, a steady slope would have a good part of its change over the narrowest width
+constexpr std::size_t least_hold = 24;       // ticks; longer than the window of motion.velocity
+constexpr std::size_t longest_watch = 264;   // ticks
+constexpr double narrowest = 2e-8;           // m; a change of force over less is a jump
 
 Eigen::Index first (std::size_t role) noexcept { return static_cast<Eigen::Index> (3 * role); }
 
@@ -248,7 +247,7 @@ private:
     {
         constexpr double unexplained = 1.5;
         const VectorXd way = positionsAt (spot.to) - positionsAt (spot.from);
-        if (! (way.norm() > shortest)) return;
+        if (! (way.norm() > narrowest)) return;
         const auto start = pair.changeAt (spot.from);
         const VectorXd end = start + pair.changeAt (spot.to);
         const double change = (end - start).norm();

@@ -16,7 +16,7 @@ namespace tactus
 ///
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
 /// |e0 - e1| pi T / (2 F) to the steps of e. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
-/// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s, so that a preset that is added under a pressed tool does not kick.
+/// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
 class Bumpless
 {
 public:
