@@ -75,15 +75,16 @@ void LiveRun::startOther (Hand who)
     held = held || isLatched();
     resting.reset();
     kept_limits.clear();
-    stops->started();
+    if (! held) stops->started();   // else REARM or START does
     beginSoon (false);
 }
 
 void LiveRun::moveBy (Hand who)
 {
+    const bool starts = ! stops->isStoppedByPerson();
+    if (starts) stops->started();
     moved_by = std::move (who);
-    stops->started();
-    restart();
+    if (starts || wanted) restart();
 }
 
 void LiveRun::changeHand (Hand who)
@@ -101,7 +102,7 @@ void LiveRun::moveTool (std::string role)
 
 void LiveRun::startAgain (By who)
 {
-    if (who == By::person) stops->started();
+    if (who == By::person && ! held && ! isLatched()) stops->started();
     restart();
 }
 

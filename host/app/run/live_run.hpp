@@ -79,7 +79,7 @@ public:
     /// zero. So do the next three, but they end no latched stop.
     void start (Hand);
     void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
-    void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
+    void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser. What a person has stopped stays so until start().
     void changeHand (Hand);   ///< as moveBy(), but starts nothing that does not run
 
     /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.

@@ -69,6 +69,13 @@ public:
     /// The number of stops by a person. [any thread]
     std::uint32_t personStops() const noexcept { return stopped_by_person.load(); }
 
+    /// True if a person has stopped, and no person has started since. False before anyone has done either. [any thread]
+    bool isStoppedByPerson() const noexcept
+    {
+        const auto latest = personStops();
+        return latest != at_first && answered.load() != latest;
+    }
+
     /// A person starts or rearms, and has seen this many stops of a person: a later one still counts. [any thread]
     void startedAfter (std::uint32_t person_stops) noexcept { answered.store (person_stops); }
 
@@ -108,7 +115,8 @@ private:
     static bool isWithinPause (Time since, Time at) noexcept;
 
     std::atomic<std::uint32_t> stops { 0 }, emergencies { 0 };
-    std::atomic<std::uint32_t> stopped_by_person { 1 }, answered { 0 };   // differ until a person starts, also for the first time
+    static constexpr std::uint32_t at_first = 1;
+    std::atomic<std::uint32_t> stopped_by_person { at_first }, answered { 0 };   // differ until a person starts, also for the first time
     std::atomic<Time> pressed_at { never }, rearmed_at { never };
     PressCounts known;
 };

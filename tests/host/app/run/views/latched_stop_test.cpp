@@ -72,21 +72,38 @@ struct Rig
             if (auto* box = dynamic_cast<juce::ComboBox*> (child)) box->setSelectedItemIndex (item, juce::sendNotificationSync);
     }
 
-    /// What starts a run, other than START.
-    std::vector<std::pair<const char*, std::function<void()>>> starts()
+    /// An action other than START that starts a run. One that only chooses a hand starts nothing that a person has stopped.
+    struct Start
     {
-        return { { "a press into the tool view", [this] { press(); } },
-                 { "the choice of a gesture", [this] { choose (2); } },
-                 { "the choice of the pointer", [this] { choose (1); } },
-                 { "the recording of a take", [this] { Take (playback).record(); } },
-                 { "another graph", [this] { playback.startOther ({}); } } };
+        const char* what;
+        std::function<void()> act;
+        bool chooses_hand;
+    };
+    static constexpr int hand_choices = 4;
+
+    std::vector<Start> starts()
+    {
+        return { { "a press into the tool view", [this] { press(); }, true },
+                 { "the choice of a gesture", [this] { choose (2); }, true },
+                 { "the choice of the pointer", [this] { choose (1); }, true },
+                 { "a recording that is dropped", [this] { playback.moveBy ({ LiveRun::Hand::Kind::path, "circle" }); }, true },
+                 { "the recording of a take", [this] { Take (playback).record(); }, false },
+                 { "another graph", [this] { playback.startOther ({}); }, false } };
+    }
+
+    bool staysOver()
+    {
+        return tactus::test::stays (std::chrono::milliseconds (50), [&] {
+            playback.poll();
+            return ! run.isRunning() && ! run.isWanted();
+        });
     }
 };
 }   // namespace
 
 TEST_CASE ("only START and REARM end a latched stop: no press into the tool view, gesture, take or opened graph does", "[app][run][safety]")
 {
-    const int which = GENERATE (range (0, 5));
+    const int which = GENERATE (range (0, 6));
     const bool is_over = GENERATE (false, true), is_previewed = GENERATE (false, true);
     Rig r;
     r.playback.start ({});
@@ -104,17 +121,23 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
         r.playback.endPreview();
     }
 
-    const auto [what, start] = r.starts()[static_cast<std::size_t> (which)];
-    INFO (what << (is_over ? " after the run was over" : "") << (is_previewed ? " after a preview" : ""));
-    start();
-    const bool is_running = r.until ([&] { return r.run.isRunning(); });
-    INFO (r.state());
-    REQUIRE (is_running);
-    CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
-    CHECK (tactus::test::stays (std::chrono::milliseconds (50), [&] {
-        r.playback.poll();
-        return r.run.status()->force == 0.0;
-    }));
+    const auto start = r.starts()[static_cast<std::size_t> (which)];
+    INFO (start.what << (is_over ? " after the run was over" : "") << (is_previewed ? " after a preview" : ""));
+    start.act();
+    if (start.chooses_hand && (is_over || is_previewed))
+        CHECK (r.staysOver());
+    else
+    {
+        const bool is_running = r.until ([&] { return r.run.isRunning(); });
+        INFO (r.state());
+        REQUIRE (is_running);
+        CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
+        CHECK (tactus::test::stays (std::chrono::milliseconds (50), [&] {
+            r.playback.poll();
+            return r.run.status()->force == 0.0;
+        }));
+    }
+    CHECK_FALSE (r.playback.stopSwitch().mayStart());   // no program ends the stop either
 
     r.playback.restart();   // START
     const bool is_free = r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); });
@@ -139,7 +162,7 @@ TEST_CASE ("an emergency stop during the test of a device or a preview holds the
     CHECK_FALSE (r.run.isWanted());
     CHECK (r.run.isHeld());
     r.press();
-    CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
+    CHECK (r.staysOver());
     r.playback.restart();   // START
     CHECK (r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); }));
 }
@@ -147,12 +170,35 @@ TEST_CASE ("an emergency stop during the test of a device or a preview holds the
 TEST_CASE ("a hand that is chosen while nothing is stopped starts the run", "[app][run]")
 {
     Rig r;
-    for (const auto& [what, start] : r.starts())
+    for (const auto& start : r.starts())
     {
-        INFO (what);
-        start();
+        INFO (start.what);
+        start.act();
         REQUIRE (r.until ([&] { return r.run.isRunning(); }));
         CHECK_FALSE (r.run.isHeld());
         r.run.letGo();
     }
+}
+
+TEST_CASE ("what a person has stopped starts only by START: another hand does not start it", "[app][run][safety]")
+{
+    const int which = GENERATE (range (0, Rig::hand_choices));
+    const bool was_started = GENERATE (false, true);   // else it was recovered without running
+    Rig r;
+    if (was_started)
+    {
+        r.playback.start ({});
+        REQUIRE (r.until ([&] { return r.run.isRunning(); }));
+    }
+    r.playback.stop();
+    REQUIRE (r.until ([&] { return ! r.run.isRunning(); }));
+    const auto start = r.starts()[static_cast<std::size_t> (which)];
+    INFO (start.what);
+    start.act();
+    CHECK (r.staysOver());
+    CHECK (r.run.hand() != LiveRun::Hand {});   // it is chosen, for the next start
+    const auto chosen = r.run.hand();
+    r.playback.restart();   // START
+    CHECK (r.until ([&] { return r.run.isRunning(); }));
+    CHECK (r.run.hand() == chosen);
 }
