@@ -255,42 +255,67 @@ private:
         pair.meet();
     }
 
-    void narrow (Spot spot, VectorXd start, VectorXd end, const VectorXd& way)
+    /// A spot that becomes narrower, and the forces at its ends and at the place of the last changeAt(), in N, relative to those at one place.
+    struct Narrowed
     {
-        const auto whole = spot;
-        const VectorXd all = end - start;
-        double width = way.norm();
-        VectorXd now = end;   // N; the forces at the last changeAt() minus those in the middle of the whole spot
-        for (; width > narrowest; width *= 0.5)
+        Spot spot;
+        VectorXd start, end, now;
+    };
+
+    /// Halves the spot, which is `width` wide, until it is this narrow. The half with the larger change stays.
+    void halve (Narrowed& n, double width, double until)
+    {
+        for (; width > until; width *= 0.5)
         {
-            now += pair.changeAt (spot.middle());
-            if ((now - start).norm() >= (end - now).norm())
+            n.now += pair.changeAt (n.spot.middle());
+            if ((n.now - n.start).norm() >= (n.end - n.now).norm())
             {
-                spot.to = spot.middle();
-                end = now;
+                n.spot.to = n.spot.middle();
+                n.end = n.now;
             }
             else
             {
-                spot.from = spot.middle();
-                start = now;
+                n.spot.from = n.spot.middle();
+                n.start = n.now;
             }
         }
-        now += pair.changeAt (spot.from);
-        const VectorXd step = pair.changeAt (spot.to);
+    }
+
+    void narrow (const Spot& whole, const VectorXd& start, const VectorXd& end, const VectorXd& way)
+    {
+        const VectorXd all = end - start;
+        Narrowed n { whole, start, end, end };
+        halve (n, way.norm(), narrowest);
+        n.now += pair.changeAt (n.spot.from);
+        const VectorXd step = pair.changeAt (n.spot.to);
         std::vector<double> by_node (pair.nodes(), 0.0);
         pair.raise (by_node);
-        now += step;
-        now += pair.changeAt (whole.from);
-        const VectorXd back = now;
-        now += pair.changeAt (whole.to);
+        n.now += step;
+        n.now += pair.changeAt (whole.from);
+        const VectorXd back = n.now;
+        n.now += pair.changeAt (whole.to);
         // A change that does not repeat when the tools go back and forth again is an event, such as a rupture, or friction.
         constexpr double same = 0.25;
-        const bool repeats = (now - back - all).norm() <= same * all.norm();
+        const bool repeats = (n.now - back - all).norm() <= same * all.norm();
+        const bool jumps = repeats && step.norm() >= same * all.norm() && staysAStep (n.spot, step);
         pair.meet();
         if (! repeats) return;
-        if (step.norm() >= same * all.norm()) return addJump (spot, step, way.normalized(), by_node);
-        pair.moveTo (spot.middle());
+        if (jumps) return addJump (n.spot, step, way.normalized(), by_node);
+        pair.moveTo (n.spot.middle());
         measureHere();
+    }
+
+    /// True if the forces still step over a sixteenth of the narrowest spot. A slope that bends near the end of a spot, such as that of a limited force, steps
+    /// less the narrower the spot is.
+    bool staysAStep (const Spot& narrow, const VectorXd& step)
+    {
+        constexpr double narrower = 1.0 / 16.0, stays = 0.5;
+        pair.changeAt (narrow.from);
+        const VectorXd zero = VectorXd::Zero (step.size());
+        Narrowed n { narrow, zero, step, step };
+        n.now += pair.changeAt (narrow.to) - step;
+        halve (n, 1.0, narrower);
+        return (n.end - n.start).norm() >= stays * step.norm();
     }
 
     /// A jump F across a surface with the normal n has the slope -F n^T, whose symmetric part has the largest eigenvalue (|F| - F.n)/2 (per

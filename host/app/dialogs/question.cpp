@@ -3,7 +3,10 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
+#include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -14,6 +17,16 @@ namespace
 /// Commands stand in backticks, as in the docs. A question has one font.
 juce::String inQuotes (const juce::String& text) { return text.replaceCharacter ('`', '\''); }
 }   // namespace
+
+juce::String Question::listOf (const std::vector<std::filesystem::path>& names)
+{
+    constexpr std::size_t most = 20;
+    juce::String list;
+    for (std::size_t i = 0; i < std::min (most, names.size()); ++i)
+        list << fromUtf8 (printableName (names[i].string())) << "\n";
+    if (names.size() > most) list << filled (TRANS ("and %1 more"), names.size() - most) << "\n";
+    return list + "\n";
+}
 
 Question::Question()
 {

@@ -4,6 +4,7 @@
 #include <host/app/look/plain_button.hpp>
 
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -24,6 +25,9 @@ public:
     };
 
     Question();
+
+    /// The names of files for the text of a question, a line each; of many, the first ones and how many more there are.
+    static juce::String listOf (const std::vector<std::filesystem::path>& names);
 
     void ask (const juce::String& title, const juce::String& text, std::vector<Choice>);
     void say (const juce::String& text);   ///< replaces the text of the question that is open

@@ -59,17 +59,6 @@ std::string nameFor (const std::string& stem)
     return (words.substring (0, 1).toUpperCase() + words.substring (1)).toStdString();
 }
 
-/// The names of files, a line each.
-juce::String listOf (const std::vector<fs::path>& names)
-{
-    constexpr std::size_t most = 20;
-    juce::String list;
-    for (std::size_t i = 0; i < std::min (most, names.size()); ++i)
-        list << fromUtf8 (printableName (names[i].string())) << "\n";
-    if (names.size() > most) list << filled (TRANS ("and %1 more"), names.size() - most) << "\n";
-    return list + "\n";
-}
-
 juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), fromUtf8 (why.text)); }
 }   // namespace
 
@@ -284,22 +273,22 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then, con
         std::vector<fs::path> names;
         for (const auto& f : files)
             names.push_back (f.name);
-        return question.ask (filled (TRANS ("Copy these files to %1, too?"), printableName (folder.string())), listOf (names) + TRANS ("The graph uses them."),
+        return question.ask (filled (TRANS ("Copy these files to %1, too?"), printableName (folder.string())), Question::listOf (names) + TRANS ("The graph uses them."),
                              { { TRANS ("Copy"), [this, file, then, names] { saveTo (file, then, names); } },
                                { TRANS ("Leave them where they are"), [this, file, then] { saveTo (file, then, std::vector<fs::path> {}); } },
                                { TRANS ("Cancel"), {} } });
     }
     const auto before = document.graph().name, name = nameIn (file);
     if (name != before) document.call (name);
-    auto [written, copies] = carriedTo (folder, document.graph(), agreed);
-    if (const auto copied = copyInto (folder, copies); ! copied)
+    auto carried = carriedTo (folder, document.graph(), agreed);
+    if (const auto copied = copyInto (folder, carried.files); ! copied)
     {
         if (name != before) document.call (before);
         const auto& where = copied.error().where;
         return saveElsewhere (filled (where.empty() ? "%2." : "%1: %2.", printableName (where), messageText (copied.error())), then);
     }
-    if (callbacks.onWrite) callbacks.onWrite (written);
-    const auto messages = document.save (file, written);
+    if (callbacks.onWrite) callbacks.onWrite (carried.graph);
+    const auto messages = document.save (file, carried.graph);
     if (! messages.empty() && name != before) document.call (before);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     known_files[file] = contentHash (readTextFile (file).value_or (std::string()));

@@ -11,8 +11,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int most_nodes = 20000;              // twice as many as a processor core computes in a tick
-constexpr std::size_t most_in_one_scope = 4;   // instances of a port
+constexpr int most_nodes = 20000;   // twice as many as a processor core computes in a tick
 
 struct PortCollector
 {

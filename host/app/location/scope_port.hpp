@@ -18,6 +18,8 @@ struct ScopePort
     std::size_t instances = 1;   ///< how many ports have this name
 };
 
+constexpr std::size_t most_in_one_scope = 4;   ///< instances of a port
+
 /// All ports of a graph and its subgraphs that can be probed, node by node in the order of the file, outputs first.
 std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 

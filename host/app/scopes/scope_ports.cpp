@@ -34,6 +34,14 @@ std::string firstOf (const std::vector<ScopePort>& ports, std::string_view type,
 /// True for nodes whose state is 1 for stuck and 2 for sliding.
 bool tellsSliding (std::string_view type) { return type.starts_with ("friction.") || type == "deform.surface"; }
 
+/// The force that the hand gets, limited and faded by the guard; of the first instance if there are too many for one scope. Empty if no motor pushes.
+std::string appliedForce (const std::vector<ScopePort>& ports)
+{
+    const auto* applied = find (ports, "device.force", Role::output, "applied");
+    if (applied == nullptr) return {};
+    return applied->instances > most_in_one_scope ? applied->first : applied->name;
+}
+
 bool isWired (const graph::Patch& patch, const std::string& node, const std::string& port)
 {
     return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node && w.to.port == port; });
@@ -86,7 +94,7 @@ ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue
     case ScopeKind::spectrum:
     case ScopeKind::spectrogram:
         if (kind == ScopeKind::spectrogram) s.seconds = 5.0;
-        if (const auto motor = motorPort (ports); ! motor.empty()) s.ports.push_back (motor);
+        if (const auto felt = appliedForce (ports); ! felt.empty()) s.ports.push_back (felt);
         break;
     case ScopeKind::over:
         s.seconds = 2.0;

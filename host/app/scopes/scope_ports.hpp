@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// The scopes for a newly opened graph: motor force over time, force against displacement, and energy. Leaves out
+/// The scopes for a newly opened graph: the force that the hand gets over time, force against displacement, and energy. Leaves out
 /// scopes for which the graph has no ports, and the one for energy if more than most_energies ports report one, or if there are several
 /// instances of the hand, whose energies cannot be told apart.
 std::vector<ScopeSpec> suggestedScopes (const graph::Graph&, const Catalogue&);

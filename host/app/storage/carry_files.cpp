@@ -82,7 +82,10 @@ bool isReadByTactus (const fs::path& file)
 class Carrier
 {
 public:
-    Carrier (fs::path f, fs::path t, const std::optional<std::vector<fs::path>>& o) : from (std::move (f)), to (std::move (t)), only (o) {}
+    Carrier (fs::path f, fs::path t, const std::optional<std::vector<fs::path>>& o, const std::vector<fs::path>& a)
+        : from (std::move (f)), to (std::move (t)), only (o), agreed (a)
+    {
+    }
 
     void carry (graph::Graph& g)
     {
@@ -94,11 +97,13 @@ public:
     }
 
     std::vector<CarriedFile> files;
+    std::vector<fs::path> elsewhere;
 
 private:
     const fs::path from, to;   // folders
     fs::path below;            // both: the folder of an included graph
     const std::optional<std::vector<fs::path>>& only;
+    const std::vector<fs::path>& agreed;   // files elsewhere
 
     void carry (const graph::Graph& g, graph::Patch& patch)
     {
@@ -184,7 +189,7 @@ private:
     /// The path with which the copy of the graph finds a file where it is.
     std::string placeOf (const fs::path& name) const
     {
-        if (name.empty() || name.has_root_path() || name.native().find ('\0') != name.native().npos) return name.string();
+        if (name.empty() || from.empty() || name.has_root_path() || name.native().find ('\0') != name.native().npos) return name.string();
         std::error_code failed;
         const auto file = from / below / name;
         const auto folder = fs::weakly_canonical (file.parent_path(), failed);   // behind a link, ".." leads to the folder that it leads into
@@ -194,7 +199,7 @@ private:
     bool mayGoAlong (const fs::path& name) const
     {
         const auto whole = below / name, folder = whole.parent_path();
-        return std::ranges::none_of (whole, isHidden) && hasOnlyFolders (from, folder) && isFile (from / whole) && hasOnlyFolders (to, folder)
+        return ! from.empty() && std::ranges::none_of (whole, isHidden) && hasOnlyFolders (from, folder) && isFile (from / whole) && hasOnlyFolders (to, folder)
                && ! isReadByTactus (to / whole);
     }
 
@@ -204,8 +209,22 @@ private:
     {
         const auto stays = placeOf (named);
         const auto name = fs::path (named).lexically_normal();
-        if (! isPlain (named) || ! mayGoAlong (name) || ! fits (from / below / name)) return stays;
-        return copied (name, {}).value_or (stays);
+        if (! isPlain (named) || ! mayGoAlong (name)) return carriedFromElsewhere (named, fits).value_or (stays);
+        return fits (from / below / name) ? copied (name, from / below / name, {}).value_or (stays) : stays;
+    }
+
+    /// The name of the copy of a file in another folder; empty if it is not agreed that the file goes along.
+    template <typename Fits>
+    std::optional<std::string> carriedFromElsewhere (const fs::path& named, const Fits& fits)
+    {
+        const bool has_place = named.is_absolute() || ! from.empty();
+        if (named.empty() || ! has_place || named.native().find ('\0') != named.native().npos) return {};
+        std::error_code failed;
+        const auto file = fs::canonical (from / below / named, failed);
+        if (failed || std::ranges::any_of (file, isHidden) || ! isFile (file) || ! fits (file)) return {};
+        if (std::ranges::count (elsewhere, file) == 0) elsewhere.push_back (file);
+        if (std::ranges::count (agreed, file) == 0) return {};
+        return copied ("assets" / file.filename(), file, {});
     }
 
     std::string carriedGraph (const std::string& named, const graph::Graph* loaded)
@@ -221,7 +240,7 @@ private:
         auto text = writeGraph (inner);
         const auto now = readFile (from / below / name);
         const bool is_same = now && text == writeGraph (readGraph (*now).graph);   // also says that the file still is this graph
-        if (auto copy = copied (name, is_same ? std::nullopt : std::optional (std::move (text)))) return *copy;
+        if (auto copy = copied (name, from / below / name, is_same ? std::nullopt : std::optional (std::move (text)))) return *copy;
         files = before;
         return stays;
     }
@@ -234,9 +253,8 @@ private:
     }
 
     /// The name of the copy, beside what is there; empty if there is none, or if it is not wanted.
-    std::optional<std::string> copied (const fs::path& name, const std::optional<std::string>& text)
+    std::optional<std::string> copied (const fs::path& name, const fs::path& source, const std::optional<std::string>& text)
     {
-        const auto source = from / below / name;
         const auto bytes = text ? Result<std::string> (*text) : readFile (source);
         if (! bytes) return std::nullopt;
         auto copy = name;
@@ -263,15 +281,17 @@ private:
 };
 }   // namespace
 
-CarriedGraph carriedTo (const fs::path& folder, const graph::Graph& g, const std::optional<std::vector<fs::path>>& only)
+CarriedGraph carriedTo (const fs::path& folder, const graph::Graph& g, const std::optional<std::vector<fs::path>>& only,
+                        const std::vector<fs::path>& from_elsewhere)
 {
-    CarriedGraph made { g, {} };
+    CarriedGraph made { g, {}, {} };
     std::error_code error;
     beginReading();
-    if (g.folder.empty() || fs::equivalent (g.folder, folder, error)) return made;
-    Carrier carrier (g.folder, folder, only);
+    if (! g.folder.empty() && fs::equivalent (g.folder, folder, error)) return made;
+    Carrier carrier (g.folder, folder, only, from_elsewhere);
     carrier.carry (made.graph);
     made.files = std::move (carrier.files);
+    made.elsewhere = std::move (carrier.elsewhere);
     return made;
 }
 

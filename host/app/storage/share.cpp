@@ -15,12 +15,23 @@
 namespace tactus::host
 {
 
-Result<> sharePreset (const graph::Graph& g, const std::filesystem::path& file)
+namespace
+{
+CarriedGraph carriedToNewFolder (const graph::Graph& g, const std::vector<std::filesystem::path>& from_elsewhere)
 {
     const auto folder = privateFolder ("tactus-share-");   // nothing is there, so no file needs another name
-    auto carried = carriedTo (folder, g);
+    auto carried = carriedTo (folder, g, {}, from_elsewhere);
     std::error_code ignored;
     std::filesystem::remove_all (folder, ignored);
+    return carried;
+}
+}   // namespace
+
+std::vector<std::filesystem::path> filesElsewhere (const graph::Graph& g) { return carriedToNewFolder (g, {}).elsewhere; }
+
+Result<> sharePreset (const graph::Graph& g, const std::filesystem::path& file, const std::vector<std::filesystem::path>& from_elsewhere)
+{
+    auto carried = carriedToNewFolder (g, from_elsewhere);
     std::vector<PackedFile> files { { "graph.json", writeGraph (carried.graph) } };
     for (auto& f : carried.files)
     {

@@ -30,9 +30,20 @@ void savePictureAs (const Desk& desk)
 
 void shareAs (const Desk& desk)
 {
-    const auto& name = desk.document.graph().name;
-    const auto legal = juce::File::createLegalFileName (name.empty() ? "preset" : fromUtf8 (name)).replaceCharacter ('.', '_').toStdString();
-    desk.chooseOwnFile (legal + ".tactus", [&desk] (const std::filesystem::path& file) { tellSaved (desk, file, sharePreset (desk.document.graph(), file)); });
+    const auto share = [&desk] (const std::vector<std::filesystem::path>& agreed) {
+        const auto& name = desk.document.graph().name;
+        const auto legal = juce::File::createLegalFileName (name.empty() ? "preset" : fromUtf8 (name)).replaceCharacter ('.', '_').toStdString();
+        desk.chooseOwnFile (legal + ".tactus", [&desk, agreed] (const std::filesystem::path& file) {
+            const auto shared = sharePreset (desk.document.graph(), file, agreed);
+            if (shared) return tellSaved (desk, file, shared);
+            desk.tell (TRANS ("The graph was not shared"), fromUtf8 (messageText (shared.error())));
+        });
+    };
+    const auto others = filesElsewhere (desk.document.graph());
+    if (others.empty()) return share ({});
+    desk.question.ask (TRANS ("Share these files, too?"),
+                       Question::listOf (others) + TRANS ("The graph uses them. They are in other folders. Everyone who gets the shared file can read them."),
+                       { { TRANS ("Share them"), [share, others] { share (others); } }, { TRANS ("Cancel"), {} } });
 }
 
 void randomise (const Desk& desk)

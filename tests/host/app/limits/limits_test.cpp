@@ -4,6 +4,7 @@
 #include "host/app/support/seen_text.hpp"
 
 #include <host/app/canvas/paint/paint_nodes.hpp>
+#include <host/app/compose/add_preset.hpp>
 #include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/limits/limit_light.hpp>
@@ -77,6 +78,23 @@ TEST_CASE ("a limit is broken beyond the limit, near within 20 % of it, and not 
     CHECK (limit.details.find ("0.5") != std::string::npos);
     CHECK (limit.text.starts_with ("The stiffness of wall is "));
     CHECK (limit.remedy.empty() != limit.is_broken);
+}
+
+TEST_CASE ("a ceiling is no step of the force", "[app][limits]")
+{
+    auto wood = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+    const auto made = compose::addPreset (wood, loadGraph (TACTUS_SOURCE_DIR "/graphs/canvas_weave.json").graph, { .roles = { { "stylus", "stylus" } } }, catalogue());
+    REQUIRE (made);
+    REQUIRE (graph::apply (wood, made->command));
+    for (const auto& layer : made->layers)
+        REQUIRE (graph::apply (wood, graph::SetParam { "", layer, "ceiling", Json ("0.5 N") }));
+    const auto list = checked (wood);
+    CHECK (list.is_checked);
+    for (const auto& l : list.limits)
+    {
+        INFO (l.details);
+        CHECK (l.id != "jump");
+    }
 }
 
 TEST_CASE ("a limit names its node, also inside a subgraph, and its message leads there", "[app][limits]")

@@ -92,7 +92,7 @@ TEST_CASE ("scopes: those that are suggested for a preset can all be recorded at
 TEST_CASE ("scopes: of several instances, a scope that can show only one shows the first", "[app][scopes]")
 {
     const auto all = suggestedScopes (load ("two_fingers"), catalogue());
-    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "finger/motor.force" });
+    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "finger/motor.applied" });
     const auto& over = of (all, ScopeKind::over);
     CHECK (over.x == "finger[0]/hand.position");
     CHECK (over.y == "finger[0]/skin.force");
@@ -102,10 +102,10 @@ TEST_CASE ("scopes: of several instances, a scope that can show only one shows t
     CHECK (std::ranges::count (all, ScopeKind::energy, &ScopeSpec::kind) == 0);
 }
 
-TEST_CASE ("scopes: for Dry wood, motor force, friction against displacement, and energy are suggested", "[app][scopes]")
+TEST_CASE ("scopes: for Dry wood, the force on the hand, friction against displacement, and energy are suggested", "[app][scopes]")
 {
     const auto all = suggestedScopes (load ("dry_wood"), catalogue());
-    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "motor.force" });
+    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "motor.applied" });
     const auto& over = of (all, ScopeKind::over);
     CHECK (over.x == "hand.position");
     CHECK (over.y == "drag.force");

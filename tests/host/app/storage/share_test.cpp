@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presets that are shared as one file. tests/host/cli/pack_test.py makes files that do harm.
+#include "host/app/support/desk_rig.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/with_limits.hpp"
 
 #include <host/app/storage/share.hpp>
+#include <host/app/window/graph_commands.hpp>
 #include <host/base/assets/file_assets.hpp>
 #include <host/base/files/preset_pack.hpp>
 
@@ -18,9 +20,21 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::DeskRig;
 
 namespace
 {
+constexpr const char* tetrahedron = "v 0 0 0\nv 0.02 0 0\nv 0 0.02 0\nv 0 0 0.02\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+/// The graph of the liver with this mesh.
+graph::Graph liverWith (const std::filesystem::path& mesh)
+{
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/liver.json").graph;
+    for (auto& n : g.root.nodes)
+        if (n.settings.contains ("surface")) n.settings["surface"]["mesh"] = mesh.string();
+    return g;
+}
+
 struct Tip final : public Device
 {
     void prepare (double) override {}
@@ -81,6 +95,80 @@ TEST_CASE ("a graph that names a file elsewhere is not shared", "[app][share]")
     REQUIRE_FALSE (shared);
     CHECK (shared.error().id == "share/outside");
     CHECK_FALSE (std::filesystem::exists (folder / "x.tactus"));
+}
+
+TEST_CASE ("a file in another folder goes along if the person agrees, also from a graph that has no folder yet", "[app][share]")
+{
+    const TemporaryFolder folder, others;
+    const auto mesh = std::filesystem::canonical (others.path()) / "shape.obj";
+    others.write ("shape.obj", tetrahedron);
+    auto g = liverWith (mesh);
+    if (GENERATE (false, true)) g.folder.clear();
+    const auto before = writeGraph (g);
+    CHECK (filesElsewhere (g) == std::vector { mesh });
+    CHECK_FALSE (sharePreset (g, folder / "x.tactus"));
+    CHECK_FALSE (sharePreset (g, folder / "x.tactus", { mesh.parent_path() / "other.obj" }));
+    REQUIRE (sharePreset (g, folder / "x.tactus", { mesh }));
+    CHECK (writeGraph (g) == before);
+
+    const auto unpacked = unpackPreset (folder / "x.tactus");
+    REQUIRE (unpacked);
+    const auto again = loadGraph (*unpacked);
+    CHECK (again.messages.empty());
+    CHECK (filesElsewhere (again.graph).empty());
+    CHECK (*readFile (std::filesystem::path (again.graph.folder) / "assets/shape.obj") == tetrahedron);
+    CHECK (played (again.graph) == played (g));
+}
+
+TEST_CASE ("of other folders, a graph offers only files of the kind that it reads there, and no hidden ones", "[app][share]")
+{
+    const TemporaryFolder others;
+    const auto place = std::filesystem::canonical (others.path());
+    std::filesystem::create_directories (place / ".keys");
+    for (const char* name : { "shape.txt", ".shape.obj", ".keys/shape.obj" })
+    {
+        INFO (name);
+        others.write (name, tetrahedron);
+        CHECK (filesElsewhere (liverWith (place / name)).empty());
+        CHECK_FALSE (sharePreset (liverWith (place / name), place / "x.tactus", { place / name }));
+    }
+    std::filesystem::create_symlink (place / ".keys/shape.obj", place / "link.obj");
+    CHECK (filesElsewhere (liverWith (place / "link.obj")).empty());
+    CHECK (filesElsewhere (liverWith (place / "gone.obj")).empty());
+}
+
+TEST_CASE ("Share asks about files in other folders, and a failure is a message that the user closes", "[app][share]")
+{
+    TemporaryFolder others;
+    const auto mesh = std::filesystem::canonical (others.path()) / "shape.obj";
+    others.write ("shape.obj", tetrahedron);
+    DeskRig r (liverWith (mesh));
+    r.chosen = others / "x.tactus";
+    shareAs (r.desk);
+    REQUIRE (r.question.isOpen());
+    CHECK (r.question.text().contains (mesh.string()));
+    SECTION ("agreed")
+    {
+        r.question.answer (0);
+        CHECK_FALSE (r.question.isOpen());
+        CHECK (r.said.contains ("x.tactus"));
+        CHECK (std::filesystem::exists (r.chosen));
+    }
+    SECTION ("refused")
+    {
+        r.question.cancel();
+        CHECK_FALSE (std::filesystem::exists (r.chosen));
+    }
+    SECTION ("the graph names another file by then")
+    {
+        others.write ("later.obj", tetrahedron);
+        r.document.open (liverWith (mesh.parent_path() / "later.obj"), {}, "open");
+        r.question.answer (0);
+        REQUIRE (r.question.isOpen());
+        CHECK (r.question.title() == "The graph was not shared");
+        CHECK (r.question.text().contains ("later.obj"));
+        CHECK_FALSE (std::filesystem::exists (r.chosen));
+    }
 }
 
 TEST_CASE ("what no program would open again is not shared", "[app][share]")
