@@ -66,7 +66,8 @@ struct RoleUse
     std::string name;
     std::shared_ptr<DeviceState> state;   ///< the engine writes it before each tick; nodes of all plans point to it
     std::vector<SinkUse> sinks;
-    bool untouched = false;   ///< same sinks as in the previous plan, and nothing upstream of them has changed
+    bool untouched = false;       ///< same sinks as in the previous plan, and nothing upstream of them has changed
+    bool has_new_nodes = false;   ///< a sink, or a node upstream of one, was not in the previous plan
 };
 
 /// One component of a delayed wire.

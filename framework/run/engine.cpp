@@ -144,7 +144,7 @@ void Engine::join (const Joining& joining, const Plan& plan)
         throw std::invalid_argument ("the role '" + joining.role + "' already has a device");
     auto& channel = makeChannel (joining.role);
     attachDevice (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
-    channel.bumpless.begin();
+    channel.bumpless.begin (true);
 }
 
 void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joining)
@@ -221,7 +221,7 @@ void Engine::takeOver (Running& next) noexcept
     for (std::size_t i = 0; i < next.channels.size(); ++i)
         if (! next.plan->roles()[i].untouched)
         {
-            next.channels[i]->bumpless.begin();
+            next.channels[i]->bumpless.begin (next.plan->roles()[i].has_new_nodes);
             next.channels[i]->touched_at = ticks;
         }
     bindDevices (next);
@@ -241,7 +241,7 @@ void Engine::fadeAgain() noexcept
 {
     for (auto* channel : running->channels)
         for (const auto rests : running->plan->rests())
-            if (ticks % rests == 0 && ticks > channel->touched_at && ticks < channel->touched_at + rests) channel->bumpless.begin();
+            if (ticks % rests == 0 && ticks > channel->touched_at && ticks < channel->touched_at + rests) channel->bumpless.begin (false);
 }
 
 void Engine::takeSubmitted() noexcept

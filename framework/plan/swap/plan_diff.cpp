@@ -373,14 +373,17 @@ void PlanDiff::compare (PlanParts& plan) const
 {
     if (before == nullptr) return;
 
-    auto dirty = changed (plan);
+    auto dirty = changed (plan), fresh = continuing;
+    fresh.flip();
     spread (dirty, plan);
+    spread (fresh, plan);
 
     for (auto& role : plan.roles)
     {
         const auto old = std::ranges::find (before->roles, role.name, &RoleUse::name);
         role.untouched = old != before->roles.end() && serialsOf (role, plan) == serialsOf (*old, *before)
                          && std::ranges::none_of (role.sinks, [&] (const SinkUse& s) { return dirty[s.instance]; });
+        role.has_new_nodes = std::ranges::any_of (role.sinks, [&] (const SinkUse& s) { return fresh[s.instance]; });
     }
 
     for (std::size_t i = 0; i < continuing.size(); ++i)

@@ -17,28 +17,40 @@ namespace tactus
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
 /// |e0 - e1| pi T / (2 F) to the steps of e. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
 /// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
+/// If nodes begin with the plan, the device gets e0 for settle_s first: a wall that begins around the tool takes some ticks to push it out.
 class Bumpless
 {
 public:
-    static constexpr double fall_s = 0.010, rise_s = 0.100;
+    static constexpr double fall_s = 0.010, rise_s = 0.100, settle_s = 0.005;
 
     void prepare (double dt_s) noexcept   // [main thread]
     {
         const auto ticks = [dt_s] (double s) { return std::max (1, static_cast<int> (std::lround (s / dt_s))); };
         fall = ticks (fall_s);
+        settle = ticks (settle_s);
         now = length = rise = ticks (rise_s);
     }
 
-    void begin() noexcept { now = 0; }   // [tick thread]
+    void begin (bool has_new_nodes) noexcept   // [tick thread]
+    {
+        now = 0;
+        if (has_new_nodes) waits = settle;
+    }
 
     const Effort& operator() (const Effort& wanted) noexcept   // [tick thread]
     {
+        if (waits > 0)
+        {
+            --waits;
+            return last;
+        }
         return now == length ? last = wanted : fade (wanted);
     }
 
     /// The guard has applied a different effort to the device, so there is nothing left to fade. [tick thread]
     void stop (const Effort& applied) noexcept
     {
+        waits = 0;
         now = length;
         last = applied;
     }
@@ -48,6 +60,7 @@ public:
         archive (difference, last);
         archive.index (length, static_cast<std::size_t> (rise) + 1);
         archive.index (now, static_cast<std::size_t> (length) + 1);
+        archive.index (waits, static_cast<std::size_t> (settle) + 1);
     }
 
 private:
@@ -94,9 +107,10 @@ private:
         return all;
     }
 
-    int fall = 1, rise = 1;         // in ticks
-    int length = 1, now = length;   // duration of the fade, and time since it began, in ticks; equal if there is no fade
-    Effort difference;              // e0 - e1
+    int fall = 1, rise = 1, settle = 1;   // in ticks
+    int waits = 0;                        // ticks until the fade begins
+    int length = 1, now = length;         // duration of the fade, and time since it began, in ticks; equal if there is no fade
+    Effort difference;                    // e0 - e1
     Effort last;
 };
 

@@ -64,6 +64,7 @@ void LiveRun::start (Hand who)
     moved_by = std::move (who);
     held = false;
     resting.reset();
+    begins_again = false;
     kept_limits.clear();
     stops->started();
     beginSoon (true);
@@ -74,6 +75,7 @@ void LiveRun::startOther (Hand who)
     moved_by = std::move (who);
     held = held || isLatched();
     resting.reset();
+    begins_again = false;
     kept_limits.clear();
     if (! held) stops->started();   // else REARM or START does
     beginSoon (false);
@@ -113,6 +115,7 @@ void LiveRun::restart()
     tellOfRestart();
     held = held || isLatched();
     if (session) kept_limits = session->run().askedLimits();
+    begins_again = true;
     if (! begins) resting = pointer ? tool() : std::nullopt;   // before its force fades
     beginSoon (false);
 }
@@ -232,6 +235,7 @@ LiveSession::Options LiveRun::sessionOptions()
     to.stops = stops;
     to.kept_limits = kept_limits;
     to.is_stopped = held;
+    to.least_ramp_s = begins_again ? Guard::rearm_ramp_s : 0.0;
     return to;
 }
 

@@ -85,7 +85,8 @@ public:
     /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.
     void moveTool (std::string role);
 
-    /// After something else ran, or in order to record it. No limit becomes looser, and a tool that the mouse holds stays where it is.
+    /// After something else ran, or in order to record it. No limit becomes looser, and a tool that the mouse holds stays where it is. As after each restart,
+    /// the forces rise within Guard::rearm_ramp_s or longer: the tool may be inside of a wall.
     void startAgain (By = By::person);
 
     void stop (By = By::person) noexcept;   ///< ramps the forces to zero, then stops; does not wait
@@ -291,6 +292,7 @@ private:
     StopSwitch own_stops;      // until obey()
     StopSwitch* stops = &own_stops;
     bool begins = false;                                     // starts once the previous run is over
+    bool begins_again = false;                               // by itself, so that the tool may be inside of something
     std::optional<Tool> resting;                             // the tool when this run was asked to begin again, if it stays where it is
     std::optional<HeldAt> held_at;                           // where the next tool begins, if not above the origin
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles

@@ -57,7 +57,7 @@ void Camera::pan (juce::Point<float> pixels) noexcept
 
 void Camera::zoomAbout (juce::Point<float> at, double factor) noexcept
 {
-    const double now = std::clamp (distance / factor, nearest, farthest), kept = now / distance;
+    const double now = std::clamp (distance / factor, nearest, most_distance), kept = now / distance;
     const double scale = 1.0 / scaleAt (distance);
     const Vec3 under = target + scale * (static_cast<double> (at.x - half_width) * right() + static_cast<double> (half_height - at.y) * up());
     target = under + kept * (target - under);
@@ -78,7 +78,8 @@ void Camera::frame (const Bounds& all) noexcept
         const double above = std::abs (p.dot (up())) / static_cast<double> (half_height);
         needed = std::max (needed, space * focal * std::max (across, above) - p.dot (view()));
     }
-    distance = std::clamp (needed, nearest, farthest);
+    distance = std::max (needed, nearest);
+    most_distance = std::max (distance, farthest);
 }
 
 }   // namespace tactus::host::scene

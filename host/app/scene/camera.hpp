@@ -32,7 +32,7 @@ struct Bounds
 class Camera
 {
 public:
-    static constexpr double nearest = 0.01, farthest = 3.0;   ///< distances from the target, in m
+    static constexpr double nearest = 0.01, farthest = 3.0;   ///< distances from the target, in m; what has been framed may be farther
 
     Vec3 target = Vec3::Zero();   ///< m
     double yaw = 0.55;            ///< rad, to the left
@@ -80,6 +80,7 @@ public:
 private:
     float half_width = 1.0f, half_height = 1.0f;
     double focal = 1.0;   // pixels per unit of slope
+    double most_distance = farthest;
 };
 
 }   // namespace tactus::host::scene

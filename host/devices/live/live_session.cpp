@@ -88,7 +88,11 @@ Messages LiveSession::openDevices()
 {
     Messages messages;
     alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
-    running->keepLimits (options.kept_limits);
+    auto kept = options.kept_limits;
+    if (options.least_ramp_s > 0.0)
+        for (const auto& role : engine().newest().roles())
+            kept[role.name] = tightest (kept[role.name], { .ramp = options.least_ramp_s });
+    running->keepLimits (std::move (kept));
     running->openDevices (playing, messages);
     showStops();
     obeyed = stops.noticed();

@@ -49,6 +49,7 @@ public:
         StopSwitch* stops = nullptr;                         ///< obeyed from the first tick on; may be null; must outlive this object
         std::map<std::string, GuardLimits> kept_limits {};   ///< see Run::keepLimits
         bool is_stopped = false;                             ///< the run starts with its forces at zero, until rearm()
+        double least_ramp_s = 0.0;                           ///< the guards' ramp where it would be shorter, in s
         bool may_move = false;                               ///< the workspaces of devices can be moved by holdWorkspaces()
         Run::Queries queries = Run::Queries::on_thread;
     };

@@ -93,15 +93,20 @@ public:
             wanted.torque += e.torque;
         }
         const auto tick = plan.nextTick() - 1;
-        if (taken_over && ! role->untouched) touched_at = tick;
+        const bool is_touched = taken_over && ! role->untouched;
+        if (is_touched) touched_at = tick;
+        if (is_touched && role->has_new_nodes) waits = static_cast<int> (Bumpless::settle_s * rate_hz);
         const bool comes_late = std::ranges::any_of (plan.rests(),
                                                      [&] (std::uint64_t rests) { return tick % rests == 0 && tick > touched_at && tick < touched_at + rests; });
-        if ((taken_over && ! role->untouched) || comes_late)
+        if (is_touched || comes_late) since = 0;
+        if (stopped) waits = 0;
+        const bool is_waiting = waits > 0;
+        if (is_waiting) --waits;
+        if (since == 0)
         {
-            difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
+            difference = is_waiting ? Vec3 (Vec3::Zero()) : Vec3 ((last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs());
             fade_s = falls (last.force, wanted.force) && falls (last.torque, wanted.torque) ? Bumpless::fall_s : Bumpless::rise_s;
             own = { Vec3::Zero(), Vec3::Zero() };
-            since = 0;
         }
         else
             own = { wanted.force - last_wanted.force, wanted.torque - last_wanted.torque };
@@ -115,7 +120,7 @@ public:
         was_stopped = stopped;
         last = applied;
         last_wanted = wanted;
-        ++since;
+        if (! is_waiting) ++since;
     }
 
     double worst = 0.0;
@@ -130,7 +135,7 @@ private:
     Effort last, last_wanted, own;
     double fade_s = Bumpless::rise_s;
     Vec3 difference = Vec3::Zero();
-    int since = 1 << 20;
+    int since = 1 << 20, waits = 0;   // ticks
     std::uint64_t touched_at = 0;
     bool was_stopped = false;
 };

@@ -21,3 +21,32 @@ TEST_CASE ("without a switch, nothing is faded: an effort of -0 stays -0, as in 
         CHECK_FALSE (std::signbit (passed.force.z()));
     }
 }
+
+TEST_CASE ("with new nodes, the effort of before stays until they have settled, and then fades to theirs", "[engine]")
+{
+    constexpr double rate_hz = 4000.0;
+    Bumpless bumpless;
+    bumpless.prepare (1.0 / rate_hz);
+    const auto next = [&] (double force) { return bumpless (Effort { .force = { force, 0.0, 0.0 } }).force.x(); };
+    next (1.0);
+    bumpless.begin (true);
+    const int settle = static_cast<int> (Bumpless::settle_s * rate_hz), rise = static_cast<int> (Bumpless::rise_s * rate_hz);
+    for (int k = 0; k < settle; ++k)
+        CHECK (next (k == 0 ? 0.0 : 10.0 - 0.1 * k) == 1.0);   // a wall that pushes a tool out which it did not know
+    double before = 1.0;
+    for (int k = 0; k <= rise; ++k)
+    {
+        const double now = next (2.0);
+        CHECK (now >= before);
+        CHECK (now - before <= 3.1416 / (2.0 * rise));
+        before = now;
+    }
+    CHECK (next (2.0) == 2.0);
+
+    bumpless.begin (true);
+    bumpless.begin (false);   // an edit without new nodes during that time does not end it
+    CHECK (next (5.0) == 2.0);
+    CHECK (next (9.0) == 2.0);
+    bumpless.stop (Effort { .force = { 0.5, 0.0, 0.0 } });   // the guard decides otherwise
+    CHECK (next (9.0) == 9.0);
+}

@@ -66,6 +66,31 @@ private:
     std::uint64_t ticks = 0;
 };
 
+/// A tool that a hand presses into what is below: held in place, or by a spring.
+class Pressed final : public Device
+{
+public:
+    explicit Pressed (bool s) : is_sprung (s) {}
+
+    void prepare (double dt_s) override { dt = dt_s; }
+    Reading read() noexcept override { return { .position = place }; }
+    void write (const Effort& e) noexcept override
+    {
+        forces.push_back (e.force);
+        if (! is_sprung) return;
+        const Vec3 all = e.force + 500.0 * (Vec3 { 0.0, 0.0, -2e-3 } - place) - 5.0 * velocity;   // N/m, N s/m
+        velocity += all / 0.1 * dt;                                                               // kg
+        place += velocity * dt;
+    }
+
+    std::vector<Vec3> forces;
+
+private:
+    bool is_sprung;
+    Vec3 place { 0.0, 0.0, -1e-3 }, velocity = Vec3::Zero();
+    double dt = 0.0;
+};
+
 /// The signals that the devices get from a graph, by role. `path`: the role whose path the tool of a role follows.
 std::map<std::string, std::vector<Effort>> played (const graph::Graph& g, double rate_hz, const RoleMap& path)
 {
@@ -391,4 +416,49 @@ TEST_CASE ("a graph that drives nothing cannot be a layer", "[compose]")
     const auto refused = addPreset (wood, silent.graph, {}, catalogue());
     REQUIRE_FALSE (refused);
     CHECK (refused.error().id == "compose/no_motor");
+}
+
+TEST_CASE ("a preset that is added under a pressed tool does not kick", "[app][compose]")
+{
+    constexpr int second = 4000;   // ticks
+    const auto wood = preset ("dry_wood");
+    const bool is_sprung = GENERATE (false, true);
+    for (const auto& file : presetFiles())
+    {
+        INFO (file.stem() << (is_sprung ? ", by a spring" : ", in place"));
+        const auto added = loadGraph (file).graph;
+        RoleMap roles;
+        for (const auto& role : rolesIn (added))
+            roles[role] = "stylus";
+        auto both = wood;
+        const auto made = addPreset (wood, added, { .roles = roles }, catalogue());
+        REQUIRE (made);
+        REQUIRE (graph::apply (both, made->command));
+        FileAssets assets;
+        auto first = compile (wood, catalogue(), { .rate_hz = second, .assets = &assets });
+        auto then = compile (both, catalogue(), { .rate_hz = second, .assets = &assets, .before = first.plan.get() });
+        REQUIRE (first.plan);
+        REQUIRE (then.plan);
+        Engine engine (std::move (first.plan));
+        Pressed tool (is_sprung);
+        engine.attach ("stylus", tool);
+        for (int k = 0; k < second; ++k)
+            engine.tick();
+        engine.submit (std::move (then.plan));
+        for (int k = 0; k < second; ++k)
+            engine.tick();
+
+        const auto length = [&] (int k) { return tool.forces[static_cast<std::size_t> (k)].norm(); };
+        constexpr int risen = second + 120 * second / 1000;
+        double before = length (second - 1), most = 0.0, later = before, step = 0.0;
+        for (int k = second; k < 2 * second; ++k)
+        {
+            auto& largest = k < risen ? most : later;
+            largest = std::max (largest, length (k));
+            step = std::max (step, (tool.forces[static_cast<std::size_t> (k)] - tool.forces[static_cast<std::size_t> (k) - 1]).norm());
+        }
+        CHECK (before > 0.5);
+        CHECK (most <= 1.05 * later);
+        CHECK (step <= 0.05);   // N; a fade to 8 N steps by 0.024 N, a heart beats with 0.035 N
+    }
 }

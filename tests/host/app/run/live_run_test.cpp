@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 
@@ -186,6 +187,35 @@ TEST_CASE ("the tool follows the mouse, and meets the surface where the mouse po
     CHECK (p.tool()->force.norm() < 1e-3);
     p.point ({ 0.01, -0.02, -0.004 });
     CHECK (until (p, [&] { return p.tool()->force.z() > 0.1; }));
+}
+
+TEST_CASE ("under a tool that the mouse holds in a wall, a run that begins again does not kick", "[app][run][safety]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    Traces::Client probe { p.traces() };
+    probe.want ({ "motor.applied" });
+    p.start (LiveRun::Hand::pointer());
+    p.point ({ 0.0, 0.0, -0.004 });
+    REQUIRE (until (p, [&] { return p.tool() && p.tool()->force.z() > 0.3; }));
+
+    const double rate = p.rate() / 2.0;
+    rig.document.perform (graph::SetHeader { .rate_hz = rate });
+    const auto pushes = [&] { return probe.of ("motor.applied"); };
+    const auto ramp = static_cast<std::uint64_t> (Guard::rearm_ramp_s * rate);
+    REQUIRE (until (p, [&] { return p.isRunning() && p.rate() == rate && pushes().size() == 3 && pushes()[2]->end() > 3 * ramp; }));
+    const auto& up = *pushes()[2];
+    const auto at = [&] (std::uint64_t tick) { return tick >= up.begin() && std::isfinite (up.at (tick)) ? up.at (tick) : 0.0; };
+    const double settled = at (3 * ramp);
+    double most = 0.0, step = at (0);
+    for (std::uint64_t k = 1; k <= 3 * ramp; ++k)
+    {
+        most = std::max (most, at (k));
+        step = std::max (step, std::abs (at (k) - at (k - 1)));
+    }
+    CHECK (settled > 0.3);
+    CHECK (most <= 1.1 * settled);
+    CHECK (step <= 0.03 * settled);   // without a ramp, the first tick brings all of it
 }
 
 TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running and the problem is reported", "[app][run]")

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck.h>
 
+#include <cmath>
+
 using namespace tactus;
 using host::scene::Bounds;
 using host::scene::Camera;
@@ -46,13 +48,14 @@ TEST_CASE ("zooming about a pixel keeps what is under it, at the depth of the ta
     });
 }
 
-TEST_CASE ("framing shows all corners of a box from any direction", "[app][scene]")
+TEST_CASE ("framing shows all corners of a box from any direction, also of a mesh in millimetres that is read as metres", "[app][scene]")
 {
     rc::check ([] {
         auto c = anyCamera();
         Bounds box;
+        const double size = std::pow (10.0, between (-1.0, 3.0));   // m
         for (int i = 0; i < 3; ++i)
-            box.add ({ between (-0.1, 0.1), between (-0.1, 0.1), between (-0.1, 0.1) });
+            box.add (size * Vec3 (between (-1.0, 1.0), between (-1.0, 1.0), between (-1.0, 1.0)));
         if (box.radius() < 0.01) return;
         c.frame (box);
         for (int corner = 0; corner < 8; ++corner)
