@@ -59,7 +59,7 @@ TEST_CASE ("scopes: a newly opened graph shows scopes, which request only the po
     std::ranges::sort (wanted);
     CHECK (wanted
            == std::vector<std::string> { "board.dissipated_energy", "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state",
-                                         "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
+                                         "drag.stored_energy", "hand.position", "motor.applied" });
 }
 
 TEST_CASE ("scopes: a graph with more energies than can be recorded shows no scope that stays empty", "[app][scopes]")
@@ -79,7 +79,7 @@ TEST_CASE ("scopes: a graph with more energies than can be recorded shows no sco
     REQUIRE (b.document.graph().root.nodes.size() == 1002);
     auto wanted = b.live_run.traces().ports();
     std::ranges::sort (wanted);
-    CHECK (wanted == std::vector<std::string> { "hand.position", "motor.force", "pad0.force" });
+    CHECK (wanted == std::vector<std::string> { "hand.position", "motor.applied", "pad0.force" });
     b.run (20);
     CHECK (b.panel->warning().isEmpty());
     for (const auto& view : b.panel->shown())
@@ -162,11 +162,11 @@ TEST_CASE ("scopes: ports that share a lane, such as those of two roles, have co
         return std::ranges::count_if (readTexts (b.view (ScopeKind::time).plot()), [&] (const auto& seen) { return seen.text == word; });
     };
     b.run (500);
-    CHECK (inLegend ("motor.force") == 0);   // alone, it is named above the plot
+    CHECK (inLegend ("motor.applied") == 0);   // alone, it is named above the plot
     b.panel->probe ("drag.force");
     b.run (500);
     CHECK (b.view (ScopeKind::time).shown().ports.size() == 2);
-    CHECK (inLegend ("motor.force") == 1);
+    CHECK (inLegend ("motor.applied") == 1);
     CHECK (inLegend ("drag.force") == 1);
     const auto colour = [] (std::size_t port) { return traceColour (Theme::dark(), Quantity::force, port, 0, 3); };
     CHECK (colour (0) != colour (1));
@@ -191,11 +191,12 @@ TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo",
 TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][scopes]")
 {
     Bench b;
+    b.panel->probe ("board.depth");
     b.run (100);
     auto& view = b.view (ScopeKind::time);
     const auto chip = [&]() -> FlatButton& {
         for (auto* child : view.getChildren())
-            if (auto* button = dynamic_cast<FlatButton*> (child); button != nullptr && button->getButtonText() == "motor.force") return *button;
+            if (auto* button = dynamic_cast<FlatButton*> (child); button != nullptr && button->getButtonText() == "board.depth") return *button;
         throw std::runtime_error ("no chip");
     };
     const auto at = [&] (float x) {
@@ -203,10 +204,10 @@ TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][s
         host::test::settle();
     };
     at (20.0f);
-    CHECK (b.panel->isProbed ("motor.force"));
+    CHECK (b.panel->isProbed ("board.depth"));
     at (static_cast<float> (chip().getWidth()) - 8.0f);
-    CHECK_FALSE (b.panel->isProbed ("motor.force"));
-    CHECK (std::ranges::count (b.live_run.traces().ports(), "motor.force") == 0);
+    CHECK_FALSE (b.panel->isProbed ("board.depth"));
+    CHECK (std::ranges::count (b.live_run.traces().ports(), "board.depth") == 0);
 }
 
 TEST_CASE ("scopes: a frozen scope does not change while the run continues", "[app][scopes]")
@@ -308,7 +309,7 @@ TEST_CASE ("scopes: the warning names the components that exceed the recording l
     Bench b;
     b.run (10);
     CHECK (b.panel->warning().isEmpty());
-    for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value" })
+    for (const char* port : { "motor.force", "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value" })
         b.panel->probe (port);
     b.run (10);
     CHECK (b.panel->warning().startsWith ("At most 32 components are recorded; not shown: "));
@@ -377,11 +378,11 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
             return ticksOf (port) >= ticks;
         });
     };
-    REQUIRE (waitFor ("motor.force", 400));
-    const auto first = client.of ("motor.force").front()->begin();
+    REQUIRE (waitFor ("motor.applied", 400));
+    const auto first = client.of ("motor.applied").front()->begin();
     b.panel->probe ("board.depth");
     REQUIRE (waitFor ("board.depth", 400));
-    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, possibly with a gap
+    CHECK (client.of ("motor.applied").front()->begin() == first);   // the same trace, possibly with a gap
     CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);
     b.live_run.stop();
 }

@@ -86,7 +86,7 @@ TEST_CASE ("a new spectrum shows the selected wire", "[app][scopes]")
     CHECK (made->ports == std::vector<std::string> { "hand.position" });
     w.canvas.select ({});
     w.click ("+ Spectrum");
-    CHECK (panel.scopes().scopes.back()->ports == std::vector<std::string> { "motor.force" });
+    CHECK (panel.scopes().scopes.back()->ports == std::vector<std::string> { "motor.applied" });
 }
 
 TEST_CASE ("two fingers open without a word about scopes that do not fit", "[app][scopes]")
@@ -95,7 +95,7 @@ TEST_CASE ("two fingers open without a word about scopes that do not fit", "[app
     auto& panel = w.show<ScopePanel> (scopesPanel);
     auto& run = w.playback.run();
     run.start ({});
-    REQUIRE (waitFor ([&] { return run.isRunning() && ! run.traces().of ("finger/motor.force").empty(); }));
+    REQUIRE (waitFor ([&] { return run.isRunning() && ! run.traces().of ("finger/motor.applied").empty(); }));
     OnStage::settle (100);
     CHECK (panel.warning().isEmpty());
     CHECK (run.traces().of ("finger[0]/skin.state").size() == 1);

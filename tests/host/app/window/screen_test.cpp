@@ -219,7 +219,7 @@ TEST_CASE ("a new graph shows no curve of the graph before, even for a port with
 {
     WindowRig w ("dry_wood.json");
     auto& run = w.view->run();
-    const auto hasTrace = [&] { return ! run.traces().of ("motor.force").empty(); };
+    const auto hasTrace = [&] { return ! run.traces().of ("motor.applied").empty(); };
     if (! run.isWanted()) w.key ("F5");
     REQUIRE (waitFor (hasTrace));
     w.key ("escape");
