@@ -273,7 +273,8 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then, con
         std::vector<fs::path> names;
         for (const auto& f : files)
             names.push_back (f.name);
-        return question.ask (filled (TRANS ("Copy these files to %1, too?"), printableName (folder.string())), Question::listOf (names) + TRANS ("The graph uses them."),
+        return question.ask (filled (TRANS ("Copy these files to %1, too?"), printableName (folder.string())),
+                             Question::listOf (names) + TRANS ("The graph uses them."),
                              { { TRANS ("Copy"), [this, file, then, names] { saveTo (file, then, names); } },
                                { TRANS ("Leave them where they are"), [this, file, then] { saveTo (file, then, std::vector<fs::path> {}); } },
                                { TRANS ("Cancel"), {} } });

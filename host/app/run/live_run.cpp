@@ -432,14 +432,20 @@ std::optional<double> LiveRun::mostSignal() const
 
 std::vector<NodeCost> LiveRun::costs() { return isLive() ? session->run().live().costs() : std::vector<NodeCost> {}; }
 
-Result<> LiveRun::turn (const std::string& param, const Json& value) { return isRunning() ? turnParam (session->engine(), param, value) : Result<> (stopped()); }
+Result<> LiveRun::turn (const std::string& param, const Json& value)
+{
+    return isRunning() ? turnParam (session->engine(), param, value) : Result<> (stopped());
+}
 
 Result<> LiveRun::turnControl (const std::string& id, double value)
 {
     return isRunning() ? tactus::turnControl (session->engine(), document.graph(), id, value) : Result<> (stopped());
 }
 
-Result<> LiveRun::strike (const std::string& input, double speed) { return isRunning() ? tactus::strike (session->engine(), input, speed) : Result<> (stopped()); }
+Result<> LiveRun::strike (const std::string& input, double speed)
+{
+    return isRunning() ? tactus::strike (session->engine(), input, speed) : Result<> (stopped());
+}
 
 Result<std::vector<std::string>> LiveRun::capture (const std::string& port, const std::string& watched, const Trigger& trigger)
 {

@@ -83,7 +83,8 @@ TEST_CASE ("a limit is broken beyond the limit, near within 20 % of it, and not 
 TEST_CASE ("a ceiling is no step of the force", "[app][limits]")
 {
     auto wood = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
-    const auto made = compose::addPreset (wood, loadGraph (TACTUS_SOURCE_DIR "/graphs/canvas_weave.json").graph, { .roles = { { "stylus", "stylus" } } }, catalogue());
+    const auto weave = loadGraph (TACTUS_SOURCE_DIR "/graphs/canvas_weave.json").graph;
+    const auto made = compose::addPreset (wood, weave, { .roles = { { "stylus", "stylus" } } }, catalogue());
     REQUIRE (made);
     REQUIRE (graph::apply (wood, made->command));
     for (const auto& layer : made->layers)
