@@ -127,7 +127,7 @@ void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, st
     });
 }
 
-void Files::load (const fs::path& file, Document::Source source, bool by_pointer, bool runs)
+void Files::load (const fs::path& file, const Document::Source& source, bool by_pointer, bool runs)
 {
     if (isClipExtension (file)) return loadClipGraph (file, by_pointer);
     if (isPresetPack (file))

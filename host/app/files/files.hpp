@@ -82,7 +82,7 @@ private:
     void autosaveSoon();
     void handToAutosaver();
     bool autosave();
-    void load (const std::filesystem::path&, Document::Source, bool by_pointer, bool runs = true);
+    void load (const std::filesystem::path&, const Document::Source&, bool by_pointer, bool runs = true);
     void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< opens a graph that plays a clip file
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened

@@ -8,6 +8,7 @@
 #include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/limits/limit_light.hpp>
+#include <host/app/limits/limit_words.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/run/device_setup.hpp>
@@ -19,6 +20,7 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <limits>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -78,6 +80,21 @@ TEST_CASE ("a limit is broken beyond the limit, near within 20 % of it, and not 
     CHECK (limit.details.find ("0.5") != std::string::npos);
     CHECK (limit.text.starts_with ("The stiffness of wall is "));
     CHECK (limit.remedy.empty() != limit.is_broken);
+}
+
+TEST_CASE ("a tool that does not come to rest in trials is not said to be too stiff by the other law, which holds", "[app][limits]")
+{
+    check::Condition c;
+    c.id = "stiffness";
+    c.role = "stylus";
+    c.node = "rubber/foot";
+    c.value = 0.8;
+    c.limit = 1.0;
+    c.verdict = check::Verdict::unstable;
+    c.may_grow = std::numeric_limits<double>::quiet_NaN();
+    CHECK (limitSentence (c, c.node, "simulated") == "The tool of stylus (simulated) does not come to rest at rubber/foot");
+    c.may_grow = 0.5;
+    CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot is 2 times what stylus (simulated) allows");
 }
 
 TEST_CASE ("a ceiling is no step of the force", "[app][limits]")
