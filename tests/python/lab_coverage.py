@@ -16,41 +16,30 @@ import numpy as np
 from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._draw import Draw
-from tactus.lab._procedures import PsiTrack, StaircaseTrack
 
 THRESHOLD, WIDTH = 10.0, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
-LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
-LAPSE = 0.02
+LEVELS = (6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0)
 
 
-def holds(function, levels, yes, trials, guess):
-    """Whether the intervals hold the true threshold and the true width."""
-    given = _analysis._Likelihood(function, *_analysis._gathered(levels, yes, trials), guess, None)
-    truths = THRESHOLD if function != "weibull" else math.log(THRESHOLD), math.log(WIDTH[function])
-    return [low <= truth <= high for best in (given.best(), None) for (low, _, high), truth in zip(given.ends(0.95, best)[0], truths)]
+def answered(procedure, function, seed):
+    """The levels of an experiment, whether the answers of a simulated observer were right, and the guess rate."""
+    task, given = {"constant": ("yes_no", lab.Constant(levels=LEVELS, repeats=40)),
+                   "staircase": ("2ifc", lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80)),
+                   "psi": ("2ifc", lab.Psi(levels=tuple(range(2, 22)), widths=tuple(WIDTH[function] * 2.0 ** k for k in (-2, -1, 0, 1, 2)),
+                                           lapses=(0.0, 0.03), function=function, trials=80))}[procedure]
+    block = lab.Block(name="main", task=task, procedure=given, varies=lab.Varies(target="x"))
+    plan = lab.Plan(lab.Protocol(name="coverage", blocks=[block], seed=seed))
+    observer, found = lab.Observer(THRESHOLD, WIDTH[function], lapse=0.02, function=function, seed=seed), []
+    while (trial := plan.step) is not None:
+        answer = observer.answer(trial, trial.level)
+        found.append((trial.level, trial.outcome(answer)))
+        plan.answer(answer)
+    return (*np.array(found).T, block.guess_rate)
 
 
-def constant(function, draw):
-    chances = lab.probability(function, LEVELS, THRESHOLD, WIDTH[function], 0.0, LAPSE)
-    return LEVELS, [sum(draw.uniform() < p for _ in range(40)) for p in chances], np.full(7, 40), 0.0
-
-
-def adaptive(procedure, function, draw):
-    if procedure == "staircase":
-        track = StaircaseTrack(lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80))
-    else:
-        track = PsiTrack(lab.Psi(levels=tuple(range(2, 22)), widths=tuple(WIDTH[function] * 2.0 ** k for k in (-2, -1, 0, 1, 2)), lapses=(0.0, 0.03),
-                                 function=function, trials=80))
-    levels, yes = [], []
-    while (level := track.level()) is not None:
-        right = draw.uniform() < float(lab.probability(function, level, THRESHOLD, WIDTH[function], 0.5, LAPSE))
-        track.answer(level, right)
-        levels.append(level)
-        yes.append(right)
-    return levels, yes, None, 0.5
-
-
-def run(method, draw):
+def run(method, seed):
+    """Whether the intervals of one experiment hold the truth."""
+    draw = Draw(seed)
     if method == "detection":
         d, c = 1.5, 0.3
         hits, alarms = (sum(draw.uniform() < rate for _ in range(100)) for rate in lab.probability("normal", [0.5 * d - c, -0.5 * d - c], 0.0, 1.0))
@@ -61,7 +50,10 @@ def run(method, draw):
         low, high = lab.power_law(levels, answers).exponent_interval
         return [low <= 0.8 <= high]
     procedure, function = method.split("/")
-    return holds(function, *(constant(function, draw) if procedure == "constant" else adaptive(procedure, function, draw)))
+    levels, right, guess = answered(procedure, function, seed)
+    given = _analysis._Likelihood(function, *_analysis._gathered(levels, right, None), guess, None)
+    truths = THRESHOLD if function != "weibull" else math.log(THRESHOLD), math.log(WIDTH[function])
+    return [low <= truth <= high for best in (given.best(), None) for (low, _, high), truth in zip(given.ends(0.95, best)[0], truths)]
 
 
 METHODS = [*(f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in WIDTH), "detection", "power"]
@@ -75,7 +67,7 @@ def main():
     given = parser.parse_args()
     seed = secrets.randbits(32) if given.seed is None else given.seed
     for method in given.methods:
-        shares = np.mean([run(method, Draw(seed, method, i)) for i in range(given.runs)], axis=0)
+        shares = np.mean([run(method, seed + i) for i in range(given.runs)], axis=0)
         print(f"{method}: " + ", ".join(f"{share:.1%}" for share in shares) + f" of {given.runs} runs, seed {seed}", flush=True)
 
 

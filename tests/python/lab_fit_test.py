@@ -12,7 +12,7 @@ from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._draw import Draw
 
-LEVELS = lab_coverage.LEVELS
+LEVELS = np.array(lab_coverage.LEVELS)
 YES = np.array([1, 4, 11, 19, 30, 37, 39])
 
 
@@ -72,7 +72,7 @@ class Fits(TestCase):
 
     def test_the_ends_of_an_interval_are_where_the_profile_has_fallen(self):
         """The profile is the largest value over many points. Constant stimuli, and a staircase, whose likelihood has several summits."""
-        chosen, right, _, guess = lab_coverage.adaptive("staircase", "logistic", Draw(5, 0, "logistic"))
+        chosen, right, guess = lab_coverage.answered("staircase", "logistic", 1)
         for fit in (*(lab.psychometric(LEVELS, YES, np.full(7, 40), function=function) for function in ("logistic", "normal", "weibull")),
                     lab.psychometric(chosen, right, guess=guess)):
             best = likelihood(fit, fit.threshold, fit.width, fit.lapse)
@@ -112,7 +112,7 @@ class Fits(TestCase):
     def test_intervals_hold_the_truth_about_as_often_as_they_say(self):
         """A few runs with fixed seeds; lab_coverage.py makes the 2000 of docs/lab.md."""
         for method in ("constant/logistic", "constant/normal", "constant/weibull", "staircase/logistic", "detection", "power"):
-            shares = np.mean([lab_coverage.run(method, Draw(11, method, i)) for i in range(60)], axis=0)
+            shares = np.mean([lab_coverage.run(method, 1000 + i) for i in range(60)], axis=0)
             self.assertTrue((shares >= (0.8 if method.startswith("staircase") else 0.88)).all(), (method, shares))
 
 

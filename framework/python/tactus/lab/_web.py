@@ -89,12 +89,11 @@ class Browser(Window):
     def __init__(self, port: int = 0):
         """port: TCP port; 0: any free one."""
         self.marks: Marks = queue.Queue(10000)
-        self._token = secrets.token_urlsafe(12)
         self._state: Dict[str, Any] = {"text": "Please wait."}
         self._report: Dict[str, Any] = {}
         self._given: "queue.Queue[Tuple[int, str]]" = queue.Queue(1000)
         self._id, self._stopped, self._over = 0, threading.Event(), False
-        window, marks = self, self.marks
+        window, token = self, secrets.token_urlsafe(12)
 
         class Handler(http.server.BaseHTTPRequestHandler):
             protocol_version = "HTTP/1.1"
@@ -102,58 +101,47 @@ class Browser(Window):
             def log_message(self, format: str, *args: Any) -> None:
                 pass
 
-            def _send(self, kind: str, text: str, status: int = 200) -> None:
-                data = text.encode()
+            def do_GET(self) -> None:
+                """The reply, without anything in it if the secret is wrong, or the host is not this computer."""
+                host, length, parts = self.headers.get("Host", "").rsplit(":", 1)[0], self.headers.get("Content-Length", "0"), self.path.split("/")
+                body = self.rfile.read(min(int(length), 4096)) if length.isdigit() else b""
+                is_known = len(parts) == 3 and secrets.compare_digest(parts[1].encode(), token.encode()) and host in ("127.0.0.1", "localhost")
+                status, text = window._reply(f"{self.command} {parts[2] or 'participant'}", body) if is_known else (404, "{}")
                 self.send_response(status)
-                self.send_header("Content-Type", kind)
-                self.send_header("Content-Length", str(len(data)))
+                self.send_header("Content-Type", "text/html; charset=utf-8" if text.startswith("<") else "application/json")
+                self.send_header("Content-Length", str(len(text.encode())))
                 self.send_header("Cache-Control", "no-store")
                 self.end_headers()
-                self.wfile.write(data)
+                self.wfile.write(text.encode())
 
-            def _place(self) -> str:
-                """The requested page; "" if the secret is wrong, or the host is not this computer."""
-                host = self.headers.get("Host", "").rsplit(":", 1)[0]
-                parts = self.path.split("/")
-                is_known = len(parts) == 3 and secrets.compare_digest(parts[1].encode(), window._token.encode()) and host in ("127.0.0.1", "localhost")
-                return parts[2] or "participant" if is_known else ""
-
-            def do_GET(self) -> None:
-                place = self._place()
-                pages = {"participant": _PARTICIPANT, "experimenter": _EXPERIMENTER}
-                if place in pages:
-                    self._send("text/html; charset=utf-8", pages[place].replace("STYLE", _STYLE))
-                elif place in ("state", "report"):
-                    told = {**window._state, "report": window._report, "stopped": window._stopped.is_set(), "over": window._over}
-                    self._send("application/json", json.dumps(window._state if place == "state" else told))
-                else:
-                    self._send("text/plain", "not here", 404)
-
-            def do_POST(self) -> None:
-                place, length = self._place(), self.headers.get("Content-Length", "0")
-                body = self.rfile.read(min(int(length), 4096)) if length.isdigit() else b""
-                if place == "stop":
-                    window._stopped.set()
-                    window.stop()
-                elif place not in ("answer", "mark"):
-                    return self._send("text/plain", "not here", 404)
-                else:
-                    try:
-                        given = json.loads(body)
-                        if place == "mark":
-                            marks.put_nowait((str(given["name"])[:1000], str(given.get("value", ""))[:1000], window.now()))
-                        else:
-                            window._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
-                    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, queue.Full):
-                        return self._send("text/plain", f"no {place}", 400)
-                self._send("application/json", "{}")
+            do_POST = do_GET
 
         self._server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
         self._server.daemon_threads = True
-        self.participant = f"http://127.0.0.1:{self._server.server_address[1]}/{self._token}/"
+        self.participant = f"http://127.0.0.1:{self._server.server_address[1]}/{token}/"
         self.experimenter = self.participant + "experimenter"
         self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.05}, name="tactus.lab pages", daemon=True)
         self._thread.start()
+
+    def _reply(self, request: str, body: bytes) -> Tuple[int, str]:
+        """The status and the text that answer a request."""
+        told = {**self._state, "report": self._report, "stopped": self._stopped.is_set(), "over": self._over}
+        pages = {"GET participant": _PARTICIPANT, "GET experimenter": _EXPERIMENTER, "GET state": json.dumps(self._state), "GET report": json.dumps(told)}
+        if request == "POST stop":
+            self._stopped.set()
+            self.stop()
+        elif request in ("POST mark", "POST answer"):
+            try:
+                given = json.loads(body)
+                if request == "POST mark":
+                    self.marks.put_nowait((str(given["name"])[:1000], str(given.get("value", ""))[:1000], self.now()))
+                else:
+                    self._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
+            except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, queue.Full):
+                return 400, "{}"
+        elif request not in pages:
+            return 404, "{}"
+        return 200, pages.get(request, "{}")
 
     def show(self, text: str) -> None:
         self._asked(text, {"go on": " "}, more={"Enter": "go on"})
