@@ -6,11 +6,8 @@ import contextlib
 import io
 import json
 import math
-import os
 import pathlib
 import random
-import subprocess
-import sys
 import tempfile
 import unittest
 import warnings
@@ -289,17 +286,10 @@ class Command(TestCase):
         self.folder = pathlib.Path(made.name)
         (self.folder / "Models_Wood.xml").write_text(texture([(50.0, 0.5, 0.2, [0.5, 1.0, 1.5, 2.0], [], 1.0)]), encoding="utf-8")
 
-    def ran(self, **environment):
-        return subprocess.run([PROGRAM, "import-data", "hatt", ".", "-o", "out"], cwd=self.folder,
-                              env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment},   # the same Python
-                              capture_output=True, text=True)
-
     def test_it_writes_presets_and_loads_no_module_from_the_folder_of_recordings(self):
         for name in ("tactus.py", "argparse.py", "json.py"):
             (self.folder / name).write_text("open('planted', 'w')\n", encoding="utf-8")
-        ran = self.ran()
-        self.assertEqual(ran.returncode, 0, ran.stderr)
-        self.assertIn("wood.json: 1 models", ran.stdout)
+        self.assertIn("wood.json: 1 models", self.ran("import-data", "hatt", ".", "-o", "out"))
         self.assertTrue((self.folder / "out/wood.json").exists())
         self.assertFalse((self.folder / "planted").exists())
 
@@ -307,10 +297,8 @@ class Command(TestCase):
         packages = self.folder / "packages"
         packages.mkdir()
         (packages / "tactus.py").write_text("raise ImportError\n", encoding="utf-8")
-        ran = self.ran(PYTHONPATH=str(packages))
-        self.assertEqual(ran.returncode, 2)
-        self.assertEqual(ran.stdout, "")
-        self.assertTrue(ran.stderr.startswith("error: the Python package tactus is not installed"), ran.stderr)
+        said = self.ran("import-data", "hatt", ".", "-o", "out", status=2, PYTHONPATH=str(packages))
+        self.assertTrue(said.startswith("error: the Python package tactus is not installed"), said)
         self.assertFalse((self.folder / "out").exists())
 
 

@@ -7,7 +7,6 @@ import importlib.util
 import io
 import json
 import os
-import subprocess
 import sys
 import unittest
 
@@ -60,11 +59,8 @@ class Examples(TestCase):
             self.assertLessEqual(len(path.read_text(encoding="utf-8").splitlines()), 40, path.name)
             ast.parse(path.read_text(encoding="utf-8"))
 
-    def run_script(self, name, *words):
-        return subprocess.run([sys.executable, "-B", str(EXAMPLES / name), *words], capture_output=True, text=True, check=True).stdout
-
     def test_the_staircase_finds_the_threshold(self):
-        said = self.run_script("staircase.py", *([self.folder] if matplotlib else []))
+        said = self.ran("-B", EXAMPLES / "staircase.py", *([self.folder] if matplotlib else []), program=sys.executable)
         low, high = (float(x.rstrip("),")) for x in said.split("95 % ")[1].split(",")[0].split(" to "))
         self.assertTrue(low < 0.4 < high, said)
         if matplotlib:
@@ -76,7 +72,7 @@ class Examples(TestCase):
         forces = learns_a_wall.learn()
         self.assertTrue(forces[0] > 1.5 and abs(forces[5] - 1.0) < 0.05, forces)   # it overshoots, and learns
         self.assertTrue(forces[6] > 1.5 and abs(forces[11] - 1.0) < 0.05, forces)  # a stiffer wall
-        self.assertIn("<td>12</td>", self.run_script("learns_a_wall.py"))
+        self.assertIn("<td>12</td>", self.ran("-B", EXAMPLES / "learns_a_wall.py", program=sys.executable))
 
 
 @unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")

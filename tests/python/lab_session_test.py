@@ -6,7 +6,6 @@ import io
 import json
 import math
 import os
-import pathlib
 import pty
 import signal
 import socket
@@ -30,23 +29,17 @@ OBSERVER = lab.Observer(threshold=2.0, width=0.3)
 
 
 class Asked(lab.Simulated):
-    """An observer. A function of the trial, the keys and the hand may answer first."""
+    """An observer, which may leave at a trial. A function of the trial, the keys and the hand may answer first."""
 
-    def __init__(self, first=lambda *asked: None, observer=OBSERVER):
+    def __init__(self, first=lambda *asked: None, observer=OBSERVER, leaves=0):
         super().__init__(observer)
-        self.first = first
+        self.first, self.leaves = first, leaves
 
     def ask(self, trial, level, keys, limit, hand):
+        if trial.number == self.leaves:
+            raise lab.Aborted("enough")
         answer = self.first(trial, keys, hand)
         return super().ask(trial, level, keys, limit, hand) if answer is None else answer
-
-
-def leaves(number):
-    """A window whose observer leaves at a trial."""
-    def leave(trial, keys, hand):
-        if trial.number == number:
-            raise lab.Aborted("enough")
-    return Asked(leave)
 
 
 def awaited(hand):
@@ -95,7 +88,7 @@ class Sessions(Case):
     def test_nothing_is_lost_and_the_order_stays_after_three_breaks_in_the_middle_of_a_line(self):
         before = b""
         for resume, number in ((False, 9), (True, 22), (True, 22)):
-            data = self.run_session(self.made, leaves(number), resume=resume)
+            data = self.run_session(self.made, Asked(leaves=number), resume=resume)
             self.assertEqual(data.trials.rows, number - 1)
             path = next(data.folder.glob("*journal.jsonl"))
             self.assertTrue(path.read_bytes().startswith(before))   # append-only
@@ -108,13 +101,16 @@ class Sessions(Case):
         self.assertEqual([resumed.turns(), list(resumed.events["trial_type"]).count("run")], [whole.turns(), 4])
 
     def test_a_session_never_replaces_another_and_goes_on_only_with_its_protocol_in_one_process(self):
-        data = self.run_session(self.made, leaves(5))
+        data = self.run_session(self.made, Asked(leaves=5))
         self.assertEqual((data.trials.rows, data.is_complete), (4, False))
         self.fails("lab/exists", self.run_session, self.made)
         self.fails("lab/protocol", self.run_session, protocol(block()), resume=True)
+        own = next(self.folder.rglob("*_protocol.json"))
+        own.unlink()   # as if the process had been killed before it wrote the file
         held = self.session(self.made, resume=True)
         self.fails("lab/busy", self.session, self.made, resume=True)
         self.assertTrue(held.run().is_complete)
+        self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
         self.fails("lab/exists", self.run_session, self.made, resume=True)
         self.fails("lab/value", self.run_session, self.made, participant="../x")
         self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
@@ -126,7 +122,7 @@ class Sessions(Case):
         made = protocol(lab.Block(name="a", task="2ifc", procedure=lab.Constant(levels=(0.2, 0.4), repeats=2), varies=lab.Varies(target="roughness")),
                         graph="own.json")
         made.save(study / "p.json")
-        folder = self.run_session(lab.Protocol.load(study / "p.json"), leaves(2), stage=lab.Silent()).folder
+        folder = self.run_session(lab.Protocol.load(study / "p.json"), Asked(leaves=2), stage=lab.Silent()).folder
         (study / "p.json").unlink()
         own = next(folder.glob("*_protocol.json"))
         again = lab.Protocol.load(own)
@@ -134,13 +130,6 @@ class Sessions(Case):
         self.run_session(again, stage=lab.Silent(), resume=True)
         self.assertTrue(lab.load(folder).is_complete)
         self.assertNotIn(str(self.folder), own.read_text(encoding="utf-8"))   # no path of this computer
-
-    def test_a_session_that_ended_before_its_protocol_was_written_goes_on(self):
-        self.session(self.made)._journal.close()
-        own = next(self.folder.rglob("*_protocol.json"))
-        own.unlink()
-        self.assertTrue(self.run_session(self.made, resume=True).is_complete)
-        self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
 
     def test_answers_by_osc_that_are_none_or_come_early_do_not_count(self):
         answers, receiver = [], self.receiver()
@@ -253,28 +242,18 @@ class Marks(Case):
 
 
 class Windows(Case):
-    def terminal(self):
-        """A terminal, what is written into it, and what it says."""
+    def test_lines_at_a_terminal_are_answers_and_a_time_limit_ends_a_question(self):
         (read, write), said = os.pipe(), io.StringIO()
-        source, typed = os.fdopen(read), os.fdopen(write, "wb", 0)
-        self.addCleanup(source.close)
-        self.addCleanup(typed.close)
-        return lab.Terminal(source, said), typed, said
-
-    def test_lines_at_a_terminal_are_answers(self):
-        terminal, typed, said = self.terminal()
-        typed.write(b"\n5\n1\nsecond\nstop\n")
-        data = self.run_session(protocol(instructions="welcome"), terminal)
-        self.assertEqual((data.trials["answer"], data.is_complete), (["first", "second"], False))
-        self.assertRegex(said.getvalue(), "(?s)welcome.*Give one of 1, 2")
-
-    def test_a_time_limit_ends_a_question(self):
-        terminal, typed, _ = self.terminal()
-        asked = lab.Plan(protocol()).step, 1.0, {"first": "1"}
-        self.assertIsNone(terminal.ask(*asked, 0.001, lambda: None))
-        self.assertEqual(terminal.ask(*asked, 0.0, lambda: "first"), "first")
-        typed.close()
-        self.assertRaises(lab.Aborted, terminal.ask, *asked, 0.0, lambda: None)
+        with os.fdopen(read) as source, os.fdopen(write, "wb", 0) as typed:
+            terminal, asked = lab.Terminal(source, said), (lab.Plan(protocol()).step, 1.0, {"first": "1"})
+            typed.write(b"\n5\n1\nsecond\nstop\n")
+            data = self.run_session(protocol(instructions="welcome"), terminal)
+            self.assertEqual((data.trials["answer"], data.is_complete), (["first", "second"], False))
+            self.assertRegex(said.getvalue(), "(?s)welcome.*Give one of 1, 2")
+            self.assertIsNone(terminal.ask(*asked, 0.001, lambda: None))
+            self.assertEqual(terminal.ask(*asked, 0.0, lambda: "first"), "first")
+            typed.close()
+            self.assertRaises(lab.Aborted, terminal.ask, *asked, 0.0, lambda: None)
 
     def test_a_participant_answers_in_a_browser_and_the_experimenter_sees_it(self):
         browser = self.browser()
@@ -414,36 +393,27 @@ class OnDevices(Case):
 
 @unittest.skipUnless(PROGRAM, "the program is not built")
 class Commands(Case):
-    def ran(self, *words, **environment):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
-                              env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment})
-
     def test_an_experiment_runs_and_tells_its_threshold(self):
         Sessions.made.save(self.folder / "p.json")
         given = "p.json", "--observer", "threshold=2,width=0.3"
         for status, said, words in ((0, r"complete\nmain, graph: threshold [0-9.]+ N \(95 % ", (*given, "--packed-log")), (1, "--resume", given),
                                     (2, "threshold=x", (*given[:2], "threshold=x")), (2, "file", ()), (0, "--resume", ("--help",))):
-            ran = self.ran("experiment", *words, "--osc", "off")
-            self.assertEqual(ran.returncode, status, ran.stderr)
-            self.assertRegex(ran.stdout + ran.stderr, said)
+            self.assertRegex(self.ran("experiment", *words, "--osc", "off", status=status), said)
 
     def test_a_mark_without_an_experiment_is_an_error_and_without_the_package_one_sentence_names_it(self):
-        self.assertEqual(self.ran("mark", "x", "--osc", "1").returncode, 1)
-        receiver = lab.Receiver(0)
-        self.addCleanup(receiver.close)
-        self.assertEqual(self.ran("mark", "--osc", receiver.port, "--", "blink", "-left").returncode, 0)
+        self.ran("mark", "x", "--osc", "1", status=1)
+        receiver = self.receiver()
+        self.ran("mark", "--osc", receiver.port, "--", "blink", "-left")
         self.assertEqual(receiver.marks.get(timeout=60)[:2], ("blink", "-left"))
-        ran = self.ran("mark", "x", PYTHONPATH=str(self.folder))
-        self.assertEqual(ran.returncode, 2)
-        self.assertEqual(ran.stderr, "error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n")
+        self.assertEqual(self.ran("mark", "x", status=2, PYTHONPATH=str(self.folder)),
+                         "error: the Python package tactus is not installed; install it, or set PYTHONPATH to the folder python of the build\n")
 
     def test_the_module_prints_its_schema_and_writes_tables_again(self):
         data = self.run_session(Sessions.made)
         events = data.folder / f"{data.stem}_events.tsv"
         before = events.read_bytes()
         events.unlink()
-        shape, tables = (subprocess.run([sys.executable, "-m", "tactus.lab", *words], capture_output=True, text=True, check=True).stdout
-                         for words in (("schema",), ("tables", str(data.folder), "--to", "mat")))
+        shape, tables = (self.ran("-m", "tactus.lab", *words, program=sys.executable) for words in (["schema"], ["tables", data.folder, "--to", "mat"]))
         self.assertEqual(json.loads(shape), lab.schema())
         self.assertIn("_beh.mat", tables)
         self.assertEqual(events.read_bytes(), before)

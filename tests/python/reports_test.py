@@ -11,14 +11,13 @@ import os
 import pathlib
 import pickle
 import re
-import subprocess
 import threading
 import unittest
 import wave
 
 import numpy as np
 import tactus
-from support import PROGRAM, ROOT, TestCase, needs_live
+from support import ROOT, TestCase, needs_live
 from tactus import lab
 from waiting import eventually, while_busy
 
@@ -38,18 +37,10 @@ def strokes(rows=4000):
     return x, np.array(force) + 1e-3 * np.random.default_rng(1).standard_normal(rows)
 
 
-class Case(TestCase):
-    def ran(self, *words, status=0):
-        """What a command prints."""
-        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=self.folder, check=False)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done.stdout
-
+class Reports(TestCase):
     def said(self, *words, **more):
         return json.loads(self.ran(*words, "--json", **more))
 
-
-class Reports(Case):
     def test_a_check_is_that_of_the_command(self):
         found = tactus.check("granite_wall")
         self.assertEqual(found.json, self.said("check", "granite_wall"))
@@ -178,7 +169,7 @@ class Reports(Case):
         self.assertIn("stiffness", limits.plot().axes[0].get_xlabel())
 
 
-class Logs(Case):
+class Logs(TestCase):
     def played(self, name="run.jsonl"):
         """The log of a run in real time, and what it has recorded."""
         log = self.folder / name

@@ -117,6 +117,13 @@ class TestCase(unittest.TestCase):
         self.assertEqual(caught.exception.id, id, str(caught.exception))
         return caught.exception
 
+    def ran(self, *words, status=0, program=PROGRAM, **environment):
+        """What a program says that must end with this status. It runs in the folder of this test, and finds the same Python."""
+        done = subprocess.run([program, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False,
+                              env={**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", **environment})
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout or done.stderr
+
 
 def drag(**params):
     """A contact that is dragged by a feed of positions."""
