@@ -30,7 +30,7 @@ def walk(plan, answer):
     while (step := plan.step) is not None:
         (trials if isinstance(step, lab.Trial) else texts).append(step)
         plan.answer(answer(step) if isinstance(step, lab.Trial) else None)
-    return [step.text for step in texts], trials
+    return texts, trials
 
 
 class Files(TestCase):

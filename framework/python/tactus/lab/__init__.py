@@ -24,7 +24,7 @@ from ._results import Results
 from ._stages import Live, Moment, Silent
 from ._study import Map, Study
 from ._tables import SessionData, load
-from ._trials import Plan, Text, Trial
+from ._trials import Plan, Trial
 from ._web import Browser
 from ._windows import Aborted, Observer, Simulated, Terminal, Window
 from ._writers import Table, table_of
@@ -33,6 +33,6 @@ load_results = Results
 
 __all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "Factor", "FromTable", "Grid", "HandAnswer", "Interval",
            "Latin", "Live", "Map", "Measure", "Moment", "Observer", "Plan", "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "Results",
-           "SessionData", "Silent", "Simulated", "Sobol", "Staircase", "Study", "Table", "Terminal", "Text", "Trial", "Triggers", "Varies", "Window",
+           "SessionData", "Silent", "Simulated", "Sobol", "Staircase", "Study", "Table", "Terminal", "Trial", "Triggers", "Varies", "Window",
            "d_prime_of_two_intervals", "detection", "load", "load_results", "mark", "mean_of_turns", "plot_staircase", "power_law", "probability",
            "psychometric", "save_plot", "schema", "table_of"]

@@ -238,8 +238,6 @@ def psychometric(levels: ArrayLike, yes: ArrayLike, trials: Optional[ArrayLike] 
     return Psychometric(function, threshold, width, guess, missed, Interval(low, high), Interval(narrow, wide), deviance, confidence, x, k, n, unit)
 
 
-# ------------------------------------------------------------------------ Signals and noise
-
 class Detection(NamedTuple):
     """d_prime and criterion (both in standard deviations of the noise) with 95 % intervals (Gourevitch and Galanter 1967)."""
 
@@ -291,8 +289,6 @@ def t_quantile(free: int, share: float = 0.975) -> float:
     below = np.cumsum(np.cos(0.5 * (x[1:] + x[:-1])) ** (free - 1))
     return math.sqrt(free) * math.tan(float(np.interp(2.0 * share - 1.0, np.append(0.0, below / below[-1]), x)))
 
-
-# ------------------------------------------------------------------------ Plots
 
 def save_plot(ax: Any, path: Path) -> None:
     """Writes the figure of axes as .svg, .pdf or .png; the same figure gives the same bytes."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import math
 import pathlib
 import platform
 import queue
@@ -22,17 +23,13 @@ from ._analysis import psychometric
 from ._marks import Receiver, TriggerLine
 from ._protocol import ANSWERS, KEYS, Protocol, checked
 from ._stages import Live, Moment, Silent
-from ._trials import Answer, Plan, Text, Trial
+from ._trials import Answer, Plan, Trial
 from ._windows import Aborted, Simulated, Window, meant
 
 
 class Experiment:
     """A session of a participant. Each mark and each trial is in its journal before the next one begins, so at most the current trial is lost if the process
-    is killed; `resume` goes on with that trial, in the same order.
-
-        experiment = lab.Experiment(protocol, "data", participant="01", window=lab.Simulated(lab.Observer(threshold=0.3, width=0.1)))
-        session = experiment.run()
-    """
+    is killed; `resume` goes on with that trial, in the same order."""
 
     def __init__(self, protocol: Protocol, out: Path, participant: str = "01", session: str = "01", *, window: Window,
                  stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {},
@@ -74,9 +71,9 @@ class Experiment:
 
     def _header(self) -> _journal.Event:
         felt = {condition.name: graph for condition in self.protocol.all_conditions() if (graph := self.protocol.graph_of(condition)) is not None}
-        graphs = {name: hashlib.sha256(graph.text.encode()).hexdigest() for name, graph in felt.items()}
         return {"protocol": self.protocol.hash(), "name": self.protocol.name, "participant": self.participant, "session": self.session,
-                "seed": self.protocol.seed, "graphs": graphs, "rates_hz": {name: graph.rate for name, graph in felt.items()},
+                "seed": self.protocol.seed, "graphs": {name: hashlib.sha256(graph.text.encode()).hexdigest() for name, graph in felt.items()},
+                "rates_hz": {name: graph.rate for name, graph in felt.items()},
                 "versions": {"tactus": _tactus.version(), "python": platform.python_version(), "numpy": np.__version__},
                 "started": {"wall": time.time(), "monotonic": time.monotonic()}}
 
@@ -90,16 +87,13 @@ class Experiment:
                 fail("lab/exists", str(self.folder), "the session is complete", "choose another session")
             if event.get("event") != "trial":
                 continue
-            while isinstance(self.plan.step, Text):
+            while isinstance(self.plan.step, str):
                 self.plan.answer()
-            trial = self.plan.step
-            if not isinstance(trial, Trial) or (trial.number, trial.block.name, trial.kind, trial.condition) != tuple(
-                    event[key] for key in ("number", "block", "kind", "condition")) or abs(trial.level - event["level"]) > 1e-9 * max(1.0, abs(trial.level)):
+            trial, said = self.plan.step, tuple(event[key] for key in ("number", "block", "kind", "condition"))
+            if trial is None or (trial.number, trial.block.name, trial.kind, trial.condition) != said or not math.isclose(trial.level, event["level"], abs_tol=1e-9):
                 fail("lab/order", str(self.folder), f"trial {event['number']} of the journal is not the one that follows from its answers",
                      "resume with the version of tactus with which the session began")
             self.plan.answer(event["answer"])
-
-    # ------------------------------------------------------------------------ The run
 
     def run(self) -> "_tables.SessionData":
         """Runs the session to its end, and returns its data. If a window raises Aborted, the data so far are returned. After each
@@ -108,17 +102,16 @@ class Experiment:
         try:
             self.mark("run", str(self.run_number))
             while (step := self.plan.step) is not None:
-                if isinstance(step, Text):
-                    self.window.show(step.text)
+                if isinstance(step, str):
+                    self.window.show(step)
                     self.plan.answer()
                 else:
                     self._trial(step)
             why = "end"
-        except Aborted:
+        except (Aborted, KeyboardInterrupt) as left:
             why = "aborted"
-        except KeyboardInterrupt:
-            why = "aborted"
-            raise
+            if isinstance(left, KeyboardInterrupt):
+                raise
         finally:
             self.stage.close()
             self._journal.add({"event": why, **Silent().now()._asdict()})
@@ -187,8 +180,6 @@ class Experiment:
         """The answer of the hand or by OSC. What is none is left out."""
         self._take_marks()
         return meant(self.stage.hand() or (self.receiver.answer() if self.receiver else None) or "", keys)
-
-    # ------------------------------------------------------------------------ Marks
 
     def mark(self, name: str, value: str = "", at: Optional[Moment] = None) -> Moment:
         """Writes a mark with the tick and the wall and monotonic time (in s), and sends its trigger if it has one. at: its moment; without it, now.

@@ -70,8 +70,6 @@ class SessionData:
                                       indent=2) + "\n", encoding="utf-8")
         return written
 
-    # ------------------------------------------------------------------------ Analysis
-
     def _block(self, name: Optional[str]) -> Block:
         for block in self.protocol.blocks:
             if name in (None, block.name):

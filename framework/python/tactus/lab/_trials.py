@@ -45,17 +45,11 @@ class Trial:
         return answer if answer is None or isinstance(answer, float) else float(answer == self.expected)
 
 
-class Text(NamedTuple):
-    """A page to read."""
-
-    text: str
-
-
-Step = Union[Text, Trial]
+Step = Union[str, Trial, None]
 
 
 class Plan:
-    """A way through an experiment: `step` is the next text or trial, None at the end."""
+    """A way through an experiment: `step` is the next trial, or a text to read; None at the end."""
 
     def __init__(self, protocol: Protocol, participant: str = "01", session: str = "01"):
         """participant, session: labels; a participant whose label is a number has that row of the latin square."""
@@ -64,14 +58,11 @@ class Plan:
         self._number = 0
         self._tracks = [self._start(block) for block in protocol.blocks]
         self._steps = self._run()
-        self.step: Optional[Step] = next(self._steps, None)
+        self.step: Step = next(self._steps)
 
     def answer(self, answer: Answer = None) -> None:
         """Takes the answer to the step. Texts need none; a trial that counts is repeated if it has none."""
-        try:
-            self.step = self._steps.send(answer)
-        except StopIteration:
-            self.step = None
+        self.step = self._steps.send(answer)
 
     def left(self) -> int:
         """The largest number of trials that are left, without practice and catch trials."""
@@ -79,11 +70,12 @@ class Plan:
 
     def _run(self) -> Generator[Step, Answer, None]:
         if self._protocol.instructions:
-            yield Text(self._protocol.instructions)
+            yield self._protocol.instructions
         count = len(self._protocol.blocks)
         order = {"given": list(range(count)), "random": Draw(*self._key, "blocks").order(range(count)), "latin_square": latin_square(count, self._row)}
         for index in order[self._protocol.order]:
             yield from self._block(index)
+        yield None
 
     def _start(self, block: Block) -> List[Tuple[str, int, Track]]:
         names = block.conditions or [c.name for c in self._protocol.all_conditions()]
@@ -92,18 +84,18 @@ class Plan:
     def _block(self, index: int) -> Generator[Step, Answer, None]:
         block, tracks, draw = self._protocol.blocks[index], self._tracks[index], Draw(*self._key, self._protocol.blocks[index].name)
         if block.instructions:
-            yield Text(block.instructions)
+            yield block.instructions
         levels = block.procedure.levels if isinstance(block.procedure, (Constant, Psi)) else (block.procedure.start,)
         for _ in range(block.practice):
             name, number, track = tracks[draw.below(len(tracks))]
             yield self._trial(block, "practice", name, number, levels[draw.below(len(levels))])
         if block.practice:
-            yield Text("The practice is over.")
+            yield "The practice is over."
         count = rested = 0
         while still := [each for each in tracks if each[2].level() is not None]:
             if block.break_every and count > rested and count % block.break_every == 0:
                 rested = count   # a trial without an answer brings no second break
-                yield Text("Take a break.")
+                yield "Take a break."
             if draw.uniform() < block.catch / (1.0 - block.catch):
                 yield self._trial(block, "catch", still[draw.below(len(still))][0], 0, block.varies.standard)
             if isinstance(block.procedure, Constant):   # all remaining trials are equally likely, so the conditions stay mixed up to the end

@@ -100,10 +100,8 @@ def _hdf5(table: Table) -> bytes:
     return out.getvalue()
 
 
-# ------------------------------------------------------------------------ MAT, version 5 (MathWorks, "MAT-File Format"). Octave 7 does not read the letters
-# beyond ASCII that scipy.io.savemat writes.
-
 def _element(kind: int, data: bytes) -> bytes:
+    """An element of MAT 5 (MathWorks, "MAT-File Format"). Octave 7 does not read the letters beyond ASCII that scipy.io.savemat writes."""
     return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
 
 
@@ -135,30 +133,10 @@ def _mat(table: Table) -> bytes:
     return b"".join([*made, _characters("about", json.dumps({**table.sidecar(), "columns": dict(zip(names, table))}, ensure_ascii=False))])
 
 
-# ------------------------------------------------------------------------ XDF (https://github.com/sccn/xdf, version 1.0)
-
 def _chunk(tag: int, content: bytes) -> bytes:
+    """A chunk of XDF (https://github.com/sccn/xdf, version 1.0)."""
     data = struct.pack("<H", tag) + content
     return b"\x08" + struct.pack("<Q", len(data)) + data
-
-
-def _stream(number: int, name: str, kind: str, channels: Sequence[str], units: Sequence[str], rate: float, form: str,
-            times: Any, rows: bytes, about: str) -> bytes:
-    described = "".join(f"<channel><label>{escape(c)}</label><unit>{escape(u)}</unit></channel>" for c, u in zip(channels, units))
-    head = (f'<?xml version="1.0"?><info><name>{escape(name)}</name><type>{kind}</type><channel_count>{len(channels)}</channel_count>'
-            f"<nominal_srate>{rate!r}</nominal_srate><channel_format>{form}</channel_format><source_id>tactus</source_id><version>1.1</version>"
-            f"<desc><channels>{described}</channels><about>{escape(about)}</about></desc></info>")
-    first, last = (times[0], times[-1]) if len(times) else (0.0, 0.0)
-    foot = (f'<?xml version="1.0"?><info><first_timestamp>{float(first)!r}</first_timestamp>'
-            f'<last_timestamp>{float(last)!r}</last_timestamp><sample_count>{len(times)}</sample_count></info>')
-    number_of = struct.pack("<I", number)
-    return (_chunk(2, number_of + head.encode()) + (_chunk(3, number_of + b"\x08" + struct.pack("<Q", len(times)) + rows) if len(times) else b"")
-            + _chunk(6, number_of + foot.encode()))
-
-
-def _texts(times: Any, texts: Sequence[str]) -> bytes:
-    encoded = [str(text).encode() for text in texts]
-    return b"".join(struct.pack("<BdBI", 8, time, 4, len(data)) + data for time, data in zip(times, encoded))
 
 
 def _xdf(table: Table) -> bytes:
@@ -167,17 +145,29 @@ def _xdf(table: Table) -> bytes:
     clock = next((name for name in ("monotonic", "t", "onset") if name in table), None)
     if clock is None:
         fail("lab/no_times", "columns", "the table has no times", "give it a column 't', 'onset' or 'monotonic', in s")
-    times = np.asarray(table[clock], dtype=float)
+    times, about = np.asarray(table[clock], dtype=float), escape(json.dumps(table.sidecar(), ensure_ascii=False))
     numbers = [name for name in table if not _is_text(table[name])]
-    texts = [name for name in table if _is_text(table[name])]
-    about = json.dumps(table.sidecar(), ensure_ascii=False)
     rows = np.zeros(len(times), dtype=[("flag", "u1"), ("time", "<f8"), ("values", "<f8", (len(numbers),))])
     rows["flag"], rows["time"], rows["values"] = 8, times, np.stack([np.asarray(table[name], dtype=float) for name in numbers], axis=1)
-    return b"".join([
-        b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>'),
-        _stream(1, "tactus", "Haptics", numbers, [table.units.get(name, "") for name in numbers], table.rate_hz, "double64", times,
-                rows.tobytes(), about),
-        *(_stream(2 + i, name, "Markers", [name], [""], 0.0, "string", times, _texts(times, table[name]), about) for i, name in enumerate(texts))])
+    streams = [("tactus", "Haptics", numbers, table.rate_hz, "double64", rows.tobytes())]
+    for name in table:
+        if _is_text(table[name]):
+            texts = b"".join(struct.pack("<BdBI", 8, time, 4, len(text)) + text for time, text in zip(times, (str(t).encode() for t in table[name])))
+            streams.append((name, "Markers", [name], 0.0, "string", texts))
+    first, last = (float(times[0]), float(times[-1])) if len(times) else (0.0, 0.0)
+    foot = (f'<?xml version="1.0"?><info><first_timestamp>{first!r}</first_timestamp>'
+            f'<last_timestamp>{last!r}</last_timestamp><sample_count>{len(times)}</sample_count></info>')
+    made = [b"XDF:" + _chunk(1, b'<?xml version="1.0"?><info><version>1.0</version></info>')]
+    for number, (name, kind, channels, rate, form, samples) in enumerate(streams, 1):
+        units = ["" if kind == "Markers" else table.units.get(channel, "") for channel in channels]
+        described = "".join(f"<channel><label>{escape(c)}</label><unit>{escape(u)}</unit></channel>" for c, u in zip(channels, units))
+        head = (f'<?xml version="1.0"?><info><name>{escape(name)}</name><type>{kind}</type><channel_count>{len(channels)}</channel_count>'
+                f"<nominal_srate>{rate!r}</nominal_srate><channel_format>{form}</channel_format><source_id>tactus</source_id><version>1.1</version>"
+                f"<desc><channels>{described}</channels><about>{about}</about></desc></info>")
+        id = struct.pack("<I", number)
+        made += [_chunk(2, id + head.encode()), *([_chunk(3, id + b"\x08" + struct.pack("<Q", len(times)) + samples)] if len(times) else []),
+                 _chunk(6, id + foot.encode())]
+    return b"".join(made)
 
 
 _WRITERS = {".csv": lambda table: _text(table, ","), ".tsv": lambda table: _text(table, "\t"), ".h5": _hdf5, ".mat": _mat, ".xdf": _xdf}
