@@ -15,7 +15,7 @@ import secrets
 import numpy as np
 from tactus import lab
 from tactus.lab import _analysis
-from tactus.lab._draw import Draw
+from tactus.lab._procedures import Draw
 
 THRESHOLD, WIDTH = 10.0, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
 LEVELS = (6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0)

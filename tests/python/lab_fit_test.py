@@ -10,7 +10,7 @@ import lab_coverage
 from support import TestCase
 from tactus import lab
 from tactus.lab import _analysis
-from tactus.lab._draw import Draw
+from tactus.lab._procedures import Draw
 
 LEVELS = np.array(lab_coverage.LEVELS)
 YES = np.array([1, 4, 11, 19, 30, 37, 39])

@@ -11,8 +11,7 @@ import numpy as np
 import tactus
 from support import TestCase
 from tactus import lab
-from tactus.lab._draw import Draw, latin_square
-from tactus.lab._procedures import PsiTrack, StaircaseTrack
+from tactus.lab._procedures import Draw, PsiTrack, StaircaseTrack, latin_square
 
 
 def block(name="main", task="2ifc", procedure=None, **more):

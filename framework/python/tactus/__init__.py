@@ -17,7 +17,6 @@ from ._assets import Mesh, Signal, set_limits
 from ._devices import Effort, PushedDevice
 from ._engine import Engine, Status
 from ._graph import Graph
-from ._logs import Event, Log, read_log, replay
 from ._messages import Error, Message, TactusWarning
 from ._nodes import nodes
 from ._own import Node, choice, scalar, vector
@@ -26,7 +25,8 @@ from ._plot import plot
 from ._plugins import compile_node, load_plugins
 from ._presets import presets
 from ._records import Records
-from ._reports import Check, Condition, Conversion, Devices, Fit, FitValue, Interval, Limits, check, convert, devices, fit, limits
+from ._reports import (Check, Condition, Conversion, Devices, Event, Fit, FitValue, Interval, Limits, Log, check, convert, devices, fit, limits, read_log,
+                       replay)
 from ._sweep import Point, sweep
 
 __version__ = _tactus.version()

@@ -16,18 +16,15 @@ from ._analysis import (Detection, Interval, PowerLaw, Psychometric, d_prime_of_
                         psychometric, save_plot)
 from ._experiment import Experiment
 from ._design import Factor, FromTable, Grid, Latin, Sobol
-from ._marks import Receiver, mark
 from ._points import Measure
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
 from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
 from ._results import Results
-from ._stages import Live, Moment, Silent
+from ._stages import Live, Moment, Receiver, Silent, mark
 from ._study import Map, Study
-from ._tables import SessionData, load
+from ._tables import SessionData, Table, load, table_of
 from ._trials import Plan, Trial
-from ._web import Browser
-from ._windows import Aborted, Observer, Simulated, Terminal, Window
-from ._writers import Table, table_of
+from ._windows import Aborted, Browser, Observer, Simulated, Terminal, Window
 
 load_results = Results
 

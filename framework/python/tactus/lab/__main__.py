@@ -13,8 +13,8 @@ from .._messages import Error, fail
 from .._views import with_unit
 from . import (Block, Browser, Experiment, Observer, PowerLaw, Protocol, Receiver, SessionData, Silent, Simulated, Terminal, _study, _study_command, load,
                mark, schema)
-from ._marks import PORT
 from ._schema import read
+from ._stages import PORT
 
 
 def observer_of(text: str) -> Observer:

@@ -17,8 +17,7 @@ from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple
 import numpy as np
 
 from .._messages import fail
-from ._draw import Draw
-from ._procedures import note
+from ._procedures import Draw, note
 
 Point = Tuple[str, ...]
 

@@ -20,9 +20,8 @@ from .._messages import Error, fail
 from .._views import with_unit
 from . import _journal, _tables
 from ._analysis import psychometric
-from ._marks import Receiver, TriggerLine
 from ._protocol import ANSWERS, KEYS, Protocol, checked
-from ._stages import Live, Moment, Silent
+from ._stages import Live, Moment, Receiver, Silent, TriggerLine
 from ._trials import Answer, Plan, Trial
 from ._windows import Aborted, Simulated, Window, meant
 
@@ -90,7 +89,8 @@ class Experiment:
             while isinstance(self.plan.step, str):
                 self.plan.answer()
             trial, said = self.plan.step, tuple(event[key] for key in ("number", "block", "kind", "condition"))
-            if trial is None or (trial.number, trial.block.name, trial.kind, trial.condition) != said or not math.isclose(trial.level, event["level"], abs_tol=1e-9):
+            if trial is None or said != (trial.number, trial.block.name, trial.kind, trial.condition) or not math.isclose(
+                    trial.level, event["level"], abs_tol=1e-9):
                 fail("lab/order", str(self.folder), f"trial {event['number']} of the journal is not the one that follows from its answers",
                      "resume with the version of tactus with which the session began")
             self.plan.answer(event["answer"])

@@ -27,7 +27,7 @@ from ._protocol import set_param
 from ._results import Held, merge
 from ._study import Prepared, Source, Study
 from ._points import Worker
-from ._writers import Table, table_of
+from ._tables import Table, table_of
 
 
 def add(commands: Any) -> None:

@@ -7,8 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Dict, Generator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
-from ._draw import Draw, latin_square
-from ._procedures import Constant, Psi, Track, start
+from ._procedures import Constant, Draw, Psi, Track, latin_square, start
 from ._protocol import QUESTIONS, Block, Protocol
 
 Answer = Union[str, float, None]

@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""Simulated observers, and the windows through which they or a person at a terminal answer. The window in the browser is in _web.py."""
+"""Simulated observers, and the windows through which they or a person answer: lines at a terminal, or pages in a browser of this computer, a plain one for
+the participant, and one for the experimenter with progress, the running fit, the health of the devices, and STOP."""
 
 from __future__ import annotations
 
+import contextlib
+import http.server
+import json
 import math
 import os
+import queue
+import secrets
 import select
 import sys
+import threading
 import time
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Optional, TextIO
+from typing import Any, Callable, Dict, Optional, TextIO, Tuple
 
 from ._analysis import Function, probability
-from ._draw import Draw
+from ._procedures import Draw
 from ._protocol import ANSWERS
 from ._stages import Marks, Moment, Silent
 from ._trials import Answer, Trial
@@ -144,3 +151,173 @@ def meant(text: str, keys: Dict[str, str]) -> Answer:
     except ValueError:
         return None
     return value if math.isfinite(value) and value >= 0.0 else None
+
+
+_STYLE = "body{background:#111;color:#eee;font:5vmin sans-serif;margin:0;text-align:center}button{font:inherit;margin:.3em;padding:.2em .8em}"
+
+_PARTICIPANT = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experiment</title><style>STYLE
+main{min-height:100vh;display:flex;flex-direction:column;justify-content:center;white-space:pre-line}#typed{min-height:1.5em;font-size:8vmin}</style>
+<main><div id="text">…</div><div id="typed"></div><div id="keys"></div></main><script>
+let now = {}, typed = "", held = {};
+function send(key) { const id = now.id; if (id === undefined) return; fetch("answer", {method: "POST", body: JSON.stringify({id, key})}).catch(() => {}); }
+function press(key) {
+  if (now.number) {
+    if (key === "Enter") { if (typed) send(typed); typed = ""; }
+    else if (key === "Backspace") typed = typed.slice(0, -1); else if (/^[0-9.,]$/.test(key)) typed += key;
+    document.getElementById("typed").textContent = typed;
+  } else send(key);
+}
+addEventListener("keydown", e => { if (e.repeat && !["+", "-"].includes(e.key)) return; if (e.key === "F11") return; e.preventDefault(); press(e.key); });
+addEventListener("dblclick", () => document.documentElement.requestFullscreen().catch(() => {}));
+let midi = false;   // the browser asks the participant first, so only where keys of a MIDI keyboard are answers
+function listen() { if (midi || !navigator.requestMIDIAccess) return; midi = true;
+  navigator.requestMIDIAccess().then(m => m.inputs.forEach(i => i.onmidimessage = e => {
+    if ((e.data[0] & 0xf0) === 0x90 && e.data[2] > 0) press("Midi" + e.data[1]); })).catch(() => {}); }
+function pads() { for (const pad of navigator.getGamepads ? navigator.getGamepads() : []) if (pad) pad.buttons.forEach((b, i) => {
+  if (b.pressed && !held[pad.index + "/" + i]) press("Pad" + i); held[pad.index + "/" + i] = b.pressed; }); }
+function draw(next) {
+  if (next.id !== now.id) { typed = ""; document.getElementById("typed").textContent = ""; }
+  if (JSON.stringify(next) === JSON.stringify(now)) return;
+  now = next;
+  document.getElementById("text").textContent = next.text;
+  const keys = document.getElementById("keys"); keys.replaceChildren();
+  for (const [answer, key] of Object.entries(next.keys || {})) { if (key.startsWith("Midi")) listen();
+    const b = document.createElement("button"); b.textContent = `${answer} (${key === " " ? "space" : key})`;
+    b.onclick = () => send(key); keys.append(b); }
+}
+async function loop() { try { draw(await (await fetch("state")).json()); } catch { document.getElementById("text").textContent = "The connection is lost."; }
+  setTimeout(loop, 50); }
+loop(); setInterval(pads, 20);
+</script></html>"""
+
+_EXPERIMENTER = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experimenter</title><style>STYLE
+body{font-size:16px;text-align:left;padding:1em;box-sizing:border-box}#stop{background:#c00;color:#fff;font-size:40px;width:100%;padding:.4em;margin:0 0 .5em}
+table{border-collapse:collapse}td{padding:.15em .8em .15em 0}progress{width:100%;height:1.5em}svg{background:#fff;width:100%;max-width:50em}</style>
+<button id="stop">STOP</button><div id="state">waiting</div><progress id="bar" value="0" max="1"></progress><table id="facts"></table>
+<svg id="plot" viewBox="0 0 600 200" preserveAspectRatio="none"></svg><table id="health"></table><script>
+document.getElementById("stop").onclick = () => fetch("stop", {method: "POST"});
+addEventListener("keydown", e => { if (!e.repeat && e.key.length === 1 && e.key !== " ")   // the space bar presses a button
+  fetch("mark", {method: "POST", body: JSON.stringify({name: "key", value: e.key})}).catch(() => {}); });
+function rows(table, facts) { table.replaceChildren(); for (const [k, v] of facts) {
+  const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = typeof v === "number" ? +v.toFixed(3) : v; } }
+function draw(s) {
+  const r = s.report; document.getElementById("state").textContent = s.stopped ? "STOPPED" : s.over ? "over" : s.text;
+  if (!r.name) return;
+  const bar = document.getElementById("bar"); bar.max = r.done + r.left || 1; bar.value = r.done;
+  rows(document.getElementById("facts"), [["experiment", `${r.name}, sub-${r.participant} ses-${r.session}`], ["block", `${r.block} (${r.kind})`],
+    ["trial", `${r.trial}; ${r.left} left at most`], ["level", r.level], ["running fit", r.fit || "not yet"],
+    ["last answer", r.last.number ? `${r.last.answer ?? "none"}, outcome ${r.last.outcome}, trial ${r.last.number}` : ""]]);
+  const h = r.health || {}; rows(document.getElementById("health"), [...Object.entries(h).filter(([k]) => k !== "devices"),
+    ...(h.devices || []).map(d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
+  const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0]));
+  document.getElementById("plot").innerHTML = levels.map(([level, outcome], i) => `<circle cx="${10 + 580 * i / Math.max(1, levels.length - 1)}" r="4"
+    cy="${190 - 180 * (top > low ? (level - low) / (top - low) : 0.5)}" fill="${outcome ? "#06c" : "#fff"}" stroke="#06c"/>`).join("");
+}
+async function loop() { try { draw(await (await fetch("report")).json()); }
+  catch { document.getElementById("state").textContent = "The connection is lost."; } setTimeout(loop, 200); }
+loop();
+</script></html>"""
+
+
+class Browser(Window):
+    """Two pages on 127.0.0.1, whose addresses hold a secret, so that other users of the computer cannot guess them. Keys of pads are called Pad0, Pad1, …,
+    those of MIDI keyboards Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
+
+    def __init__(self, port: int = 0):
+        """port: TCP port; 0: any free one."""
+        self.marks: Marks = queue.Queue(10000)
+        self._state: Dict[str, Any] = {"text": "Please wait."}
+        self._report: Dict[str, Any] = {}
+        self._given: "queue.Queue[Tuple[int, str]]" = queue.Queue(1000)
+        self._id, self._stopped, self._over = 0, threading.Event(), False
+        window, token = self, secrets.token_urlsafe(12)
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def log_message(self, format: str, *args: Any) -> None:
+                pass
+
+            def do_GET(self) -> None:
+                """The reply, without anything in it if the secret is wrong, or the host is not this computer."""
+                host, length, parts = self.headers.get("Host", "").rsplit(":", 1)[0], self.headers.get("Content-Length", "0"), self.path.split("/")
+                body = self.rfile.read(min(int(length), 4096)) if length.isdigit() else b""
+                is_known = len(parts) == 3 and secrets.compare_digest(parts[1].encode(), token.encode()) and host in ("127.0.0.1", "localhost")
+                status, text = window._reply(f"{self.command} {parts[2] or 'participant'}", body) if is_known else (404, "{}")
+                self.send_response(status)
+                self.send_header("Content-Type", "text/html; charset=utf-8" if text.startswith("<") else "application/json")
+                self.send_header("Content-Length", str(len(text.encode())))
+                self.send_header("Cache-Control", "no-store")
+                self.end_headers()
+                self.wfile.write(text.encode())
+
+            do_POST = do_GET
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
+        self._server.daemon_threads = True
+        self.participant = f"http://127.0.0.1:{self._server.server_address[1]}/{token}/"
+        self.experimenter = self.participant + "experimenter"
+        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.05}, name="tactus.lab pages", daemon=True)
+        self._thread.start()
+
+    def _reply(self, request: str, body: bytes) -> Tuple[int, str]:
+        """The status and the text that answer a request."""
+        told = {**self._state, "report": self._report, "stopped": self._stopped.is_set(), "over": self._over}
+        pages = {"GET participant": _PARTICIPANT, "GET experimenter": _EXPERIMENTER, "GET state": json.dumps(self._state), "GET report": json.dumps(told)}
+        if request == "POST stop":
+            self._stopped.set()
+            self.stop()
+        elif request in ("POST mark", "POST answer"):
+            try:
+                given = json.loads(body)
+                if request == "POST mark":
+                    self.marks.put_nowait((str(given["name"])[:1000], str(given.get("value", ""))[:1000], self.now()))
+                else:
+                    self._given.put_nowait((int(given["id"]), str(given["key"])[:100]))
+            except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, queue.Full):
+                return 400, "{}"
+        elif request not in pages:
+            return 404, "{}"
+        return 200, pages.get(request, "{}")
+
+    def show(self, text: str) -> None:
+        self._asked(text, {"go on": " "}, more={"Enter": "go on"})
+
+    def say(self, text: str) -> None:
+        self._state = {"text": text}
+        self._check()
+
+    def ask(self, trial: Trial, level: float, keys: Dict[str, str], limit: float, hand: Hand) -> Answer:
+        answer = self._asked(trial.question, keys, limit, hand)
+        self._state = {"text": ""}
+        return answer
+
+    def _asked(self, text: str, keys: Dict[str, str], limit: float = 0.0, hand: Hand = lambda: None, more: Dict[str, str] = {}) -> Answer:
+        self._id += 1
+        self._state = {"text": text, "keys": keys, "id": self._id, "number": not keys}
+
+        def take() -> Answer:
+            self._check()
+            with contextlib.suppress(queue.Empty):
+                number, key = self._given.get(timeout=0.02)
+                if number == self._id:
+                    return more.get(key) or meant(key, keys)
+            return None
+
+        return self.awaited(take, limit, hand)
+
+    def _check(self) -> None:
+        if self._stopped.is_set():
+            raise Aborted("STOP was pressed")
+
+    def report(self, state: Dict[str, Any]) -> None:
+        self._report = json.loads(json.dumps(state, default=str).replace("NaN", "null").replace("Infinity", "null"))
+
+    def close(self) -> None:
+        self._state, self._over = {"text": "The experiment is over. Thank you."}, True
+
+    def end(self) -> None:
+        """Closes the pages."""
+        self._server.shutdown()
+        self._server.server_close()
+        self._thread.join()
