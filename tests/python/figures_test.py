@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The notebook and the script that draw Fig. 4, and tactus.plot."""
 
-import json
 import pathlib
 import sys
 import tempfile
@@ -9,7 +8,7 @@ import unittest
 
 import numpy as np
 import tactus
-from support import ROOT, TestCase, drag, positions
+from support import ROOT, TestCase, drag, positions, run_notebook
 
 EXAMPLES = ROOT / "docs" / "examples" / "python"
 sys.path.insert(0, str(EXAMPLES))
@@ -23,15 +22,6 @@ except ImportError:
     sys.exit(77)
 
 
-def run_notebook(path):
-    """Runs the cells in order, as Jupyter does, and returns the names that they define."""
-    names = {}
-    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
-        if cell["cell_type"] == "code":
-            exec(compile("".join(cell["source"]), f"{path.name}: {cell['id']}", "exec"), names)
-    return names
-
-
 def lines_of(ax):
     return [line.get_xydata() for line in ax.get_lines()]
 
@@ -43,7 +33,7 @@ class Fig4(TestCase):
 
     def test_notebook_and_script_draw_the_same_curve_as_the_docs(self):
         import fig4
-        names = run_notebook(EXAMPLES / "fig4.ipynb")
+        names, _ = run_notebook(EXAMPLES / "fig4.ipynb")
         docs = self.of_the_docs()
         by_script = fig4.make_graph().render(duration=4.0, record=list(docs)[1:])
         for port in docs:
@@ -58,7 +48,7 @@ class Fig4(TestCase):
             self.same_bits(a, b)
 
     def test_the_leashes_are_never_longer_than_d_max(self):
-        names = run_notebook(EXAMPLES / "fig4.ipynb")
+        names, _ = run_notebook(EXAMPLES / "fig4.ipynb")
         self.addCleanup(pyplot.close, "all")
         lengths = [np.linalg.norm(np.diff(leash, axis=0)) for leash in lines_of(names["ax"])[:-1]]
         self.assertLess(max(lengths), 1 + 1e-9)

@@ -13,6 +13,7 @@ import math
 import secrets
 
 import numpy as np
+from lab_protocol_test import block, protocol, walk
 from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._procedures import Draw
@@ -27,14 +28,9 @@ def answered(procedure, function, seed):
                    "staircase": ("2ifc", lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80)),
                    "psi": ("2ifc", lab.Psi(levels=tuple(range(2, 22)), widths=tuple(WIDTH[function] * 2.0 ** k for k in (-2, -1, 0, 1, 2)),
                                            lapses=(0.0, 0.03), function=function, trials=80))}[procedure]
-    block = lab.Block(name="main", task=task, procedure=given, varies=lab.Varies(target="x"))
-    plan = lab.Plan(lab.Protocol(name="coverage", blocks=[block], seed=seed))
-    observer, found = lab.Observer(THRESHOLD, WIDTH[function], lapse=0.02, function=function, seed=seed), []
-    while (trial := plan.step) is not None:
-        answer = observer.answer(trial, trial.level)
-        found.append((trial.level, trial.outcome(answer)))
-        plan.answer(answer)
-    return (*np.array(found).T, block.guess_rate)
+    observer = lab.Observer(THRESHOLD, WIDTH[function], lapse=0.02, function=function, seed=seed)
+    trials = walk(lab.Plan(protocol(block("main", task, given), seed=seed)), lambda trial: observer.answer(trial, trial.level))[1]
+    return [t.level for t in trials], [t.outcome(observer.answer(t, t.level)) for t in trials], trials[0].block.guess_rate
 
 
 def run(method, seed):

@@ -2,32 +2,18 @@
 """The examples, the notebook and the experiments of the literature, with simulated observers."""
 
 import ast
-import contextlib
 import importlib.util
-import io
-import json
 import os
 import sys
 import unittest
 
-from support import ROOT, TestCase
+from support import ROOT, TestCase, run_notebook
 from tactus import lab
 
 EXAMPLES = ROOT / "docs/examples/lab"
-NOTEBOOK = ROOT / "docs/tutorials/lab.ipynb"
 
 os.environ["MPLBACKEND"] = "Agg"
 matplotlib = importlib.util.find_spec("matplotlib")
-
-
-def run_cell(source, names):
-    """What a cell prints, and then the value of its last expression, as Jupyter shows them."""
-    *parts, last = ast.parse(source).body
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        exec(compile(ast.Module(parts, []), "cell", "exec"), names)
-        shown = eval(compile(ast.Expression(last.value), "cell", "eval"), names)   # each cell ends with an expression
-    return said.getvalue() + ("" if shown is None else repr(shown))
 
 
 class Literature(TestCase):
@@ -78,13 +64,10 @@ class Examples(TestCase):
 @unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")
 class Notebook(TestCase):
     def test_its_outputs_are_those_of_this_program(self):
-        cells = [cell for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
-        names = {}
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
-        for cell in cells:
-            stored = "".join(text for output in cell["outputs"] for text in output.get("text", output.get("data", {}).get("text/plain", [])))
-            self.assertEqual(run_cell("".join(cell["source"]), names), stored, cell["id"])
+        for cell, said, stored in run_notebook(ROOT / "docs/tutorials/lab.ipynb")[1]:
+            self.assertEqual(said, stored, cell)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sessions of tactus.lab: their journals, and how they go on after a crash; marks; windows; the commands; tables, read by readers of others if there are any."""
+"""Sessions of tactus.lab: their journals, and how they go on after a crash; marks; windows; the commands; tables, which others read if they are there."""
 
 import csv
 import dataclasses
@@ -181,9 +181,8 @@ class Sessions(Case):
         self.fails("lab/unknown", data.fit, "none")
 
     def test_detection_uses_catch_trials_as_noise(self):
-        data = self.run_session(protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=200), catch=0.5)),
-                                lab.Simulated(lab.Observer(threshold=1.0, width=1.0, function="normal")))
-        found = data.detection()
+        found = self.run_session(protocol(block("see", "yes_no", lab.Constant(levels=(2.0,), repeats=200), catch=0.5)),
+                                 lab.Simulated(lab.Observer(threshold=1.0, width=1.0, function="normal"))).detection()
         self.assertTrue(found.d_prime_interval.low < 2.0 < found.d_prime_interval.high, found)   # z (Phi (1)) - z (Phi (-1))
         self.assertTrue(found.criterion_interval.low < 0.0 < found.criterion_interval.high, found)
 
@@ -226,10 +225,10 @@ class Marks(Case):
         page = (ROOT / "docs/examples/lab/jspsych_marks.html").read_text(encoding="utf-8")
         self.assertIn('fetch(participant + "mark", {method: "POST", mode: "no-cors", body: JSON.stringify({name, value', page)
         browser, window = self.browser(), Asked()
+        window.marks = browser.marks
         for status, body in ((200, '{"name": "picture", "value": "hölzern"}'.encode()), *((400, wrong) for wrong in
                              (b"", b"[]", b"{}", b"\xff", b'{"value": "x"}', b"3"))):
             self.assertEqual(self.web(browser.participant + "mark", body, **{"Content-Type": "text/plain;charset=UTF-8", "Origin": "null"})[0], status, body)
-        window.marks = browser.marks
         data = self.run_session(protocol(), window)
         self.assertEqual([row for row in self.rows(data.events, "trial_type", "value") if row[0] == "picture"], [("picture", "hölzern")])
 
@@ -261,13 +260,12 @@ class Windows(Case):
             self.assertRaises(lab.Aborted, terminal.ask, *asked, 0.0, lambda: None)
 
     def test_a_participant_answers_in_a_browser_and_the_experimenter_sees_it(self):
-        browser = self.browser()
-        found = []
+        browser, found, asked = self.browser(), [], []
         made = protocol(block("a", procedure=lab.Constant(levels=(1.0, 3.0), repeats=2), instructions="press a key"),
                         block("b", "magnitude", lab.Constant(levels=(2.0,), repeats=1)))
         thread = threading.Thread(target=lambda: found.append(self.run_session(made, browser)))
         thread.start()
-        asked = []
+
         def answer():
             state = json.loads(self.web(browser.participant + "state")[1])
             if "id" in state and state["id"] not in asked:
@@ -279,15 +277,13 @@ class Windows(Case):
         thread.join()
         self.assertEqual(found[0].trials["answer"], ["second"] * 4 + ["3.5"])
         report = json.loads(self.web(browser.participant + "report")[1])
-        self.assertTrue(report["over"])
-        self.assertEqual((report["report"]["block"], report["report"]["done"]), ("b", 4))
+        self.assertEqual((report["report"]["block"], report["report"]["done"], report["over"]), ("b", 4, True))
         for text, page in (("STOP", browser.experimenter), ('fetch("mark"', browser.experimenter), ('fetch("state")', browser.participant)):
             self.assertIn(text, self.web(page)[1])
 
     def test_stop_aborts_and_strangers_see_nothing(self):
-        browser = self.browser()
-        stopped = []
-        experiment = lab.Experiment(protocol(), self.folder, window=browser)
+        browser, stopped = self.browser(), []
+        experiment = self.session(protocol(), browser)
         browser.stop = lambda: stopped.append(1)
         top = browser.participant.rsplit("/", 2)[0]
         for address in (top + "/", top + "/wrong/", top + "/wrong/state", browser.participant + "x"):
@@ -309,8 +305,7 @@ class OnDevices(Case):
                       varies=lab.Varies(target="roughness", standard=0.1, rest=0.0), interval=0.02, gap=0.01)])
 
     def test_a_session_plays_marks_ticks_and_its_log_replays(self):
-        stage = lab.Live(self.made, str(self.folder / "log.jsonl"), "off")
-        data = self.run_session(self.made, stage=stage)
+        data = self.run_session(self.made, stage=lab.Live(self.made, str(self.folder / "log.jsonl"), "off"))
         ticks = np.asarray(data.events["tick"], dtype=float)[2:]
         self.assertTrue((np.diff(ticks) >= 0.0).all() and ticks[-1] > ticks[0], ticks)
         self.assertEqual((set(data.header["graphs"]), data.header["rates_hz"]), ({"dry"}, {"dry": 4000.0}))
@@ -346,8 +341,7 @@ class OnDevices(Case):
             code, said, problem = run(folder, first, 25)
             self.assertEqual(code, 0, problem)
             self.assertRegex(said, r"24 trials, complete\nthreshold [0-9.]+ \(95 % ")
-        killed, once = (lab.load(folder / "sub-01/ses-01/beh") for folder in (out, whole))
-        self.assertEqual(self.answers(killed), self.answers(once))
+        self.assertEqual(*(self.answers(lab.load(folder / "sub-01/ses-01/beh")) for folder in (out, whole)))
         self.assertEqual(len(list(out.rglob("*_log.jsonl"))), 4)   # none replaces another
 
     def rests(self, levels, rest=100.0, **guard):
@@ -383,8 +377,7 @@ class OnDevices(Case):
         window = Asked(lambda trial, keys, hand: window.stop() if trial.number == 2 else None, lab.Observer(threshold=0.3, width=0.1))
         self.fails("lab/stopped", self.run_session, self.made, window, stage=lab.Live(self.made, None, "off"))
         data = self.run_session(self.made, stage=lab.Live(self.made, None, "off"), resume=True)
-        self.assertTrue(data.is_complete)
-        self.assertEqual(data.trials.rows, 3)
+        self.assertEqual((data.is_complete, data.trials.rows), (True, 3))
 
     def test_the_hand_itself_answers(self):
         made = dataclasses.replace(self.made, hand={"first": lab.HandAnswer(port="motor.force.x", above=-1e9)})
@@ -392,8 +385,7 @@ class OnDevices(Case):
         self.assertEqual(set(data.trials["answer"]), {"first"})
 
     def test_a_level_out_of_range_is_refused_before_anything_plays(self):
-        self.assertRaises(tactus.Error, lab.Experiment, lab.Protocol(name="wood", graph="dry_wood", blocks=[
-            block(procedure=lab.Constant(levels=(2.0,)))]), self.folder, window=lab.Simulated(OBSERVER))
+        self.assertRaises(tactus.Error, self.session, protocol(block(procedure=lab.Constant(levels=(2.0,))), graph="dry_wood"))
 
 
 @unittest.skipUnless(PROGRAM, "the program is not built")

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the Python package share."""
 
+import ast
+import contextlib
 import csv
 import functools
+import io
+import json
 import os
 import pathlib
 import signal
@@ -72,6 +76,21 @@ def columns(records):
         names += [port] if values.ndim == 1 else [f"{port}.{axis}" for axis in "xyz"]
         arrays.append(values.reshape(len(values), -1))
     return names, np.hstack(arrays)
+
+
+def run_notebook(path):
+    """Runs the cells in order, as Jupyter does. The names that they define, and of each cell its id, what it prints and shows, and what the file says of it."""
+    names, told = {}, []
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            parts, said = ast.parse("".join(cell["source"])).body, io.StringIO()
+            with contextlib.redirect_stdout(said):
+                last = parts.pop() if isinstance(parts[-1], ast.Expr) else None
+                exec(compile(ast.Module(parts, []), f"{path.name}: {cell['id']}", "exec"), names)
+                shown = eval(compile(ast.Expression(last.value), path.name, "eval"), names) if last else None
+            stored = "".join(text for output in cell["outputs"] for text in output.get("text", output.get("data", {}).get("text/plain", [])))
+            told.append((cell["id"], said.getvalue() + ("" if shown is None else repr(shown)), stored))
+    return names, told
 
 
 def pixels(path):
