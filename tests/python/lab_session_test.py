@@ -278,7 +278,7 @@ class Windows(Case):
         self.assertEqual(found[0].trials["answer"], ["second"] * 4 + ["3.5"])
         report = json.loads(self.web(browser.participant + "report")[1])
         self.assertEqual((report["report"]["block"], report["report"]["done"], report["over"]), ("b", 4, True))
-        for text, page in (("STOP", browser.experimenter), ('fetch("mark"', browser.experimenter), ('fetch("state")', browser.participant)):
+        for text, page in (("STOP", browser.experimenter), ('post("mark"', browser.experimenter), ('poll("state"', browser.participant)):
             self.assertIn(text, self.web(page)[1])
 
     def test_stop_aborts_and_strangers_see_nothing(self):

@@ -7,7 +7,7 @@ import ctypes
 import json
 import math
 import os
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -22,8 +22,6 @@ from ._messages import Message, fail
 from ._plot import axes_of
 from ._records import Layout, Records, table_of, to_json
 from ._views import html_table, html_text, plain, with_unit
-
-Amount = Union[float, str]
 
 
 class Condition(NamedTuple):
@@ -142,11 +140,10 @@ class Fit:
         self.kind, self.verdict, self.is_good = str(report["kind"]), str(report["verdict"]), report["verdict"] == "good"
         self.values = {str(v["name"]): FitValue(str(v["name"]), str(v["unit"]), _finite(v["value"], math.nan), _finite(v["low"], -math.inf),
                                                 _finite(v["high"], math.inf), bool(v["main"])) for v in report["parameters"]}
-        self.lacking: List[str] = report["lacking"]
-        self.notes: List[str] = report["notes"]
-        left = report["residual"]
+        self.lacking, self.notes = [str(line) for line in report["lacking"]], [str(line) for line in report["notes"]]
+        left, self.rows = report["residual"], int(report["rows"])
         self.residual, self.left_out_residual, self.size = (_finite(left[k], math.nan) for k in ("rms", "left_out_rms", "recording_rms"))
-        self.residual_unit, self.rows = str(left["unit"]), int(report["rows"])
+        self.residual_unit = str(left["unit"])
 
     @property
     def graph(self) -> Graph:
@@ -225,7 +222,7 @@ def limits(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = 
 
 @_checks.arguments
 def fit(kind: str, recording: Union[Path, Mapping[str, Any]], *, columns: Optional[Mapping[str, str]] = None, units: Optional[Mapping[str, str]] = None,
-        signs: Optional[Mapping[str, str]] = None, options: Optional[Mapping[str, Amount]] = None) -> Fit:
+        signs: Optional[Mapping[str, str]] = None, options: Optional[Mapping[str, Union[float, str]]] = None) -> Fit:
     """Fits the model of a node to a recording, as `tactus fit` does, with the same numbers.
 
     kind: "friction", "modes", "texture", "grating", "blade", "curve", "switch" or "shock". recording: a CSV or WAV file, or arrays by the name of the column,
@@ -285,7 +282,7 @@ def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = Non
         thread = ThreadPoolExecutor(1)
         answer = thread.submit(getattr(live(), function), *arguments, messages.handle)
         thread.shutdown(wait=False)
-        used.callback(_free, answer)
+        used.callback(lambda: live().tactus_text_free(ctypes.c_void_p(answer.result())))
         try:
             while not wait([answer], 0.05).done:   # not every system wakes a thread that waits without an end
                 pass
@@ -297,10 +294,6 @@ def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = Non
         text = answer.result()
         messages.check(bool(text))
         return json.loads(ctypes.string_at(text))
-
-
-def _free(answer: "Future[Any]") -> None:
-    live().tactus_text_free(ctypes.c_void_p(answer.result()))
 
 
 def _intervals(ranges: Mapping[str, Any]) -> Dict[str, Optional[Interval]]:

@@ -40,8 +40,7 @@ class Table(Dict[str, Column]):
         super().__init__({name: values if isinstance(values, list) and any(isinstance(v, str) for v in values) else
                           np.array(values, float) if isinstance(values, list) and None in values else np.asarray(values) for name, values in columns.items()})
         self.units, self.about, self.rate_hz = dict(units or {}), dict(about or {}), rate_hz
-        lengths = {len(values) for values in self.values()}
-        if len(lengths) > 1:
+        if len(lengths := {len(values) for values in self.values()}) > 1:
             fail("lab/shape", "columns", f"the columns have {sorted(lengths)} rows", "give columns of one length")
 
     @property
@@ -102,8 +101,7 @@ def _hdf5(table: Table) -> bytes:
         file.attrs["about"] = json.dumps(table.sidecar(), ensure_ascii=False)
         for name, values in table.items():
             data, kind = ([str(v) for v in values], h5py.string_dtype()) if _is_text(values) else (np.asarray(values), None)
-            made = file.create_dataset(name, data=data, dtype=kind)
-            made.attrs["units"] = table.units.get(name, "")
+            file.create_dataset(name, data=data, dtype=kind).attrs["units"] = table.units.get(name, "")
     return out.getvalue()
 
 
@@ -142,8 +140,7 @@ def _mat(table: Table) -> bytes:
 
 def _chunk(tag: int, content: bytes) -> bytes:
     """A chunk of XDF (https://github.com/sccn/xdf, version 1.0)."""
-    data = struct.pack("<H", tag) + content
-    return b"\x08" + struct.pack("<Q", len(data)) + data
+    return b"\x08" + struct.pack("<QH", len(content) + 2, tag) + content
 
 
 def _xdf(table: Table) -> bytes:

@@ -5,9 +5,9 @@ journal give it again."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Generator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Dict, Generator, NamedTuple, Optional, Sequence, Tuple, Union
 
-from ._procedures import Constant, Draw, Psi, Track, latin_square, start
+from ._procedures import Constant, Draw, Psi, latin_square, start
 from ._protocol import QUESTIONS, Block, Protocol
 
 Answer = Union[str, float, None]
@@ -55,7 +55,8 @@ class Plan:
         self._protocol, self._key = protocol, (protocol.seed, participant, session)
         self._row = int(participant) - 1 if participant.isdigit() else Draw(participant).below(1000)
         self._number = 0
-        self._tracks = [self._start(block) for block in protocol.blocks]
+        self._tracks = [[(name, i, track) for name in block.conditions or [condition.name for condition in protocol.all_conditions()]
+                         for i, track in enumerate(start(block.procedure, Draw(*self._key, block.name, name)))] for block in protocol.blocks]
         self._steps = self._run()
         self.step: Step = next(self._steps)
 
@@ -75,10 +76,6 @@ class Plan:
         for index in order[self._protocol.order]:
             yield from self._block(index)
         yield None
-
-    def _start(self, block: Block) -> List[Tuple[str, int, Track]]:
-        names = block.conditions or [c.name for c in self._protocol.all_conditions()]
-        return [(name, i, track) for name in names for i, track in enumerate(start(block.procedure, Draw(*self._key, block.name, name)))]
 
     def _block(self, index: int) -> Generator[Step, Answer, None]:
         block, tracks, draw = self._protocol.blocks[index], self._tracks[index], Draw(*self._key, self._protocol.blocks[index].name)

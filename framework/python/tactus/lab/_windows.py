@@ -153,69 +153,66 @@ def meant(text: str, keys: Dict[str, str]) -> Answer:
     return value if math.isfinite(value) and value >= 0.0 else None
 
 
-_STYLE = "body{background:#111;color:#eee;font:5vmin sans-serif;margin:0;text-align:center}button{font:inherit;margin:.3em;padding:.2em .8em}"
+_HEAD = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experiment</title>
+<style>body{background:#111;color:#eee;font:5vmin sans-serif;margin:0;text-align:center}button{font:inherit;margin:.3em;padding:.2em .8em}</style><script>
+const $ = id => document.getElementById(id);
+function post(place, data) { fetch(place, {method: "POST", body: JSON.stringify(data)}).catch(() => {}); }
+async function poll(place, pause, draw) {
+  try { draw(await (await fetch(place)).json()); } catch { $("text").textContent = "The connection is lost."; }
+  setTimeout(poll, pause, place, pause, draw); }
+</script>"""
 
-_PARTICIPANT = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experiment</title><style>STYLE
-main{min-height:100vh;display:flex;flex-direction:column;justify-content:center;white-space:pre-line}#typed{min-height:1.5em;font-size:8vmin}</style>
+_PARTICIPANT = _HEAD + """<style>#typed{min-height:1.5em;font-size:8vmin}
+main{min-height:100vh;display:flex;flex-direction:column;justify-content:center;white-space:pre-line}</style>
 <main><div id="text">…</div><div id="typed"></div><div id="keys"></div></main><script>
-let now = {}, typed = "", held = {};
-function send(key) { const id = now.id; if (id === undefined) return; fetch("answer", {method: "POST", body: JSON.stringify({id, key})}).catch(() => {}); }
+let now = {}, typed = "", held = {}, midi = false;
+function send(key) { if (now.id !== undefined) post("answer", {id: now.id, key}); }
 function press(key) {
-  if (now.number) {
-    if (key === "Enter") { if (typed) send(typed); typed = ""; }
-    else if (key === "Backspace") typed = typed.slice(0, -1); else if (/^[0-9.,]$/.test(key)) typed += key;
-    document.getElementById("typed").textContent = typed;
-  } else send(key);
+  if (!now.number) return send(key);
+  if (key === "Enter") { if (typed) send(typed); typed = ""; }
+  else if (key === "Backspace") typed = typed.slice(0, -1); else if (/^[0-9.,]$/.test(key)) typed += key;
+  $("typed").textContent = typed;
 }
-addEventListener("keydown", e => { if (e.repeat && !["+", "-"].includes(e.key)) return; if (e.key === "F11") return; e.preventDefault(); press(e.key); });
+addEventListener("keydown", e => { if (e.repeat && !["+", "-"].includes(e.key) || e.key === "F11") return; e.preventDefault(); press(e.key); });
 addEventListener("dblclick", () => document.documentElement.requestFullscreen().catch(() => {}));
-let midi = false;   // the browser asks the participant first, so only where keys of a MIDI keyboard are answers
-function listen() { if (midi || !navigator.requestMIDIAccess) return; midi = true;
+function listen() { if (midi || !navigator.requestMIDIAccess) return; midi = true;   // the browser asks first, so only where MIDI keys are answers
   navigator.requestMIDIAccess().then(m => m.inputs.forEach(i => i.onmidimessage = e => {
     if ((e.data[0] & 0xf0) === 0x90 && e.data[2] > 0) press("Midi" + e.data[1]); })).catch(() => {}); }
 function pads() { for (const pad of navigator.getGamepads ? navigator.getGamepads() : []) if (pad) pad.buttons.forEach((b, i) => {
   if (b.pressed && !held[pad.index + "/" + i]) press("Pad" + i); held[pad.index + "/" + i] = b.pressed; }); }
 function draw(next) {
-  if (next.id !== now.id) { typed = ""; document.getElementById("typed").textContent = ""; }
+  if (next.id !== now.id) { typed = ""; $("typed").textContent = ""; }
   if (JSON.stringify(next) === JSON.stringify(now)) return;
-  now = next;
-  document.getElementById("text").textContent = next.text;
-  const keys = document.getElementById("keys"); keys.replaceChildren();
+  now = next; $("text").textContent = next.text; $("keys").replaceChildren();
   for (const [answer, key] of Object.entries(next.keys || {})) { if (key.startsWith("Midi")) listen();
     const b = document.createElement("button"); b.textContent = `${answer} (${key === " " ? "space" : key})`;
-    b.onclick = () => send(key); keys.append(b); }
+    b.onclick = () => send(key); $("keys").append(b); }
 }
-async function loop() { try { draw(await (await fetch("state")).json()); } catch { document.getElementById("text").textContent = "The connection is lost."; }
-  setTimeout(loop, 50); }
-loop(); setInterval(pads, 20);
+poll("state", 50, draw); setInterval(pads, 20);
 </script></html>"""
 
-_EXPERIMENTER = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Experimenter</title><style>STYLE
-body{font-size:16px;text-align:left;padding:1em;box-sizing:border-box}#stop{background:#c00;color:#fff;font-size:40px;width:100%;padding:.4em;margin:0 0 .5em}
-table{border-collapse:collapse}td{padding:.15em .8em .15em 0}progress{width:100%;height:1.5em}svg{background:#fff;width:100%;max-width:50em}</style>
-<button id="stop">STOP</button><div id="state">waiting</div><progress id="bar" value="0" max="1"></progress><table id="facts"></table>
+_EXPERIMENTER = _HEAD + """<style>#stop{background:#c00;color:#fff;font-size:40px;width:100%;padding:.4em;margin:0 0 .5em}td{padding:.15em .8em .15em 0}
+body{font-size:16px;text-align:left;padding:1em;box-sizing:border-box}progress{width:100%;height:1.5em}svg{background:#fff;width:100%;max-width:50em}</style>
+<button id="stop">STOP</button><div id="text">waiting</div><progress id="bar" value="0" max="1"></progress><table id="facts"></table>
 <svg id="plot" viewBox="0 0 600 200" preserveAspectRatio="none"></svg><table id="health"></table><script>
-document.getElementById("stop").onclick = () => fetch("stop", {method: "POST"});
-addEventListener("keydown", e => { if (!e.repeat && e.key.length === 1 && e.key !== " ")   // the space bar presses a button
-  fetch("mark", {method: "POST", body: JSON.stringify({name: "key", value: e.key})}).catch(() => {}); });
+$("stop").onclick = () => post("stop");
+addEventListener("keydown", e => { if (!e.repeat && e.key.length === 1 && e.key !== " ") post("mark", {name: "key", value: e.key}); });  // space presses STOP
 function rows(table, facts) { table.replaceChildren(); for (const [k, v] of facts) {
   const r = table.insertRow(); r.insertCell().textContent = k; r.insertCell().textContent = typeof v === "number" ? +v.toFixed(3) : v; } }
 function draw(s) {
-  const r = s.report; document.getElementById("state").textContent = s.stopped ? "STOPPED" : s.over ? "over" : s.text;
+  const r = s.report, h = r.health || {}, levels = r.history || []; $("text").textContent = s.stopped ? "STOPPED" : s.over ? "over" : s.text;
   if (!r.name) return;
-  const bar = document.getElementById("bar"); bar.max = r.done + r.left || 1; bar.value = r.done;
-  rows(document.getElementById("facts"), [["experiment", `${r.name}, sub-${r.participant} ses-${r.session}`], ["block", `${r.block} (${r.kind})`],
+  $("bar").max = r.done + r.left || 1; $("bar").value = r.done;
+  rows($("facts"), [["experiment", `${r.name}, sub-${r.participant} ses-${r.session}`], ["block", `${r.block} (${r.kind})`],
     ["trial", `${r.trial}; ${r.left} left at most`], ["level", r.level], ["running fit", r.fit || "not yet"],
     ["last answer", r.last.number ? `${r.last.answer ?? "none"}, outcome ${r.last.outcome}, trial ${r.last.number}` : ""]]);
-  const h = r.health || {}; rows(document.getElementById("health"), [...Object.entries(h).filter(([k]) => k !== "devices"),
-    ...(h.devices || []).map(d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
-  const levels = r.history || [], top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0]));
-  document.getElementById("plot").innerHTML = levels.map(([level, outcome], i) => `<circle cx="${10 + 580 * i / Math.max(1, levels.length - 1)}" r="4"
+  rows($("health"), [...Object.entries(h).filter(([k]) => k !== "devices"), ...(h.devices || []).map(
+    d => [d.role, `${d.profile}, ${d.is_connected ? "connected" : "NOT CONNECTED"}, age ${d.age} s, lost ${d.lost} ${d.trouble}`])]);
+  const top = Math.max(...levels.map(x => x[0])), low = Math.min(...levels.map(x => x[0]));
+  $("plot").innerHTML = levels.map(([level, outcome], i) => `<circle cx="${10 + 580 * i / Math.max(1, levels.length - 1)}" r="4"
     cy="${190 - 180 * (top > low ? (level - low) / (top - low) : 0.5)}" fill="${outcome ? "#06c" : "#fff"}" stroke="#06c"/>`).join("");
 }
-async function loop() { try { draw(await (await fetch("report")).json()); }
-  catch { document.getElementById("state").textContent = "The connection is lost."; } setTimeout(loop, 200); }
-loop();
+poll("report", 200, draw);
 </script></html>"""
 
 
