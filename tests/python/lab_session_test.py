@@ -118,6 +118,8 @@ class Sessions(Case):
         self.assertEqual(own.read_text(encoding="utf-8"), self.made.text())
         self.fails("lab/exists", self.run_session, self.made, resume=True)
         self.fails("lab/value", self.run_session, self.made, participant="../x")
+        made = protocol(dataclasses.replace(block(), varies=lab.Varies(target="roughness")), graph="dry_wood")   # with levels above 1
+        self.fails("lab/value", self.session, made, participant="03")
         self.fails("lab/journal", self.run_session, self.made, resume=True, participant="02")
 
     def test_a_session_goes_on_from_its_own_copy_of_a_protocol_with_relative_paths(self):
@@ -383,9 +385,6 @@ class OnDevices(Case):
         made = dataclasses.replace(self.made, hand={"first": lab.HandAnswer(port="motor.force.x", above=-1e9)})
         data = self.run_session(made, Asked(lambda trial, keys, hand: awaited(hand)), stage=lab.Live(made, None, "off"))
         self.assertEqual(set(data.trials["answer"]), {"first"})
-
-    def test_a_level_out_of_range_is_refused_before_anything_plays(self):
-        self.assertRaises(tactus.Error, self.session, protocol(block(procedure=lab.Constant(levels=(2.0,))), graph="dry_wood"))
 
 
 @unittest.skipUnless(PROGRAM, "the program is not built")

@@ -282,7 +282,11 @@ def _asked(function: str, *arguments: Any, graph: Union[Graph, Path, None] = Non
         thread = ThreadPoolExecutor(1)
         answer = thread.submit(getattr(live(), function), *arguments, messages.handle)
         thread.shutdown(wait=False)
-        used.callback(lambda: live().tactus_text_free(ctypes.c_void_p(answer.result())))
+
+        @used.callback
+        def free() -> None:
+            live().tactus_text_free(ctypes.c_void_p(answer.result()))
+
         try:
             while not wait([answer], 0.05).done:   # not every system wakes a thread that waits without an end
                 pass

@@ -18,12 +18,11 @@ from ._experiment import Experiment
 from ._design import Factor, FromTable, Grid, Latin, Sobol
 from ._points import Measure
 from ._procedures import Constant, Psi, Staircase, mean_of_turns
-from ._protocol import Block, Condition, HandAnswer, Protocol, Triggers, Varies, schema
+from ._protocol import Block, Condition, HandAnswer, Plan, Protocol, Trial, Triggers, Varies, schema
 from ._results import Results
 from ._stages import Live, Moment, Receiver, Silent, mark
 from ._study import Map, Study
 from ._tables import SessionData, Table, load, table_of
-from ._trials import Plan, Trial
 from ._windows import Aborted, Browser, Observer, Simulated, Terminal, Window
 
 load_results = Results

@@ -20,9 +20,8 @@ from .._messages import Error, fail
 from .._views import with_unit
 from . import _journal, _tables
 from ._analysis import psychometric
-from ._protocol import ANSWERS, KEYS, Protocol, checked
+from ._protocol import ANSWERS, KEYS, Answer, Plan, Protocol, Trial, checked
 from ._stages import Live, Moment, Receiver, Silent, TriggerLine
-from ._trials import Answer, Plan, Trial
 from ._windows import Aborted, Simulated, Window, meant
 
 

@@ -20,9 +20,8 @@ from typing import Any, Callable, Dict, Optional, TextIO, Tuple
 
 from ._analysis import Function, probability
 from ._procedures import Draw
-from ._protocol import ANSWERS
+from ._protocol import ANSWERS, Answer, Trial
 from ._stages import Marks, Moment, Silent
-from ._trials import Answer, Trial
 
 Hand = Callable[[], Answer]   # the answer of the hand or by OSC at this moment
 
