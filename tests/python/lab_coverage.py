@@ -52,20 +52,12 @@ def run(method, seed):
     return [low <= truth <= high for best in (given.best(), None) for (low, _, high), truth in zip(given.ends(0.95, best)[0], truths)]
 
 
-METHODS = [*(f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in WIDTH), "detection", "power"]
-
-
-def main():
+if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=2000)
-    parser.add_argument("--seed", type=int)
-    parser.add_argument("methods", nargs="*", default=METHODS)
-    given = parser.parse_args()
-    seed = secrets.randbits(32) if given.seed is None else given.seed
-    for method in given.methods:
-        shares = np.mean([run(method, seed + i) for i in range(given.runs)], axis=0)
-        print(f"{method}: " + ", ".join(f"{share:.1%}" for share in shares) + f" of {given.runs} runs, seed {seed}", flush=True)
-
-
-if __name__ == "__main__":
-    main()
+    parser.add_argument("--seed", type=int, default=secrets.randbits(32))
+    parser.add_argument("methods", nargs="*", default=[*(f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in WIDTH), "detection", "power"])
+    asked = parser.parse_args()
+    for method in asked.methods:
+        shares = np.mean([run(method, asked.seed + i) for i in range(asked.runs)], axis=0)
+        print(f"{method}: " + ", ".join(f"{share:.1%}" for share in shares) + f" of {asked.runs} runs, seed {asked.seed}", flush=True)

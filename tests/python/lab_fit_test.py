@@ -59,10 +59,9 @@ class Analysis(TestCase):
     def test_threshold_width_and_deviance_are_those_of_psyphy(self):
         """psyphy 0.2-3 of R (Debian: r-cran-psyphy): glm (cbind (k, n - k) ~ x, binomial (mafc.logit (2))), and mafc.probit, mafc.weib over log (x)."""
         right = np.array([22, 24, 28, 30, 35, 38, 40])
-        for function, guess, yes, told in (("logistic", 0.0, YES, (9.9690506757, 1.0547274570, 0.4407702492)),
-                                           ("logistic", 0.5, right, (9.664519443, 1.206292916, 1.697352519)),
-                                           ("normal", 0.5, right, (9.642818136, 2.081579470, 1.313757795)),
-                                           ("weibull", 0.5, right, (10.4292770337, 5.1303940738, 0.8716821986))):
+        for function, guess, yes, told in (
+                ("logistic", 0.0, YES, (9.9690506757, 1.0547274570, 0.4407702492)), ("logistic", 0.5, right, (9.664519443, 1.206292916, 1.697352519)),
+                ("normal", 0.5, right, (9.642818136, 2.081579470, 1.313757795)), ("weibull", 0.5, right, (10.4292770337, 5.1303940738, 0.8716821986))):
             fit = lab.psychometric(LEVELS, yes, np.full(7, 40), function=function, guess=guess, lapse=0.0)
             self.assertTrue(np.allclose((fit.threshold, fit.width, fit.deviance), told, rtol=3e-6), (function, fit))
 

@@ -47,8 +47,7 @@ class Files(TestCase):
 
     def test_a_file_and_python_say_the_same(self):
         made = protocol(block("a", conditions=["rough"]), block("b", "yes_no", lab.Staircase(start=2.0, high=5.0), catch=0.2),
-                        block("c", procedure=lab.Psi(levels=(1.0, 2.0), widths=(0.5, 1.0))),
-                        conditions=[lab.Condition(name="rough", controls={"roughness": 0.5})],
+                        block("c", procedure=lab.Psi(levels=(1.0, 2.0), widths=(0.5, 1.0))), conditions=[lab.Condition(name="rough", controls={"x": 0.5})],
                         seed=7, order="latin_square", triggers=lab.Triggers(port="/dev/null"), hand={"yes": lab.HandAnswer(port="hand.x", above=0.1)})
         made.save(self.folder / "p.json")
         read = lab.Protocol.load(self.folder / "p.json")
@@ -59,13 +58,11 @@ class Files(TestCase):
         for id, where, key, value in (   # what is changed in the protocol or, below /blocks/0, in its block
                 ("lab/unknown_key", "/seeed", "seeed", 1), ("lab/type", "/blocks", "blocks", []), ("lab/value", "/name", "name", "a/b"),
                 ("lab/type", "/blocks/0/task", "task", "4afc"), ("lab/type", "/blocks/0/procedure", "procedure", {**stairs, "kind": "quest"}),
-                ("lab/value", "/blocks/0/procedure/down", "procedure", {**stairs, "down": 0}),
-                ("lab/value", "/blocks/0/procedure/start", "procedure", {**stairs, "start": 9.0}),
+                *(("lab/value", f"/blocks/0/procedure/{key}", "procedure", {**stairs, key: value}) for key, value in (("down", 0), ("start", 9.0))),
                 *(("lab/type", "/blocks/0/procedure/start", "procedure", {**stairs, "start": start}) for start in ("1", math.nan)),
                 *(("lab/type", "/blocks/0/practice", "practice", count) for count in (1.5, True)),
                 ("lab/value", "/blocks/0/conditions", "conditions", ["none"]), ("lab/value", "/blocks/0/procedure", "task", "magnitude"),
-                ("lab/device", "/devices/stylus", "devices", {"stylus": "hid:auto"}),
-                ("lab/value", "/hand/maybe", "hand", {"maybe": {"port": "a.b", "above": 1}}),
+                ("lab/device", "/devices/stylus", "devices", {"stylus": "hid:auto"}), ("lab/value", "/hand/maybe", "hand", {"maybe": {"port": "a", "above": 1}}),
                 ("lab/value", "/triggers/codes/trial", "triggers", {"port": "x", "codes": {"trial": 256}})):
             with self.subTest(id + where):
                 data = json.loads(protocol(block(procedure=lab.Staircase(start=2.0, high=5.0))).text())
@@ -113,13 +110,12 @@ class Files(TestCase):
         self.assertEqual(self.fails("lab/value", made.graph_of, lab.Condition(name="a", snapshot="3")).remedy, "its snapshots: 2")
 
 
-class Order(TestCase):
+class OrderAndProcedures(TestCase):
     def test_it_follows_from_the_seed_and_the_participant(self):
-        first, again, other_seed, other_participant = (
-            [(t.level, t.expected) for t in walk(lab.Plan(protocol(seed=seed), participant), lambda t: "first")[1]]
-            for seed, participant in ((1, "01"), (1, "01"), (2, "01"), (1, "02")))
+        first, again, *others = ([(t.level, t.expected) for t in walk(lab.Plan(protocol(seed=seed), participant), lambda t: "first")[1]]
+                                 for seed, participant in ((1, "01"), (1, "01"), (2, "01"), (1, "02")))
         self.assertEqual(first, again)
-        self.assertNotIn(first, (other_seed, other_participant))
+        self.assertNotIn(first, others)
 
     def test_the_draws_are_those_of_every_version(self):
         self.assertEqual(Draw(1, "01", "main").order(range(8)), [0, 6, 5, 4, 1, 7, 3, 2])
@@ -168,8 +164,6 @@ class Order(TestCase):
         firsts = [walk(lab.Plan(made, participant), lambda t: "first")[1][0].block.name for participant in ("01", "02", "03")]
         self.assertEqual(firsts, ["a", "b", "a"])
 
-
-class Procedures(TestCase):
     def run_track(self, track, chance, seed=1):
         draw, levels = Draw(seed, "answers"), []
         while (level := track.level()) is not None:
@@ -233,7 +227,7 @@ class Procedures(TestCase):
         self.assertTrue(math.isnan(lab.mean_of_turns([1.0])))
 
 
-class Literature(TestCase):
+class Examples(TestCase):
     def run_one(self, name, **observer):
         window = lab.Simulated(lab.Observer(**observer, seed=3))
         return lab.Experiment(lab.Protocol.load(EXAMPLES / f"{name}.json"), self.folder, window=window, stage=lab.Silent()).run()
@@ -255,9 +249,7 @@ class Literature(TestCase):
         self.assertTrue(fit.threshold_interval.low < 0.02 < fit.threshold_interval.high, fit)
         self.assertLess(abs(lab.mean_of_turns(data.turns()["graph/0"], ratio=True) - 0.0185), 0.006)
 
-
-class Examples(TestCase):
-    def test_they_have_forty_lines_at_most(self):
+    def test_examples_have_forty_lines_at_most(self):
         for path in EXAMPLES.glob("*.py"):
             self.assertLessEqual(len(path.read_text(encoding="utf-8").splitlines()), 40, path.name)
             ast.parse(path.read_text(encoding="utf-8"))
@@ -277,10 +269,8 @@ class Examples(TestCase):
         self.assertTrue(forces[6] > 1.5 and abs(forces[11] - 1.0) < 0.05, forces)  # a stiffer wall
         self.assertIn("<td>12</td>", self.ran("-B", EXAMPLES / "learns_a_wall.py", program=sys.executable))
 
-
-@unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")
-class Notebook(TestCase):
-    def test_its_outputs_are_those_of_this_program(self):
+    @unittest.skipUnless(matplotlib, "python3-matplotlib is not installed")
+    def test_the_outputs_of_the_notebook_are_those_of_this_program(self):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
         for cell, said, stored in run_notebook(ROOT / "docs/tutorials/lab.ipynb")[1]:

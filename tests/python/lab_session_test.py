@@ -170,13 +170,11 @@ class Sessions(Case):
             self.fails("lab/journal", lab.load, path.parent)
 
     def test_adjusting_matching_and_magnitudes(self):
-        observer = lab.Observer(threshold=2.0, width=0.0, gain=3.0, exponent=0.5, noise=0.05)
-        made = protocol(block("set", "adjust", lab.Constant(levels=(1.0, 3.0), repeats=2), step=0.25),
-                        block("like", "match", lab.Constant(levels=(0.5,), repeats=2), step=0.5),
+        made = protocol(block("set", "adjust", lab.Constant(levels=(1.0, 3.0), repeats=2), step=0.25), block("like", "match", step=0.5),
                         block("how", "magnitude", lab.Constant(levels=(1.0, 4.0, 16.0), repeats=6)))
-        data = self.run_session(made, lab.Simulated(observer))
-        self.assertEqual(list(data.chosen("set")["outcomes"]), [2.0] * 4)
-        self.assertEqual(list(data.chosen("like")["outcomes"]), [2.0] * 2)
+        data = self.run_session(made, lab.Simulated(lab.Observer(threshold=2.0, width=0.0, gain=3.0, exponent=0.5, noise=0.05)))
+        for name, count in (("set", 4), ("like", 12)):
+            self.assertEqual(list(data.chosen(name)["outcomes"]), [2.0] * count)
         law = data.fit("how")
         self.assertTrue(law.exponent_interval.low < 0.5 < law.exponent_interval.high and abs(law.gain - 3.0) < 0.3, law)
         self.fails("lab/data", data.fit, "set")
@@ -201,7 +199,7 @@ class Sessions(Case):
         self.same_bits(np.asarray(data.events["wall"]) > 1.7e9, np.ones(data.events.rows))
 
 
-class Marks(Case):
+class MarksAndWindows(Case):
     def test_marks_and_answers_come_by_osc_and_wrong_packets_do_nothing(self):
         receiver = self.receiver()
 
@@ -246,8 +244,6 @@ class Marks(Case):
         self.assertEqual([code for code in data.events["code"] if not math.isnan(code)], [1, 2, 2, 255] * 3)
         self.fails("lab/triggers", self.session, protocol(triggers=lab.Triggers(port="/dev/null")), participant="02")
 
-
-class Windows(Case):
     def test_lines_at_a_terminal_are_answers_and_a_time_limit_ends_a_question(self):
         (read, write), said = os.pipe(), io.StringIO()
         with os.fdopen(read) as source, os.fdopen(write, "wb", 0) as typed:

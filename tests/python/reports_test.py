@@ -36,7 +36,7 @@ def strokes(rows=4000):
     return x, np.array(force) + 1e-3 * np.random.default_rng(1).standard_normal(rows)
 
 
-class Reports(TestCase):
+class ReportsAndLogs(TestCase):
     def said(self, *words, **more):
         return json.loads(self.ran(*words, "--json", **more))
 
@@ -161,8 +161,6 @@ class Reports(TestCase):
         self.assertGreaterEqual(len(fit.plot().axes[0].lines), 2)
         self.assertIn("stiffness", limits.plot().axes[0].get_xlabel())
 
-
-class Logs(TestCase):
     def played(self, name="run.jsonl"):
         """The log of a run in real time, and what it has recorded."""
         log = self.folder / name

@@ -55,8 +55,7 @@ class Check:
     places along which it was judged."""
 
     def __init__(self, report: Dict[str, Any]):
-        self.json = report
-        self.scope = str(report["scope"])
+        self.json, self.scope = report, str(report["scope"])
         self.rate_hz, self.is_broken = float(report["rate_hz"]), bool(report["broken"])
         self.not_judged: List[Dict[str, str]] = report["not_judged"]
         self.conditions = [Condition(**{name: c.get(name, "") for name in Condition._fields}) for c in report["conditions"]]
@@ -211,8 +210,7 @@ def check(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = N
 
 @_checks.arguments
 def limits(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = None, set: Optional[Mapping[str, Any]] = None, rate: Optional[float] = None,
-           duration: Optional[float] = None, role: Optional[str] = None, x: Optional[str] = None, y: Optional[str] = None,
-           steps: Optional[int] = None) -> Limits:
+           duration: Optional[float] = None, role: Optional[str] = None, x: Optional[str] = None, y: Optional[str] = None, steps: Optional[int] = None) -> Limits:
     """Finds how stiff, damped and slow the heaviest contact of a graph may be, as `tactus limits` does, with the same numbers.
 
     graph, devices, set, rate, duration: as for tactus.check. role: whose contact. x, y: what varies, "stiffness=0:5000" (N/m), "damping=0:20" (N s/m),

@@ -28,7 +28,7 @@ from ._windows import Aborted, Browser, Observer, Simulated, Terminal, Window
 load_results = Results
 
 __all__ = ["Aborted", "Block", "Browser", "Condition", "Constant", "Detection", "Experiment", "Factor", "FromTable", "Grid", "HandAnswer", "Interval",
-           "Latin", "Live", "Map", "Measure", "Moment", "Observer", "Plan", "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "Results",
-           "SessionData", "Silent", "Simulated", "Sobol", "Staircase", "Study", "Table", "Terminal", "Trial", "Triggers", "Varies", "Window",
-           "d_prime_of_two_intervals", "detection", "load", "load_results", "mark", "mean_of_turns", "plot_staircase", "power_law", "probability",
-           "psychometric", "save_plot", "schema", "table_of"]
+           "Latin", "Live", "Map", "Measure", "Moment", "Observer", "Plan", "PowerLaw", "Protocol", "Psi", "Psychometric", "Receiver", "Results", "SessionData",
+           "Silent", "Simulated", "Sobol", "Staircase", "Study", "Table", "Terminal", "Trial", "Triggers", "Varies", "Window", "d_prime_of_two_intervals",
+           "detection", "load", "load_results", "mark", "mean_of_turns", "plot_staircase", "power_law", "probability", "psychometric", "save_plot", "schema",
+           "table_of"]

@@ -8,7 +8,6 @@ import hashlib
 import math
 import pathlib
 import platform
-import queue
 import time
 from typing import Dict, List, Mapping, Optional
 
@@ -29,9 +28,8 @@ class Experiment:
     """A session of a participant. Each mark and each trial is in its journal before the next one begins, so at most the current trial is lost if the process
     is killed; `resume` goes on with that trial, in the same order."""
 
-    def __init__(self, protocol: Protocol, out: Path, participant: str = "01", session: str = "01", *, window: Window,
-                 stage: Optional[Silent] = None, resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {},
-                 devices: Optional[str] = None, packed: bool = False):
+    def __init__(self, protocol: Protocol, out: Path, participant: str = "01", session: str = "01", *, window: Window, stage: Optional[Silent] = None,
+                 resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {}, devices: Optional[str] = None, packed: bool = False):
         """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.
         stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC. device:
         devices of roles, as in tactus.play; devices: the session file that binds other roles, or "off". packed: the log of the inputs is packed, which
@@ -144,10 +142,9 @@ class Experiment:
         answer = self._answer(trial, trial.level)
         end = self.mark("answer", "" if answer is None else str(answer))
         outcome = trial.outcome(answer)
-        event = {"event": "trial", "number": trial.number, "block": trial.block.name, "kind": trial.kind, "condition": trial.condition,
-                 "track": trial.track, "level": trial.level, "intervals": [interval.level for interval in trial.intervals],
-                 "expected": trial.expected, "answer": answer, "outcome": outcome, "response_time": end.monotonic - asked,
-                 "guard": self.stage.events(), "begin": begin._asdict(), "end": end._asdict()}
+        event = {"event": "trial", "number": trial.number, "block": trial.block.name, "kind": trial.kind, "condition": trial.condition, "track": trial.track,
+                 "level": trial.level, "intervals": [interval.level for interval in trial.intervals], "expected": trial.expected, "answer": answer,
+                 "outcome": outcome, "response_time": end.monotonic - asked, "guard": self.stage.events(), "begin": begin._asdict(), "end": end._asdict()}
         self._journal.add(event)
         self._trials.append(event)
         self.plan.answer(answer)
@@ -190,9 +187,8 @@ class Experiment:
 
     def _take_marks(self) -> None:
         for marks in (self.receiver.marks if self.receiver else None, self.window.marks):
-            with contextlib.suppress(queue.Empty):
-                while marks is not None:
-                    self.mark(*marks.get_nowait())
+            while marks is not None and not marks.empty():
+                self.mark(*marks.get())
 
     def _report(self, trial: Trial) -> None:
         block, fit = trial.block, ""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import pathlib
@@ -51,22 +52,21 @@ def lock(file: BinaryIO, is_shared: bool = False) -> bool:
     return True
 
 
-class Journal:
+class Journal(io.FileIO):
     """A journal to which events are added, by one process at a time."""
 
     def __init__(self, path: pathlib.Path, header: Optional[Event]):
         """header: the first line of a new file; None to go on with one."""
-        self.path = path
         try:
-            self._file: BinaryIO = open(path, "xb" if header is not None else "ab", buffering=0)
+            super().__init__(path, "xb" if header is not None else "ab")
         except FileExistsError:
             fail("lab/exists", str(path), "the session already exists", "resume it (--resume), or choose another session")
-        if not lock(self._file):
-            self._file.close()
+        if not lock(self):
+            self.close()
             fail("lab/busy", str(path), "another process is running this session", "wait until it ends, or end it")
         if header is None:
             if path.read_bytes()[-1:] != b"\n":   # a crash has cut the last line off
-                self._file.write(b"\n")
+                self.write(b"\n")
         else:
             self.add({"format": "tactus-journal", "version": 1, **header})
             if os.name == "posix":
@@ -78,9 +78,5 @@ class Journal:
         """Writes an event; returns once it is on the disk."""
         data = json.dumps(event, ensure_ascii=False, allow_nan=False).encode() + b"\n"
         while data:
-            data = data[self._file.write(data):]
-        os.fsync(self._file.fileno())
-
-    def close(self) -> None:
-        """Closes the file."""
-        self._file.close()
+            data = data[self.write(data):]
+        os.fsync(self.fileno())

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Procedures that choose the next level: constant stimuli, staircases, and the psi method (QUEST+); and random draws that are the same on every computer: an
-order that a seed has given once can be given again."""
+"""Procedures that choose the next level: constant stimuli, staircases, and the psi method (QUEST+); and draws that are the same on every computer."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An experiment as data: the protocol, in a JSON file or in Python. And the order of its texts and trials, which follows from the protocol, the participant,
-the session and the answers alone, so the answers in a journal give it again."""
+"""An experiment as data: the protocol, in a JSON file or in Python; and the order of its texts and trials."""
 
 from __future__ import annotations
 
@@ -22,8 +21,8 @@ ANSWERS: Dict[str, Tuple[str, ...]] = {"yes_no": ("yes", "no"), "2ifc": ("first"
                                        "magnitude": (), "adjust": ("less", "more", "done"), "match": ("less", "more", "done")}
 KEYS = {"yes": "y", "no": "n", "first": "1", "second": "2", "a": "1", "b": "2", "less": "-", "more": "+", "done": "Enter"}
 QUESTIONS = {"yes_no": "Did you feel it?", "2ifc": "Which one was stronger?", "greater": "Which one was greater?",
-             "abx": "Was the last one like the first or the second?",
-             "magnitude": "How strong was it? Give any number.", "adjust": "Set it.", "match": "Make it like the other one."}
+             "abx": "Was the last one like the first or the second?", "magnitude": "How strong was it? Give any number.", "adjust": "Set it.",
+             "match": "Make it like the other one."}
 
 
 @dataclass(frozen=True)
@@ -233,30 +232,29 @@ def checked(protocol: Protocol) -> Protocol:
     for name, code in (protocol.triggers.codes if protocol.triggers else {}).items():
         if not 1 <= code <= 255:
             fail("lab/value", f"/triggers/codes/{name}", f"{code} is not a code of 8 bits", "give a code from 1 to 255")
-    _check_targets(protocol)
+    for i, block in enumerate(protocol.blocks):
+        _check_targets(protocol, block, f"/blocks/{i}")
     return protocol
 
 
-def _check_targets(protocol: Protocol) -> None:
+def _check_targets(protocol: Protocol, block: Block, where: str) -> None:
     """Refuses controls and parameters that a graph has not, and levels that it refuses, as far as they are known before a block runs."""
-    for i, block in enumerate(protocol.blocks):
-        given, varies = block.procedure, block.varies
-        known = [*(given.levels if isinstance(given, (Constant, Psi)) else (given.start, given.low, given.high)), varies.standard]
-        known += [varies.rest] if varies.rest is not None else []
-        for condition in (protocol.condition(name) for name in block.conditions or [c.name for c in protocol.all_conditions()]):
-            graph = protocol.graph_of(condition)
-            if graph is None:
-                continue
-            for name, value in [*protocol.values_of(condition)[1].items(), *((varies.target, level) for level in known)]:
-                if name in graph.controls:
-                    if not 0.0 <= value <= 1.0:
-                        fail("lab/value", f"/blocks/{i}", f"the control {name} would be {value:g}", "give levels from 0 to 1")
-                elif "." in name:
-                    with placed(f"/blocks/{i}: {name}"):
-                        set_param(graph, name, value)
-                else:
-                    fail("lab/value", f"/blocks/{i}", f"the graph of '{condition.name}' has no control '{name}'",
-                         f"its controls: {', '.join(graph.controls) or 'none'}; a parameter is written NODE.PARAMETER")
+    given, varies = block.procedure, block.varies
+    known = [*(given.levels if isinstance(given, (Constant, Psi)) else (given.start, given.low, given.high)), varies.standard]
+    known += [varies.rest] if varies.rest is not None else []
+    for condition in (protocol.condition(name) for name in block.conditions or [c.name for c in protocol.all_conditions()]):
+        if (graph := protocol.graph_of(condition)) is None:
+            continue
+        for name, value in [*protocol.values_of(condition)[1].items(), *((varies.target, level) for level in known)]:
+            if name in graph.controls:
+                if not 0.0 <= value <= 1.0:
+                    fail("lab/value", where, f"the control {name} would be {value:g}", "give levels from 0 to 1")
+            elif "." in name:
+                with placed(f"{where}: {name}"):
+                    set_param(graph, name, value)
+            else:
+                fail("lab/value", where, f"the graph of '{condition.name}' has no control '{name}'",
+                     f"its controls: {', '.join(graph.controls) or 'none'}; a parameter is written NODE.PARAMETER")
 
 
 def schema() -> Dict[str, Any]:
@@ -302,7 +300,8 @@ Step = Union[str, Trial, None]
 
 
 class Plan:
-    """A way through an experiment: `step` is the next trial, or a text to read; None at the end."""
+    """A way through an experiment: `step` is the next trial, or a text to read; None at the end. It follows from the protocol, the participant, the session
+    and the answers alone, so the answers in a journal give it again."""
 
     def __init__(self, protocol: Protocol, participant: str = "01", session: str = "01"):
         """participant, session: labels; a participant whose label is a number has that row of the latin square."""
@@ -366,7 +365,7 @@ class Plan:
         pair = (level, standard) if is_first else (standard, level)
         of_two = pair, "first" if is_first else "second", "12"
         tasks: Dict[str, Tuple[Tuple[float, ...], str, Sequence[str]]] = {   # levels, what is expected, labels
-            "2ifc": of_two, "greater": of_two, "abx": ((*pair, pair[last]), "ab"[last], "123"), "match": ((standard, level), "", ("standard", "yours")),
-            "yes_no": ((level,), "yes", ("",))}
+            "2ifc": of_two, "greater": of_two, "abx": ((*pair, pair[last]), "ab"[last], "123"), "yes_no": ((level,), "yes", ("",)),
+            "match": ((standard, level), "", ("standard", "yours"))}
         levels, expected, labels = tasks.get(block.task, ((level,), "", ("",)))
         return Trial(self._number, block, kind, condition, track, level, tuple(Interval(a, b) for a, b in zip(labels, levels)), expected)

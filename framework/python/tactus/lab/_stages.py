@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import math
 import os
 import queue
 import secrets
 import socket
+import socketserver
 import struct
 import threading
 import time
@@ -208,55 +210,44 @@ def _text(data: bytes) -> Tuple[str, bytes]:
     return data[:end].decode(), data[end + 4 - end % 4:]
 
 
-class Receiver:
+class Receiver(socketserver.UDPServer):
     """Receives /tactus/mark (name, and perhaps a value) and /tactus/answer (an answer, and the token) on this computer, on a thread of its own. Both get
     /tactus/done back. A mark is only kept. An answer may raise the next level, and with it a force, so it needs the token that the experiment shows."""
 
     def __init__(self, port: int = PORT):
         """port: UDP port on 127.0.0.1; 0: any free one."""
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
-            self._socket.bind(("127.0.0.1", port))
+            super().__init__(("127.0.0.1", port), socketserver.BaseRequestHandler)
         except OSError as why:
-            self._socket.close()
             fail("lab/port", str(port), f"the port cannot be opened: {why}", "choose another one with --osc, or 0 for any")
-        self.token = secrets.token_hex(4)
-        self.port: int = self._socket.getsockname()[1]
+        self.token, self.port = secrets.token_hex(4), int(self.server_address[1])
         self.now: Callable[[], Moment] = Silent().now   # the clock of the experiment
         self.marks: Marks = queue.Queue(10000)
         self.answers: "queue.Queue[str]" = queue.Queue(100)
-        self._thread = threading.Thread(target=self._receive, name="tactus.lab marks", daemon=True)
+        self._thread = threading.Thread(target=self.serve_forever, kwargs={"poll_interval": 0.05}, name="tactus.lab marks", daemon=True)
         self._thread.start()
 
-    def _receive(self) -> None:
-        while True:
-            packet, sender = self._socket.recvfrom(4096)
-            if not packet:
+    def finish_request(self, request: Any, client_address: Any) -> None:
+        """Takes a packet. One of a stranger does nothing."""
+        with contextlib.suppress(*NO_MESSAGE, queue.Full, OSError):
+            address, given = read_osc(request[0])
+            if address == "/tactus/mark" and given:
+                self.marks.put_nowait((str(given[0])[:1000], " ".join(map(str, given[1:]))[:1000], self.now()))
+            elif address == "/tactus/answer" and len(given) == 2 and secrets.compare_digest(str(given[1]).encode(), self.token.encode()):
+                self.answers.put_nowait(str(given[0])[:1000])
+            else:
                 return
-            try:
-                address, given = read_osc(packet)
-                if address == "/tactus/mark" and given:
-                    self.marks.put_nowait((str(given[0])[:1000], " ".join(map(str, given[1:]))[:1000], self.now()))
-                elif address == "/tactus/answer" and len(given) == 2 and secrets.compare_digest(str(given[1]).encode(), self.token.encode()):
-                    self.answers.put_nowait(str(given[0])[:1000])
-                else:
-                    continue
-                self._socket.sendto(osc("/tactus/done", address, given[0]), sender)
-            except (*NO_MESSAGE, queue.Full, OSError):
-                continue   # a stranger's packet
+            request[1].sendto(osc("/tactus/done", address, given[0]), client_address)
 
     def answer(self) -> Optional[str]:
         """The oldest answer that was not taken yet; None if there is none."""
-        with contextlib.suppress(queue.Empty):
-            return self.answers.get_nowait()
-        return None
+        return None if self.answers.empty() else self.answers.get()
 
     def close(self) -> None:
         """Ends the thread."""
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-            own.sendto(b"", ("127.0.0.1", self.port))
+        self.shutdown()
         self._thread.join()
-        self._socket.close()
+        self.server_close()
 
 
 def mark(text: str, value: str = "", port: int = PORT, wait: float = 2.0) -> bool:
@@ -270,7 +261,7 @@ def mark(text: str, value: str = "", port: int = PORT, wait: float = 2.0) -> boo
             return False
 
 
-class TriggerLine:
+class TriggerLine(io.FileIO):
     """A serial line that carries a byte for each mark."""
 
     def __init__(self, triggers: Triggers):
@@ -283,11 +274,11 @@ class TriggerLine:
             fail("lab/value", "/triggers/baud", f"serial lines of this system have no speed of {triggers.baud} bits per second",
                  "give a standard one, such as 115200")
         try:
-            self._line = os.open(triggers.port, os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK)
-            tty.setraw(self._line)   # a file that is no serial line is refused here, before anything is written
-            now = termios.tcgetattr(self._line)
+            super().__init__(triggers.port, "wb", opener=lambda path, _: os.open(path, os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK))
+            tty.setraw(self.fileno())   # a file that is no serial line is refused here, before anything is written
+            now = termios.tcgetattr(self)
             now[4] = now[5] = speed
-            termios.tcsetattr(self._line, termios.TCSANOW, now)
+            termios.tcsetattr(self, termios.TCSANOW, now)
         except (OSError, termios.error) as why:
             fail("lab/triggers", triggers.port, f"the serial line cannot be opened: {why}", "check /triggers/port of the protocol")
 
@@ -296,11 +287,7 @@ class TriggerLine:
         code = self._codes.get(name)
         if code is not None:
             try:
-                os.write(self._line, bytes([code]))
+                os.write(self.fileno(), bytes([code]))
             except OSError as why:
                 fail("lab/triggers", name, f"the trigger was not sent: {why}", "check the serial line, then resume the session")
         return code
-
-    def close(self) -> None:
-        """Closes the line."""
-        os.close(self._line)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tables in files that other programs read: CSV and TSV, HDF5, MAT (version 5) and XDF; and the data of a session, its trials and marks as tables, made from
-its journal."""
+"""Tables in files that other programs read: CSV, TSV, HDF5, MAT (version 5) and XDF; and the trials and marks of a session, made from its journal."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulated observers, and the windows through which they or a person answer: lines at a terminal, or pages in a browser of this computer, a plain one for
-the participant, and one for the experimenter with progress, the running fit, the health of the devices, and STOP."""
+"""Simulated observers, and the windows through which they or a person answer: lines at a terminal, or pages in a browser of this computer."""
 
 from __future__ import annotations
 
@@ -216,8 +215,8 @@ poll("report", 200, draw);
 
 
 class Browser(Window):
-    """Two pages on 127.0.0.1, whose addresses hold a secret, so that other users of the computer cannot guess them. Keys of pads are called Pad0, Pad1, …,
-    those of MIDI keyboards Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
+    """Two pages on 127.0.0.1: a plain one for the participant, and one for the experimenter with progress, the running fit, the health of the devices, and STOP.
+    Their addresses hold a secret, so that other users cannot guess them. Keys of pads are called Pad0, Pad1, …, those of MIDI keyboards Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
 
     def __init__(self, port: int = 0):
         """port: TCP port; 0: any free one."""
