@@ -1,18 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""The analysis of tactus.lab, against closed forms, psyphy and brute force."""
+"""The analysis of tactus.lab, against closed forms, psyphy and brute force; and how often nominal 95 % intervals hold the truth:
 
+    lab_fit_test.py coverage [--runs 2000] [--seed SEED] [METHOD...]
+
+Without --seed, the seed is drawn. A method is PROCEDURE/FUNCTION: constant (7 levels of 40 trials), staircase or psi (both 80 trials in two intervals;
+1 up, 2 down), logistic, normal or weibull; or detection (100 signals, 100 noises), or power (5 levels of 10 magnitudes). Each prints how many intervals
+held the true threshold (or d', or exponent), and the true width (or criterion): by profile likelihood, and then of the posterior."""
+
+import argparse
 import importlib.util
 import math
+import secrets
+import sys
 import unittest
 
 import numpy as np
-import lab_coverage
+from lab_protocol_test import block, protocol, walk
 from support import TestCase
 from tactus import lab
 from tactus.lab import _analysis
 from tactus.lab._procedures import Draw
 
-LEVELS = np.array(lab_coverage.LEVELS)
+THRESHOLD, WIDTH = 10.0, {"logistic": 1.0, "normal": 1.7, "weibull": 3.5}
+LEVELS = np.array([6.0, 7.5, 9.0, 10.0, 11.0, 12.5, 14.0])
 YES = np.array([1, 4, 11, 19, 30, 37, 39])
 
 
@@ -21,6 +31,35 @@ def likelihood(fit, threshold, width, lapse):
     p = np.clip(lab.probability(fit.function, fit.levels, *(np.asarray(x)[..., None] for x in (threshold, width)), fit.guess, np.asarray(lapse)[..., None]),
                 1e-12, 1 - 1e-12)
     return np.log(p) @ fit.yes + np.log1p(-p) @ (fit.trials - fit.yes)
+
+
+def answered(procedure, function, seed):
+    """The levels of an experiment, whether the answers of a simulated observer were right, and the guess rate."""
+    task, given = {"constant": ("yes_no", lab.Constant(levels=tuple(LEVELS), repeats=40)),
+                   "staircase": ("2ifc", lab.Staircase(start=16.0, steps=(2.0, 1.0, 0.5), low=0.5, high=40.0, trials=80)),
+                   "psi": ("2ifc", lab.Psi(levels=tuple(range(2, 22)), widths=tuple(WIDTH[function] * 2.0 ** k for k in (-2, -1, 0, 1, 2)),
+                                           lapses=(0.0, 0.03), function=function, trials=80))}[procedure]
+    observer = lab.Observer(THRESHOLD, WIDTH[function], lapse=0.02, function=function, seed=seed)
+    trials = walk(lab.Plan(protocol(block("main", task, given), seed=seed)), lambda trial: observer.answer(trial, trial.level))[1]
+    return [t.level for t in trials], [t.outcome(observer.answer(t, t.level)) for t in trials], trials[0].block.guess_rate
+
+
+def run(method, seed):
+    """Whether the intervals of one experiment hold the truth."""
+    draw = Draw(seed)
+    if method == "detection":
+        d, c = 1.5, 0.3
+        hits, alarms = (sum(draw.uniform() < rate for _ in range(100)) for rate in lab.probability("normal", [0.5 * d - c, -0.5 * d - c], 0.0, 1.0))
+        return [low <= truth <= high for (low, high), truth in zip(lab.detection(hits, 100, alarms, 100)[2:], (d, c))]
+    if method == "power":
+        levels = np.repeat([1.0, 2.0, 4.0, 8.0, 16.0], 10)
+        answers = [5.0 * level ** 0.8 * math.exp(0.3 * draw.normal()) for level in levels]
+        low, high = lab.power_law(levels, answers).exponent_interval
+        return [low <= 0.8 <= high]
+    procedure, function = method.split("/")
+    levels, right, guess = answered(procedure, function, seed)
+    fits = [lab.psychometric(levels, right, function=function, guess=guess, method=method) for method in ("profile", "posterior")]
+    return [low <= truth <= high for fit in fits for (low, high), truth in ((fit.threshold_interval, THRESHOLD), (fit.width_interval, WIDTH[function]))]
 
 
 class Analysis(TestCase):
@@ -67,7 +106,7 @@ class Analysis(TestCase):
 
     def test_the_ends_of_an_interval_are_where_the_profile_has_fallen(self):
         """The profile is the largest value over many points. Constant stimuli, and a staircase, whose likelihood has several summits."""
-        chosen, right, guess = lab_coverage.answered("staircase", "logistic", 1)
+        chosen, right, guess = answered("staircase", "logistic", 1)
         for fit in (*(lab.psychometric(LEVELS, YES, np.full(7, 40), function=function) for function in ("logistic", "normal", "weibull")),
                     lab.psychometric(chosen, right, guess=guess)):
             best = likelihood(fit, fit.threshold, fit.width, fit.lapse)
@@ -105,22 +144,22 @@ class Analysis(TestCase):
             self.fails(id, lambda: lab.psychometric(*arguments, **more))
 
     def test_intervals_hold_the_truth_about_as_often_as_they_say(self):
-        """A few runs with fixed seeds; lab_coverage.py makes the 2000 of docs/lab.md."""
+        """A few runs with fixed seeds; with the word coverage, this script makes the 2000 of docs/lab.md."""
         for method in ("constant/logistic", "constant/normal", "constant/weibull", "staircase/logistic", "detection", "power"):
-            shares = np.mean([lab_coverage.run(method, 1000 + i) for i in range(60)], axis=0)
+            shares = np.mean([run(method, 1000 + i) for i in range(60)], axis=0)
             self.assertTrue((shares >= (0.8 if method.startswith("staircase") else 0.88)).all(), (method, shares))
 
-    def test_d_prime_and_criterion_of_table_values(self):
+    def test_d_prime_criterion_and_quantiles_of_student_are_those_of_tables(self):
         found = lab.detection(69, 100, 31, 100)   # 2 z (0.6881)
         self.assertAlmostEqual(found.d_prime, 0.9811, 3)
         self.assertAlmostEqual(found.criterion, 0.0, 10)
         self.assertTrue(math.isfinite(lab.detection(100, 100, 0, 100).d_prime))
         self.assertAlmostEqual(lab.d_prime_of_two_intervals(76, 100), math.sqrt(2) * 0.6986, 2)
         self.fails("argument/value", lab.detection, 11, 10, 0, 10)
-
-    def test_a_power_law_without_noise_is_found_and_quantiles_of_student_are_those_of_the_tables(self):
         for free, value in ((1, 12.7062), (2, 4.3027), (5, 2.5706), (30, 2.0423), (1000, 1.9623)):
             self.assertAlmostEqual(_analysis.t_quantile(free), value, 3)
+
+    def test_a_power_law_without_noise_is_found(self):
         law = lab.power_law([1.0, 2.0, 4.0, 8.0], [3.0 * x ** 0.7 for x in (1.0, 2.0, 4.0, 8.0)])
         self.assertAlmostEqual(law.exponent, 0.7, 12)
         self.assertAlmostEqual(law.gain, 3.0, 12)
@@ -139,5 +178,17 @@ class Analysis(TestCase):
         self.assertIn("threshold", fit._repr_html_())
 
 
+def coverage():
+    """Prints how often the intervals hold the truth."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--runs", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=secrets.randbits(32))
+    parser.add_argument("methods", nargs="*", default=[*(f"{p}/{f}" for p in ("constant", "staircase", "psi") for f in WIDTH), "detection", "power"])
+    asked = parser.parse_args(sys.argv[2:])
+    for method in asked.methods:
+        shares = np.mean([run(method, asked.seed + i) for i in range(asked.runs)], axis=0)
+        print(f"{method}: " + ", ".join(f"{share:.1%}" for share in shares) + f" of {asked.runs} runs, seed {asked.seed}", flush=True)
+
+
 if __name__ == "__main__":
-    unittest.main()
+    coverage() if sys.argv[1:2] == ["coverage"] else unittest.main()

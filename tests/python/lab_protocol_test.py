@@ -40,7 +40,7 @@ def walk(plan, answer):
     return texts, trials
 
 
-class Files(TestCase):
+class Protocols(TestCase):
     def load(self, data):
         (self.folder / "p.json").write_text(data if isinstance(data, str) else json.dumps(data), encoding="utf-8")
         return lab.Protocol.load(self.folder / "p.json")
@@ -62,7 +62,7 @@ class Files(TestCase):
                 *(("lab/type", "/blocks/0/procedure/start", "procedure", {**stairs, "start": start}) for start in ("1", math.nan)),
                 *(("lab/type", "/blocks/0/practice", "practice", count) for count in (1.5, True)),
                 ("lab/value", "/blocks/0/conditions", "conditions", ["none"]), ("lab/value", "/blocks/0/procedure", "task", "magnitude"),
-                ("lab/device", "/devices/stylus", "devices", {"stylus": "hid:auto"}), ("lab/value", "/hand/maybe", "hand", {"maybe": {"port": "a", "above": 1}}),
+                ("lab/device", "/devices/pen", "devices", {"pen": "hid:auto"}), ("lab/value", "/hand/maybe", "hand", {"maybe": {"port": "a", "above": 1}}),
                 ("lab/value", "/triggers/codes/trial", "triggers", {"port": "x", "codes": {"trial": 256}})):
             with self.subTest(id + where):
                 data = json.loads(protocol(block(procedure=lab.Staircase(start=2.0, high=5.0))).text())
@@ -92,13 +92,11 @@ class Files(TestCase):
                 self.assertTrue(field.get("description") or "oneOf" in field, name)
             self.assertFalse(part["additionalProperties"])
 
-    def test_a_snapshot_gives_values_and_the_condition_overrides_them(self):
+    def test_a_snapshot_of_a_file_or_of_the_window_gives_values_and_the_condition_overrides_them(self):
         (self.folder / "s.json").write_text('{"set": {"drag.mu": 0.2}, "controls": {"roughness": 0.1}}', encoding="utf-8")
         made = protocol(folder=str(self.folder))
         values = made.values_of(lab.Condition(name="a", snapshot="s.json", controls={"roughness": 0.7}))
         self.assertEqual(values, ({"drag.mu": 0.2}, {"roughness": 0.7}))
-
-    def test_a_snapshot_of_the_window_is_a_condition(self):
         wood = json.loads(tactus.Graph("dry_wood").text)
         stored = {"nodes": {"drag": {"type": wood["nodes"]["drag"]["type"], "params": {"mu": 0.11}, "overrides": {}}, "gone": {"type": "x", "params": {}}},
                   "graphs": {}, "controls": {"roughness": 0.9}}
@@ -109,8 +107,6 @@ class Files(TestCase):
         self.assertEqual(graph.nodes["grain"].params["amplitude"], 0.05)
         self.assertEqual(self.fails("lab/value", made.graph_of, lab.Condition(name="a", snapshot="3")).remedy, "its snapshots: 2")
 
-
-class OrderAndProcedures(TestCase):
     def test_it_follows_from_the_seed_and_the_participant(self):
         first, again, *others = ([(t.level, t.expected) for t in walk(lab.Plan(protocol(seed=seed), participant), lambda t: "first")[1]]
                                  for seed, participant in ((1, "01"), (1, "01"), (2, "01"), (1, "02")))
@@ -171,7 +167,7 @@ class OrderAndProcedures(TestCase):
             track.answer(level, float(draw.uniform() < chance(level)))
         return levels
 
-    def test_a_staircase_steps_as_its_rule_says(self):
+    def test_a_staircase_steps_as_its_rule_says_and_its_reversals_have_a_mean(self):
         track = StaircaseTrack(lab.Staircase(start=10.0, steps=(4.0, 2.0, 1.0), low=0.0, trials=12))
         levels = []
         for outcome in (1, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1):
@@ -187,6 +183,9 @@ class OrderAndProcedures(TestCase):
         for outcome, after in ((1, 4.0), (1, 2.0), (0, 4.0), (1, None)):
             ratio.answer(ratio.level(), float(outcome))
             self.assertEqual(ratio.level(), after)
+        self.assertEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 3.0, 2.0]), 2.5)
+        self.assertAlmostEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 4.0], ratio=True), 2.0)
+        self.assertTrue(math.isnan(lab.mean_of_turns([1.0])))
 
     def test_staircases_converge_where_they_should(self):
         """1 up 1 down at 50 %, 2 down at 70.7 %, weighted 3:1 at 75 % (Levitt 1971, Kaernbach 1991)."""
@@ -220,11 +219,6 @@ class OrderAndProcedures(TestCase):
             track.answer(level, outcome)
             belief = joints[level][0 if outcome else 1]
             belief = belief / belief.sum()
-
-    def test_the_mean_of_reversals(self):
-        self.assertEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 3.0, 2.0]), 2.5)
-        self.assertAlmostEqual(lab.mean_of_turns([9.0, 9.0, 1.0, 4.0], ratio=True), 2.0)
-        self.assertTrue(math.isnan(lab.mean_of_turns([1.0])))
 
 
 class Examples(TestCase):

@@ -198,8 +198,6 @@ class Sessions(Case):
         self.assertTrue((np.diff(onset) >= 0.0).all() and onset[0] >= 0.0)
         self.same_bits(np.asarray(data.events["wall"]) > 1.7e9, np.ones(data.events.rows))
 
-
-class MarksAndWindows(Case):
     def test_marks_and_answers_come_by_osc_and_wrong_packets_do_nothing(self):
         receiver = self.receiver()
 
@@ -234,8 +232,8 @@ class MarksAndWindows(Case):
 
     def test_triggers_are_bytes_on_a_serial_line(self):
         ours, theirs = pty.openpty()
-        self.addCleanup(os.close, ours)
-        self.addCleanup(os.close, theirs)
+        for end in (ours, theirs):
+            self.addCleanup(os.close, end)
         tty.setraw(ours)
         made = protocol(block(procedure=lab.Constant(levels=(1.0,), repeats=3)),
                         triggers=lab.Triggers(port=os.ttyname(theirs), codes={"trial": 1, "stimulus": 2, "answer": 255}))

@@ -210,7 +210,8 @@ def check(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = N
 
 @_checks.arguments
 def limits(graph: Union[Graph, Path], *, devices: Optional[Mapping[str, str]] = None, set: Optional[Mapping[str, Any]] = None, rate: Optional[float] = None,
-           duration: Optional[float] = None, role: Optional[str] = None, x: Optional[str] = None, y: Optional[str] = None, steps: Optional[int] = None) -> Limits:
+           duration: Optional[float] = None, role: Optional[str] = None, x: Optional[str] = None, y: Optional[str] = None,
+           steps: Optional[int] = None) -> Limits:
     """Finds how stiff, damped and slow the heaviest contact of a graph may be, as `tactus limits` does, with the same numbers.
 
     graph, devices, set, rate, duration: as for tactus.check. role: whose contact. x, y: what varies, "stiffness=0:5000" (N/m), "damping=0:20" (N s/m),

@@ -172,10 +172,9 @@ class _Likelihood:
             if best is None:
                 mass = np.exp(logs - logs.max() - 0.5 * (grids[1][:, None] - self.middle) ** 2)
                 kept = [mass.sum(axis=(1, 2)), mass.sum(axis=(0, 2))]
-                insides = [np.flatnonzero(one > 1e-6 * one.sum()) for one in kept]
             else:
                 kept = [logs.max(axis=(1, 2)), logs.max(axis=(0, 2))]
-                insides = [np.flatnonzero(one > min(fallen, one.max()) - 4.0) for one in kept]
+            insides = [np.flatnonzero(one > (1e-6 * one.sum() if best is None else min(fallen, one.max()) - 4.0)) for one in kept]
             ends = np.array([[grid[max(i[0] - 1, 0)], grid[min(i[-1] + 1, len(grid) - 1)]] for grid, i in zip(grids, insides)])
         if best is None:
             return [_tails(grid, one, confidence) for grid, one in zip(grids, kept)], float(mass.sum(axis=(0, 1)) @ self.lapses / mass.sum())

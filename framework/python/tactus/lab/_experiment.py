@@ -29,7 +29,8 @@ class Experiment:
     is killed; `resume` goes on with that trial, in the same order."""
 
     def __init__(self, protocol: Protocol, out: Path, participant: str = "01", session: str = "01", *, window: Window, stage: Optional[Silent] = None,
-                 resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {}, devices: Optional[str] = None, packed: bool = False):
+                 resume: bool = False, receiver: Optional[Receiver] = None, device: Mapping[str, str] = {}, devices: Optional[str] = None,
+                 packed: bool = False):
         """out: the folder of the study; the session has the folder sub-PARTICIPANT/ses-SESSION/beh in it. participant, session: letters and digits.
         stage: where stimuli are felt; without it, on devices if the protocol has a graph, else nowhere. receiver: of marks and answers by OSC. device:
         devices of roles, as in tactus.play; devices: the session file that binds other roles, or "off". packed: the log of the inputs is packed, which

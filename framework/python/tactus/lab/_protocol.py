@@ -8,7 +8,7 @@ import json
 import os
 import pathlib
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, Generator, List, Literal, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Generator, List, Literal, NamedTuple, Optional, Sequence, Tuple, Union, cast
 
 from .._checks import Path
 from .._graph import Graph
@@ -175,8 +175,7 @@ def edited(graph: Graph, change: Callable[[Dict[str, Any], Dict[str, Any]], None
     data = json.loads(text)
     for part in (data, *data.get("graphs", {}).values()):
         change(data, part)
-    made: Graph = make(json.dumps(data), *rest)
-    return made
+    return cast(Graph, make(json.dumps(data), *rest))
 
 
 def _recalled(graph: Graph, number: str) -> Graph:

@@ -20,8 +20,7 @@ T = TypeVar("T")
 
 def read(kind: Type[T], value: Any, where: str = "") -> T:
     """The dataclass for a JSON value. `where` is the JSON pointer of the value, which messages name."""
-    found: T = _read(kind, value, where, {})
-    return found
+    return typing.cast(T, _read(kind, value, where, {}))
 
 
 def write(value: Any) -> Any:
@@ -110,16 +109,12 @@ def _read(kind: Any, value: Any, where: str, about: Mapping[str, Any]) -> Any:
         if not isinstance(value, Mapping):
             _wrong(where, value, "an object with names")
         return {key: _read(inner[1], each, f"{where}/{key}", {}) for key, each in value.items()}
-    if dataclasses.is_dataclass(kind):
-        return _read_object(kind, value, where)
     if kind in (int, float):
         return _read_number(kind, value, where, about)
     if kind in (str, bool) and not isinstance(value, kind):
         _wrong(where, value, "text" if kind is str else "true or false")
-    return value
-
-
-def _read_object(kind: Any, value: Any, where: str) -> Any:
+    if not dataclasses.is_dataclass(kind):
+        return value
     if not isinstance(value, Mapping):
         _wrong(where, value, f"an object ({kind.__name__})")
     fields, hints = {f.name: f for f in dataclasses.fields(kind)}, typing.get_type_hints(kind)

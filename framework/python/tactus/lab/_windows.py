@@ -215,8 +215,9 @@ poll("report", 200, draw);
 
 
 class Browser(Window):
-    """Two pages on 127.0.0.1: a plain one for the participant, and one for the experimenter with progress, the running fit, the health of the devices, and STOP.
-    Their addresses hold a secret, so that other users cannot guess them. Keys of pads are called Pad0, Pad1, …, those of MIDI keyboards Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
+    """Two pages on 127.0.0.1: a plain one for the participant, and one for the experimenter with progress, the running fit, the health of the devices,
+    and STOP. Their addresses hold a secret, so that other users cannot guess them. Keys of pads are called Pad0, Pad1, …, those of MIDI keyboards
+    Midi60, … Other pages on this computer may POST {"name": …, "value": …} to `participant` + "mark"."""
 
     def __init__(self, port: int = 0):
         """port: TCP port; 0: any free one."""
