@@ -3,8 +3,9 @@
 """Drives tactus-host.exe in wine with mouse and keyboard: window.py TACTUS BIN WINE GRAPHS WORK. Arguments as for presets.py.
 
 It plays Dry wood with the mouse, and `tactus probe` on Linux reads the force over OSC; it stops, also while the thread of the window hangs, changes a
-parameter, saves, opens a preset and a file with another name, is killed with an edit that is not saved, and gets it back. All this on a screen with the
-usual resolution, and on one with twice as many pixels for each length. Pictures are in WORK/window."""
+parameter, saves, opens a preset and a file with another name, is killed with an edit that is not saved, and gets it back. It takes a file that another
+program of Windows drops on it, and saves and opens by its dialogs. All this on a screen with the usual resolution, and on one with twice as many pixels
+for each length. Pictures are in WORK/window."""
 
 import json
 import os
@@ -66,6 +67,23 @@ class InWine(Walk):
         x, y = self.at("Surface")
         self.press([x - 60 * self.scale, y])
         self.glide([x - 60 * self.scale, y], [x + 20 * self.scale, y])
+
+    def drop(self, file, place):
+        """Drags this file here from a window of another program."""
+        source = subprocess.Popen([self.wine, self.folder / "drop.exe", there(file), "5", "5"], env=self.environment, text=True, stdout=subprocess.PIPE)
+        said = source.stdout.readline()
+        assert said == "ready\n", said
+        self.drag([25, 25], place)
+        said = source.stdout.readline()
+        assert said == "dropped\n", said
+        source.wait()
+
+    def dialog(self, keys, title, name):
+        """Types a name into the dialog that these keys open. A window that works on something else may lose the keys."""
+        self.wait(lambda: self.has(title) or self.key(keys) or self.has(title), title)
+        self.shot("dialog")
+        self.type(name)
+        self.key("Return")
 
     def title(self):
         found = subprocess.run(["xdotool", "search", "--name", "Tactus$", "getwindowname"], env=self.environment, capture_output=True, text=True, check=False)
@@ -166,6 +184,19 @@ def walk(w, tactus, graphs):
     w.wait(lambda: "Bronze bell" in w.title(), "the preset")
     w.shot("preset")
 
+    wall = w.home / "Wand ж 😀.json"
+    shutil.copy(graphs / "granite_wall.json", wall)
+    w.drop(wall, w.empty_place())
+    w.wait(lambda: w.has("granite_wall"), "the graph that was dropped")
+    w.shot("dropped")
+    kept = w.home / "noch eins.json"
+    w.dialog("ctrl+shift+s", "Save graph", there(kept))
+    w.wait(kept.exists, "the file that was saved by a dialog")
+    subprocess.run([tactus, "validate", kept], check=True, stdout=subprocess.DEVNULL)
+    w.wait(lambda: kept.name in w.title(), "its name")
+    w.dialog("ctrl+o", "Open graph or clip", there(mine.rename(w.home / "brett.json")))
+    w.wait(lambda: "brett.json" in w.title(), "the file that was opened by a dialog")
+
 
 def main():
     tactus, folder, wine, graphs, work = sys.argv[1], *map(pathlib.Path, sys.argv[2:6])
@@ -178,7 +209,8 @@ def main():
             raise
         finally:
             w.end()
-        print(f"at {96 * scale} dpi, the window plays Dry wood by the mouse, stops, also while it hangs, saves, opens, and recovers after kill -9", flush=True)
+        print(f"at {96 * scale} dpi, the window plays Dry wood by the mouse, stops, also while it hangs, saves and opens, also by dialogs, recovers after "
+              "kill -9, and takes a file that another program drops", flush=True)
 
 
 if __name__ == "__main__":
