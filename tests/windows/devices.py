@@ -3,9 +3,10 @@
 """Plays on devices with tactus.exe in wine: devices.py TACTUS BIN WINE GRAPHS WORK [READINGS]. Arguments as for presets.py.
 
 Arms are behind a fake drd64.dll, dhd64.dll and HD.dll; `tactus fake-device` moves the hand, and tells what the arm has heard. A board that
-`tactus fake-device` plays on a pseudo-terminal is COM7, and then COM12, whose name needs a prefix. Runs must refuse all of them without --untried. With
-it, what they play must be what `tactus render --replay` renders on Linux from the log, to the bit, and the device must have heard forces, within the
-limit of its guard. On a busy computer, most reports are skipped for newer ones, and the guard withholds forces, so the counts are only printed."""
+`tactus fake-device` plays on a pseudo-terminal is COM7, and then COM12, whose name needs a prefix. Without --untried, `tactus play` must refuse all of
+them, and so must a program with tactus_live.dll; then they have heard no force. With it, what they play must be what `tactus render --replay` renders on
+Linux from the log, to the bit, and the device must have heard forces, within the limit of its guard. On a busy computer, most reports are skipped for
+newer ones, and the guard withholds forces, so the counts are only printed."""
 
 import contextlib
 import math
@@ -78,12 +79,15 @@ def main():
             wrong.append(what)
             print(f"{what}\n{ran.stdout[-800:]}{ran.stderr[-2000:]}", flush=True)
 
-    def play(name, device, count, environment, *more):
-        """Plays; what was played must be what Linux renders."""
+    def play(name, device, count, environment, *more, is_refused=False):
+        """Plays; what was played must be what Linux renders. `is_refused`: nothing plays, because there is no guardian."""
         words = [wine, exe, "play", graph, "--device", f"stylus={device}", "--osc", "off", *more]
         how = {"capture_output": True, "text": True, "cwd": work, "check": False, "timeout": 600, "env": environment}
-        ran = subprocess.run([*words, "--duration", "1"], **how)
-        expect(ran.returncode != 0 and "[device/failsafe]" in ran.stderr, f"{name}: a device with forces is not refused", ran)
+        if is_refused:
+            for program in ([*words, "--duration", "1"], [wine, exe.with_name("live_c.exe"), f"Z:{graph}", f"stylus={device}", "1"]):
+                ran = subprocess.run(program, **how)
+                expect(ran.returncode != 0 and "[device/failsafe]" in ran.stderr, f"{name}: {program[1].name} does not refuse a device with forces", ran)
+            return ran
         ran = subprocess.run([*words, "--untried", "--duration", str(1.1 * count / 1000), "--log", f"{name}.jsonl", "--out", f"{name}.csv"], **how)
         expect(ran.returncode == 0, f"{name}: the run fails", ran)
         here = subprocess.run([tactus, "render", graph, "--replay", f"{name}.jsonl", "--out", f"{name}_again.csv"], **how)
@@ -100,17 +104,22 @@ def main():
         with board(tactus, wine, work, port) as log:
             listed = subprocess.run([wine, exe, "devices"], capture_output=True, text=True, check=False, timeout=120)
             expect(f"serial port {port}\n" in listed.stdout, f"{port} is not listed", listed)
+            ran = play(f"line_{port}", f"serial:tactus_board@{port}", count, os.environ, is_refused=True)
+            expect(not any(map(any, forces_heard(log))), f"{port}: a board that was refused has heard a force", ran)
             ran = play(f"line_{port}", f"serial:tactus_board@{port}", count, os.environ)
             heard, taken = forces_heard(log), re.search(r"(\d+) taken", ran.stderr)
             expect(taken and int(taken.group(1)) >= count, f"{port}: fewer reports than {count}", ran)
-            largest = max(math.hypot(*force) for force in heard)
+            largest = max((math.hypot(*force) for force in heard), default=0.0)
             expect(largest < 1e6 * MOST_N, f"{port}: the board has heard {1e-6 * largest} N", ran)
             got = taken.group(0) if taken else "no reports"
             print(f"{port}: {got}; the board has heard {len(heard)} different forces of at most {1e-6 * largest} N", flush=True)
     for driver, library in (("forcedimension", "drd64"), ("forcedimension", "dhd64"), ("openhaptics", "HD")):
         said = []
-        with arm(tactus, driver, pathlib.Path(programs).resolve().parent / "fakes" / library / "bin", said) as environment:
-            ran = play(library, driver, 1000, environment, "--rate", "1000")
+        for is_refused in (True, False):
+            with arm(tactus, driver, pathlib.Path(programs).resolve().parent / "fakes" / library / "bin", said) as environment:
+                ran = play(library, driver, 1000, environment, "--rate", "1000", is_refused=is_refused)
+        nothing = said.pop(0)
+        expect(nothing.endswith(" of at most 0 N"), f"{library}.dll: an arm that was refused has felt a force: {nothing}", ran)
         found = re.search(r"(\d+) forces heard, of at most ([0-9.]+) N", said[0])
         expect(found and int(found.group(1)) > 0, f"{library}.dll is not driven: {said}", ran)
         print(f"{library}.dll: {found.group(0) if found else said}", flush=True)

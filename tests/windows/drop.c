@@ -64,10 +64,11 @@ int wmain (int argc, wchar_t** argv)
         printf ("there is no such file\n");
         return 1;
     }
-    const WNDCLASSW kind = { .lpfnWndProc = proceed, .hInstance = GetModuleHandleW (NULL), .lpszClassName = L"file", .hbrBackground = (HBRUSH)(COLOR_WINDOW + 1) };
+    const WNDCLASSW kind = { .lpfnWndProc = proceed, .hInstance = GetModuleHandleW (NULL), .lpszClassName = L"file" };
     RegisterClassW (&kind);
-    const HWND window = CreateWindowExW (WS_EX_TOPMOST | WS_EX_TOOLWINDOW, kind.lpszClassName, L"file", WS_POPUP | WS_VISIBLE, _wtoi (argv[2]), _wtoi (argv[3]), 40, 40,
-                                         NULL, NULL, kind.hInstance, NULL);
+    const int x = _wtoi (argv[2]), y = _wtoi (argv[3]);
+    const HWND window =
+        CreateWindowExW (WS_EX_TOPMOST | WS_EX_TOOLWINDOW, L"file", L"file", WS_POPUP | WS_VISIBLE, x, y, 40, 40, NULL, NULL, kind.hInstance, NULL);
     UpdateWindow (window);
     printf ("ready\n");
     fflush (stdout);

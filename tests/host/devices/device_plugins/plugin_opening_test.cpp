@@ -161,6 +161,22 @@ TEST_CASE ("a device that nothing brings to rest when the program dies is not op
     CHECK (fake.count ("rest") >= fake.count ("open"));   // also of devices that are refused
 }
 
+#if ! defined(__linux__)
+TEST_CASE ("on a system without a guardian, a device that pushes is not opened, whatever watchdog it has", "[plugins][safety]")
+{
+    CHECK (host::Failsafe::arm ("COM7", { { { 0 }, false } }).error().id == "device/failsafe");
+    FakeDriver fake;
+    const auto made = [&] { return host::openPluginDevice (*fake.driver, { { "driver", "fake" } }); };
+    const auto refused = made();
+    CHECK (refused.device == nullptr);
+    CHECK (idOf (refused.messages) == "device/failsafe");
+    CHECK (fake.count ("force") == 0);
+    CHECK (fake.lastTold() == "close");
+    fake.tool = TACTUS_DEVICE_POSITION;   // nothing pushes
+    CHECK (made().device != nullptr);
+}
+#endif
+
 TEST_CASE ("limits of a driver that would hold a force for long are refused", "[plugins][safety]")
 {
     FakeDriver fake;
