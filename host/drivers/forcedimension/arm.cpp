@@ -8,6 +8,7 @@
 #include <host/drivers/guessed_limits.hpp>
 #include <host/drivers/read_keys.hpp>
 #include <host/drivers/rotation_of.hpp>
+#include <tactus/run/realtime.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -166,7 +167,7 @@ public:
         const auto until = Clock::now() + std::chrono::milliseconds (timeout_ms);
         for (auto now = Clock::now();; now = Clock::now())
         {
-            std::this_thread::sleep_until (due);   // the library answers at once while it has nothing new
+            sleepUntil (due);   // the library answers at once while it has nothing new
             now = std::max (now, due);
             due = std::max (due + period, now);
             feed();

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/run/realtime.hpp>
 
+#include "support/waiting.hpp"
+
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <optional>
 #include <thread>
+
+TEST_CASE ("a sleep does not end early, also if it is shorter than a millisecond", "[run]")
+{
+    for (const auto pause : { 50, 300, 900, 1500 })
+        for (int k = 0; k < 10; ++k)
+        {
+            const tactus::test::Stopwatch watch;
+            tactus::sleepUntil (tactus::test::fromNow (std::chrono::microseconds (pause)));
+            CHECK (watch.s() > 1e-6 * (pause - 1));
+        }
+}
 
 #if defined(__linux__)
 
