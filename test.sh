@@ -66,7 +66,7 @@ case $mode in --long|--site) packages+=(chromium chromium-driver python3-seleniu
 [ "$mode" = --figures ] && packages+=(valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg sox fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
-[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix lld-14 wine64 xauth imagemagick)
+[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix lld-14 wine64 xauth imagemagick mono-mcs mono-runtime)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
 
@@ -251,7 +251,7 @@ if [ "$mode" = --figures ]; then
 fi
 
 if [ "$mode" = --windows ]; then
-    build release tactus plugin_in_c tactus_cli_tests
+    build release tactus tactus_shared plugin_in_c tactus_cli_tests
     build windows tried_in_wine
     say "In wine"
     xvfb-run -a /usr/bin/python3 -B tests/windows/run.py build/release/bin/tactus build/windows

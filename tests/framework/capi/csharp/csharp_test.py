@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks Tactus.cs: csharp_test.py LIBRARY TACTUS SOURCES. LIBRARY is libtactus.so, TACTUS the program, SOURCES the repository.
+"""Checks Tactus.cs: csharp_test.py LIBRARY TACTUS SOURCES [WINE MONO DLL]. LIBRARY is libtactus.so, TACTUS the program, SOURCES the repository. With WINE,
+C# runs there, in mono.exe MONO with libtactus.dll DLL, and is compared with the same things of Linux.
 
 Compiles the file, a test and the example for Unity with mcs, and runs them with mono: rendered presets have the bits of `tactus render`; pushed readings the
 efforts that the same library gives to Python's ctypes, also by steps longer than a tick; a saved half of a run has the same bits again; the guard says why it
@@ -97,6 +98,8 @@ def step(lib, run, role, k):
 
 def main():
     library, tactus, sources = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), pathlib.Path(sys.argv[3]).resolve()
+    in_wine = sys.argv[4:]
+    mono = in_wine[:2] or ["mono"]
     if not shutil.which("mcs") or not shutil.which("mono"):
         print("skipped: there is no mono (Debian: apt install mono-mcs mono-runtime)")
         return 77
@@ -109,8 +112,12 @@ def main():
             subprocess.run(["mcs", "-unsafe", "-warnaserror+", "-d:UNITY_EDITOR", f"-out:{folder / program}", sources / "framework/capi/Tactus.cs", *files],
                            check=True)
 
+        if in_wine:
+            shutil.copy(in_wine[2], folder)
+
         def lines(*words):
-            ran = subprocess.run(["mono", *words], cwd=folder, capture_output=True, text=True, timeout=300, check=False,
+            words = [f"Z:{word}" if in_wine and word.startswith("/") else word for word in words]
+            ran = subprocess.run([*mono, *words], cwd=folder, capture_output=True, text=True, timeout=300, check=False,
                                  env={**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(library).parent), "LC_ALL": "C.UTF-8"})
             assert ran.returncode == 0, (words, ran.stdout, ran.stderr)
             return ran.stdout.splitlines()
