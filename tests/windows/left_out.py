@@ -50,7 +50,8 @@ LEFT_OUT = {
                             "a driver that gives neither number nor time must give max_still, and one that promises them must give them": GUARDIAN,
                             "a reading without the number that its driver promises is not used": GUARDIAN,
                             "a device that nothing brings to rest when the program dies is not opened": GUARDIAN},
-    "preset_name_test": {"every command that takes a graph file takes the name of a preset": SLASH, "a mistyped preset or file gets a suggestion": SLASH},
+    "preset_name_test": {"every command that takes a graph file takes the name of a preset": SLASH, "a mistyped preset or file gets a suggestion": SLASH,
+                         "a folder in place of a serial line is told to be one": "on Windows, it is no port: hid/not_connected"},
     "profile_library_test": {"user's profiles: a relative path in the environment names no folder, because it would be next to a graph":
                              "it expects folders of Linux",
                              "profiles that another user can change are not used": OWNERS},
