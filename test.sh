@@ -31,7 +31,8 @@
 #   ./test.sh --site    builds the site with all presets, and uses its playground in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --windows builds for Windows with mingw-w64, and runs what it built in wine (docs/windows.md): all presets give the same bits, files with
-#                       other names and line ends, plugins, devices on serial ports and behind fake libraries, and the tests
+#                       other names and line ends, plugins, devices on serial ports and behind fake libraries, and the tests; with --sources,
+#                       only compiles the sources that differ on Windows
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds the libraries as part of another project, and all nodes as plugins, and examines these
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
@@ -48,7 +49,7 @@ if [ "${1:-}" = --kept ]; then exec .ci/kept.sh "${@:2}"; fi
 mode=${1:-}
 case $mode in
     ''|--all|--daily|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--windows|--packages|--format|--tidy|--drivers|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--windows|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--drivers|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    *) echo "usage: ./test.sh [--kept] [--all|--daily|--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--windows [--sources]|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--drivers|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
@@ -66,7 +67,8 @@ case $mode in --long|--site) packages+=(chromium chromium-driver python3-seleniu
 [ "$mode" = --figures ] && packages+=(valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg sox fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
-[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix lld-14 wine64 xauth imagemagick mono-mcs mono-runtime)
+[ "$mode" = --windows ] && packages+=(g++-mingw-w64-x86-64-posix)
+[ "$mode" = --windows ] && [ "${2:-}" != --sources ] && packages+=(lld-14 wine64 xauth imagemagick mono-mcs mono-runtime)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
 
@@ -247,6 +249,12 @@ if [ "$mode" = --figures ]; then
     /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib
     say "Instructions per tick"
     /usr/bin/python3 tests/bench/instructions.py build/release
+    exit
+fi
+
+if [ "$mode" = --windows ] && [ "${2:-}" = --sources ]; then
+    say "Sources for Windows"
+    /usr/bin/python3 -B tests/windows/sources.py
     exit
 fi
 
