@@ -144,7 +144,7 @@ void Engine::join (const Joining& joining, const Plan& plan)
         throw std::invalid_argument ("the role '" + joining.role + "' already has a device");
     auto& channel = makeChannel (joining.role);
     attachDevice (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
-    channel.bumpless.begin (true);
+    channel.bumpless.begin (false);   // takeOver() knows whether nodes are new
 }
 
 void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joining)

@@ -373,8 +373,10 @@ void PlanDiff::compare (PlanParts& plan) const
 {
     if (before == nullptr) return;
 
-    auto dirty = changed (plan), fresh = continuing;
-    fresh.flip();
+    auto dirty = changed (plan);
+    std::vector<bool> fresh;
+    for (const int old : matching.nodes)
+        fresh.push_back (old < 0);   // not another build or setting of a node, which begins where the old one was
     spread (dirty, plan);
     spread (fresh, plan);
 

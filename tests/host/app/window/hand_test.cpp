@@ -218,7 +218,8 @@ TEST_CASE ("a take that begins while the tool is held in a surface gives no knoc
     CHECK (run.isLogged());
     CHECK (most < 1.1 * before.force.norm());
     CHECK (farthest < 2e-3);
-    CHECK (waitFor ([&] { return run.tool() && run.tool()->force.norm() == Approx (before.force.norm()).epsilon (0.1); }));
+    // While the force rises, the friction holds less, so the tool slides towards the hand. It is pressed as before.
+    CHECK (waitFor ([&] { return run.tool() && run.tool()->force.z() == Approx (before.force.z()).epsilon (0.1); }));
     w.view->run().letGo();
 }
 
@@ -270,7 +271,7 @@ TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][
 
 TEST_CASE ("a drag ends when another program gets the keyboard, because the window may not hear of the release", "[app][mouse][hand]")
 {
-    WindowRig w ("dry_wood.json");
+    WindowRig w ("dry_wood.json", 1280, 720, false);
     auto& run = w.view->run();
     auto* surface = w.titled ("Surface");
     REQUIRE (surface != nullptr);
