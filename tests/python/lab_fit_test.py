@@ -146,8 +146,9 @@ class Analysis(TestCase):
     def test_intervals_hold_the_truth_about_as_often_as_they_say(self):
         """A few runs with fixed seeds; with the word coverage, this script makes the 2000 of docs/lab.md."""
         for method in ("constant/logistic", "constant/normal", "constant/weibull", "staircase/logistic", "detection", "power"):
-            shares = np.mean([run(method, 1000 + i) for i in range(60)], axis=0)
-            self.assertTrue((shares >= (0.8 if method.startswith("staircase") else 0.88)).all(), (method, shares))
+            runs, least = (200, 0.8) if method.startswith("staircase") else (60, 0.88)   # docs/lab.md: staircases hold less than they say
+            shares = np.mean([run(method, seed) for seed in range(runs)], axis=0)
+            self.assertTrue((shares >= least).all(), (method, shares))
 
     def test_d_prime_criterion_and_quantiles_of_student_are_those_of_tables(self):
         found = lab.detection(69, 100, 31, 100)   # 2 z (0.6881)

@@ -33,8 +33,8 @@ public:
 
     void begin (bool has_new_nodes) noexcept   // [tick thread]
     {
+        if (has_new_nodes && now >= settle) waits = settle;   // so edits that come all the time do not keep the effort where it is
         now = 0;
-        if (has_new_nodes) waits = settle;
     }
 
     const Effort& operator() (const Effort& wanted) noexcept   // [tick thread]

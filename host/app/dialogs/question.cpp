@@ -20,11 +20,10 @@ juce::String inQuotes (const juce::String& text) { return text.replaceCharacter 
 
 juce::String Question::listOf (const std::vector<std::filesystem::path>& names)
 {
-    constexpr std::size_t most = 20;
     juce::String list;
-    for (std::size_t i = 0; i < std::min (most, names.size()); ++i)
+    for (std::size_t i = 0; i < std::min (most_listed, names.size()); ++i)
         list << fromUtf8 (printableName (names[i].string())) << "\n";
-    if (names.size() > most) list << filled (TRANS ("and %1 more"), names.size() - most) << "\n";
+    if (names.size() > most_listed) list << filled (TRANS ("and %1 more"), names.size() - most_listed) << "\n";
     return list + "\n";
 }
 

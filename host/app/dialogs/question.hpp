@@ -26,7 +26,9 @@ public:
 
     Question();
 
-    /// The names of files for the text of a question, a line each; of many, the first ones and how many more there are.
+    static constexpr std::size_t most_listed = 20;
+
+    /// The names of files for the text of a question, a line each; of more than most_listed, the first ones and how many more there are.
     static juce::String listOf (const std::vector<std::filesystem::path>& names);
 
     void ask (const juce::String& title, const juce::String& text, std::vector<Choice>);

@@ -90,7 +90,7 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
                           : filled (TRANS ("%1 of %2 is too coarse for %3"), noun, role, who);
     else if (of_device)
         text = filled (TRANS ("%1 of %2 is nearly too coarse for %3"), noun, role, who);
-    else if (c.verdict == check::Verdict::unstable && ! has_factor)   // only trials say so
+    else if (c.verdict == check::Verdict::unstable && std::isnan (c.may_grow))   // only trials say so
         text = filled (TRANS ("The tool of %1 does not come to rest at %2"), role, who);
     else if (c.isBroken())
         text = has_factor ? filled (TRANS ("%1 of %2 is %3 times what %4 allows"), noun, who, twoDigits (1.0 / margin), role)

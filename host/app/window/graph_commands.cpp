@@ -41,6 +41,9 @@ void shareAs (const Desk& desk)
     };
     const auto others = filesElsewhere (desk.document.graph());
     if (others.empty()) return share ({});
+    if (others.size() > Question::most_listed)   // nobody agrees to what is not shown
+        return desk.tell (TRANS ("The graph was not shared"),
+                          filled (TRANS ("It uses %1 files of other folders. Copy them to the folder of the graph, and choose them there."), others.size()));
     desk.question.ask (TRANS ("Share these files, too?"),
                        Question::listOf (others) + TRANS ("The graph uses them. They are in other folders. Everyone who gets the shared file can read them."),
                        { { TRANS ("Share them"), [share, others] { share (others); } }, { TRANS ("Cancel"), {} } });

@@ -62,6 +62,7 @@ Messages LiveSession::load (const graph::Graph& graph)
 
     const auto opener = [this] (const std::string& role, const graph::Graph& g, const Plan& plan, Messages& m) {
         auto opened = devices.open (role, g, plan, m);
+        opened.limits.ramp = std::max (opened.limits.ramp, options.least_ramp_s);
         if (options.may_move && opened.device && ! isSimulatedDevice (opened) && readsPlace (plan, role)) makeMovable (opened);
         return opened;
     };
@@ -88,11 +89,7 @@ Messages LiveSession::openDevices()
 {
     Messages messages;
     alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
-    auto kept = options.kept_limits;
-    if (options.least_ramp_s > 0.0)
-        for (const auto& role : engine().newest().roles())
-            kept[role.name] = tightest (kept[role.name], { .ramp = options.least_ramp_s });
-    running->keepLimits (std::move (kept));
+    running->keepLimits (options.kept_limits);
     running->openDevices (playing, messages);
     showStops();
     obeyed = stops.noticed();

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace tactus;
@@ -49,4 +50,28 @@ TEST_CASE ("with new nodes, the effort of before stays until they have settled, 
     CHECK (next (9.0) == 2.0);
     bumpless.stop (Effort { .force = { 0.5, 0.0, 0.0 } });   // the guard decides otherwise
     CHECK (next (9.0) == 9.0);
+}
+
+TEST_CASE ("edits with new nodes that come all the time hold the effort for at most half of the time", "[engine]")
+{
+    constexpr double rate_hz = 4000.0;
+    for (const int every : { 1, 4, 19, 21, 40, 50 })
+    {
+        INFO ("an edit every " << every << " ticks");
+        Bumpless bumpless;
+        bumpless.prepare (1.0 / rate_hz);
+        int held = 0, longest = 0, now_held = 0;
+        double before = -1.0;
+        for (int k = 0; k < 4000; ++k)
+        {
+            if (k % every == 0) bumpless.begin (true);
+            const double force = bumpless (Effort { .force = { 1e-3 * k, 0.0, 0.0 } }).force.x();
+            now_held = force == before ? now_held + 1 : 0;
+            held += force == before;
+            longest = std::max (longest, now_held);
+            before = force;
+        }
+        if (every > 1) CHECK (held <= 2200);   // an edit on each tick also held it before nodes had to settle
+        if (every > 1) CHECK (longest <= 25);
+    }
 }

@@ -215,7 +215,9 @@ TEST_CASE ("under a tool that the mouse holds in a wall, a run that begins again
     }
     CHECK (settled > 0.3);
     CHECK (most <= 1.1 * settled);
-    CHECK (step <= 0.03 * settled);   // without a ramp, the first tick brings all of it
+    CHECK (step <= 0.03 * settled);                                                                         // without a ramp, the first tick brings all of it
+    CHECK (std::ranges::none_of (p.messages(), [] (const Message& m) { return m.id == "watch/guard"; }));   // the graph asks for no other guard
+    CHECK (std::ranges::all_of (p.keptLimits(), [] (const auto& kept) { return kept.second.ramp == 0.0; }));
 }
 
 TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running and the problem is reported", "[app][run]")

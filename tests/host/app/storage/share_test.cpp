@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presets that are shared as one file. tests/host/cli/pack_test.py makes files that do harm.
 #include "host/app/support/desk_rig.hpp"
+#include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/with_limits.hpp"
 
@@ -169,6 +170,31 @@ TEST_CASE ("Share asks about files in other folders, and a failure is a message 
         CHECK (r.question.text().contains ("later.obj"));
         CHECK_FALSE (std::filesystem::exists (r.chosen));
     }
+}
+
+TEST_CASE ("Share does not ask about more files of other folders than it shows", "[app][share]")
+{
+    TemporaryFolder others;
+    graph::Graph g;
+    for (std::size_t i = 0; i <= Question::most_listed; ++i)
+    {
+        const auto name = "clip" + std::to_string (i);
+        std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", others / (name + ".haptic"));
+        auto clip = tactus::test::Sketch::makeNode (name, "signal.clip");
+        clip.settings["clip"] = (others / (name + ".haptic")).string();
+        g.root.nodes.push_back (clip);
+    }
+    DeskRig r (g);
+    r.chosen = others / "x.tactus";
+    shareAs (r.desk);
+    CHECK (r.question.title() == "The graph was not shared");
+    CHECK (r.question.text().contains ("21 files"));
+    r.question.answer (0);
+    CHECK_FALSE (std::filesystem::exists (r.chosen));
+    g.root.nodes.pop_back();
+    r.document.open (g, {}, "one less");
+    shareAs (r.desk);
+    CHECK (r.question.title() == "Share these files, too?");
 }
 
 TEST_CASE ("what no program would open again is not shared", "[app][share]")
