@@ -79,6 +79,33 @@ private:
 /// Ticks a plan while some nodes, given by number, are silent: their outputs are as at the start.
 void tickWithout (Plan&, const std::vector<bool>& silent) noexcept;
 
+/// The forces of all roles along the motion, of the whole graph or of the graph without some nodes.
+using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
+
+/// Runs a graph once along the motion. Calls after (plan) after each tick.
+template <typename AfterTick>
+Forces forcesAlong (Bench& bench, const HandMotion& motion, AfterTick&& after)
+{
+    Forces forces (motion.roles.size());
+    for (std::size_t k = 0; k < motion.ticks; ++k)
+    {
+        bench.follow (motion, static_cast<double> (k));
+        bench.tick();
+        for (std::size_t r = 0; r < forces.size(); ++r)
+            forces[r].push_back (bench.force (r));
+        after (bench.plan());
+    }
+    return forces;
+}
+
+template <typename AfterTick>
+Forces forcesAlong (const Subject& subject, const HandMotion& motion, const std::vector<std::size_t>& without, AfterTick&& after)
+{
+    Bench bench { subject, motion };
+    bench.silence (without);
+    return forcesAlong (bench, motion, after);
+}
+
 /// The forces that a node computes: all its outputs in N.
 class NodeForces
 {

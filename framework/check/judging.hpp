@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// The functions that judge.cpp, judge_deadbeat.cpp and judge_links.cpp share.
+/// The functions that judge.cpp and the judge_*.cpp share.
 namespace tactus::check::judging
 {
 
@@ -184,6 +184,9 @@ void weigh (const Demand&, const Trials*, Condition&, std::span<const RoleDemand
 
 /// Sets the condition `deadbeat`.
 void judgeDeadbeat (const Demand&, const Deadbeat&, const DeviceNumbers&, Condition&);
+
+/// Adds the conditions of Table 1 for a texture.
+void judgeTexture (const Demand&, const Texture&, const DeviceNumbers&, const JudgeOptions&, std::vector<Condition>&);
 
 /// The conditions `coupling` and `curl`, which need the slopes of several axes or roles at once.
 void judgeLinks (const Demand&, std::span<const RoleDevice>, const JudgeOptions&, std::vector<Condition>&);

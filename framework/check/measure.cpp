@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "measure.hpp"
 #include "bench.hpp"
-#include "side_by_side.hpp"
 #include "slopes.hpp"
 #include "stretches.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "textures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <numbers>
-#include <numeric>
-#include <set>
 
 namespace tactus::check
 {
@@ -21,33 +16,6 @@ namespace tactus::check
 namespace
 {
 constexpr double speed_window_s = 5e-3;   // speeds are means over this time; over one tick, a recording that holds samples would give peaks
-constexpr double felt_part = 0.1;         // a texture is felt while its force is at least this fraction of its largest force
-
-/// The forces of all roles along the motion, of the whole graph or of the graph without some nodes.
-using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
-
-template <typename AfterTick>
-Forces forcesAlong (Bench& bench, const HandMotion& motion, AfterTick&& after)
-{
-    Forces forces (motion.roles.size());
-    for (std::size_t k = 0; k < motion.ticks; ++k)
-    {
-        bench.follow (motion, static_cast<double> (k));
-        bench.tick();
-        for (std::size_t r = 0; r < forces.size(); ++r)
-            forces[r].push_back (bench.force (r));
-        after (bench.plan());
-    }
-    return forces;
-}
-
-template <typename AfterTick>
-Forces forcesAlong (const Subject& subject, const HandMotion& motion, const std::vector<std::size_t>& without, AfterTick&& after)
-{
-    Bench bench { subject, motion };
-    bench.silence (without);
-    return forcesAlong (bench, motion, after);
-}
 
 /// The velocity of a tool at a tick, in m/s.
 Vec3 velocityAt (const HandMotion& motion, std::size_t role, std::size_t tick)
@@ -97,42 +65,6 @@ std::vector<StretchWatch> stretchesIn (const Plan& plan)
     std::vector<StretchWatch> all;
     for (std::size_t n = 0; n < plan.flat().nodes.size(); ++n)
         if (auto watch = StretchWatch::of (plan, n)) all.push_back (std::move (*watch));
-    return all;
-}
-
-/// Finds the largest claims and the largest force of a node that renders a spatial frequency.
-struct TextureWatch
-{
-    std::size_t node;
-    NodeForces forces;
-    bool is_driven;         // a wire drives one of its params, so its claims can change during the run
-    Claims claims {};       // the largest value of each claim
-    double loudest = 0.0;   // largest force, in N
-
-    double ownAmplitude() const noexcept { return claims.amplitude < inf ? std::max (loudest, claims.amplitude) : loudest; }   // N
-
-    void poll (const Plan& plan, bool with_claims)
-    {
-        loudest = std::max (loudest, forces.largest());
-        if (! with_claims) return;
-        const auto now = plan.flat().nodes[node].type->claims (plan.instances()[node].node.get());
-        claims.spatial_frequency = std::max (claims.spatial_frequency, now.spatial_frequency);
-        claims.stiffness = std::max (claims.stiffness, now.stiffness);
-        claims.amplitude = claims.amplitude == inf ? now.amplitude : std::max (claims.amplitude, now.amplitude);
-    }
-};
-
-std::vector<TextureWatch> texturesIn (const Plan& plan)
-{
-    std::vector<TextureWatch> all;
-    for (std::size_t n = 0; n < plan.flat().nodes.size(); ++n)
-    {
-        const auto& node = plan.flat().nodes[n];
-        const auto& instance = plan.instances()[n];
-        if (! node.runs() || node.type->claims == nullptr || ! (node.type->claims (instance.node.get()).spatial_frequency > 0.0)) continue;
-        all.push_back ({ n, NodeForces (plan, n), std::ranges::count (instance.driven, true) > 0 });
-        all.back().poll (plan, true);
-    }
     return all;
 }
 
@@ -189,26 +121,6 @@ std::vector<PlayWatch> freeNodes (const Plan& plan)
     return all;
 }
 
-/// Removes from a velocity the directions in which a node does not feel a displacement. `directions`: see slopes.hpp.
-class Across
-{
-public:
-    explicit Across (const Eigen::Matrix3d& directions) : parts (directions) {}
-
-    Vec3 operator() (const Vec3& velocity) const
-    {
-        const double most = parts.eigenvalues()[2];
-        if (! (most > 0.0)) return velocity;
-        Vec3 kept = Vec3::Zero();
-        for (int i = 0; i < 3; ++i)
-            if (parts.eigenvalues()[i] > 1e-3 * most) kept += parts.eigenvectors().col (i).dot (velocity) * parts.eigenvectors().col (i);
-        return kept;
-    }
-
-private:
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts;
-};
-
 /// Does the work of measure().
 class Survey
 {
@@ -226,7 +138,7 @@ public:
             addRole (r);
         addGiven();
         addSlopes (how);
-        addTextures (how);
+        textures.addTo (demand, { subject, motion, forces, velocities, directions, between }, how);
         return std::move (demand);
     }
 
@@ -236,7 +148,7 @@ private:
     HandMotion motion;            // with axes
     Demand demand {};
     Forces forces {};
-    std::vector<TextureWatch> textures {};
+    Textures textures {};
     std::vector<Directions> directions {};          // by role, then node
     std::vector<std::vector<bool>> between {};      // by role, then node: the nodes between its sources and its sinks
     std::vector<std::vector<Vec3>> velocities {};   // of the tools, by role, then tick, in m/s
@@ -258,15 +170,14 @@ private:
             if (ticks == 0)
             {
                 stretches = stretchesIn (running);
-                textures = texturesIn (running);
+                textures.find (running);
                 free = freeNodes (running);
             }
             for (auto& w : free)
                 w.poll (2 * ticks >= motion.ticks);
             for (auto& w : stretches)
                 w.poll (running);
-            for (auto& w : textures)
-                w.poll (running, w.is_driven && ticks % 16 == 0);
+            textures.poll (running, ticks);
             if (++ticks == motion.ticks)
                 for (const auto& w : free)
                     if (w.hasPlayed()) demand.players.push_back (w.node);
@@ -449,12 +360,11 @@ private:
         }
         else
             work.spots = chooseSpots (subject, motion, placesWithin (how), work.without, how.ticks / 32);
-        if (! textures.empty())
+        if (! textures.areNone())
         {
             auto nominal = work;
             nominal.looks_for_jumps = false;
-            for (const auto& t : textures)
-                nominal.without.push_back (t.node);
+            std::ranges::copy (textures.nodes(), std::back_inserter (nominal.without));
             works.push_back (std::move (nominal));
         }
         auto found = measureSlopes (subject, motion, works, how.threads);
@@ -466,7 +376,7 @@ private:
             if (auto& role = demand.roles[r]; hasLoop (role.role) && (! role.axis.empty() || hasForce (role.role)))
             {
                 role.slopes = std::move (all.by_role[r]);
-                if (! textures.empty()) role.nominal = std::move (found.back().by_role[r]);
+                if (! textures.areNone()) role.nominal = std::move (found.back().by_role[r]);
             }
     }
 
@@ -474,7 +384,7 @@ private:
     std::size_t placesWithin (const Thoroughness& how) const
     {
         constexpr std::size_t least_places = 8, ticks_per_place = 1'600;
-        const auto surveys = textures.empty() ? 1u : 2u;
+        const auto surveys = textures.areNone() ? 1u : 2u;
         return std::min (how.places, std::max (least_places, how.ticks / 2 / (ticks_per_place * surveys * motion.roles.size())));
     }
 
@@ -540,116 +450,6 @@ private:
             const auto& node = flat.node (w.to);
             return node.runs() && node.role == role && node.type->effort != nullptr && w.to.role == Role::input && is (node, flat.sheet (w.to));
         });
-    }
-
-    /// Measures the textures, in a run for each. If a quarter of the ticks does not suffice for that, only the steepest ones
-    /// are, and a last run is for all others.
-    void addTextures (const Thoroughness& how)
-    {
-        const auto runs = std::max<std::size_t> (1, how.ticks / 4 / std::max<std::size_t> (1, motion.ticks));
-        const auto alone = steepest (runs < textures.size() ? runs - 1 : textures.size());
-        const auto others = alone.size() < textures.size() ? ownSpeeds() : std::vector<std::vector<double>>();
-        std::vector<std::unique_ptr<Bench>> benches;
-        for (const auto t : alone)
-        {
-            benches.push_back (std::make_unique<Bench> (subject, motion));
-            benches.back()->silence ({ textures[t].node });
-        }
-        std::vector<Forces> without (benches.size());
-        sideBySide (benches.size(), how.threads, [&] (std::size_t i) { without[i] = forcesAlong (*benches[i], motion, [] (const Plan&) {}); });
-        auto its = without.begin();
-        for (std::size_t t = 0; t < textures.size(); ++t)
-            alone.contains (t) ? addTexture (textures[t], *its++) : addOther (textures[t], others[t]);
-    }
-
-    /// The indices of so many textures, the steepest ones.
-    std::set<std::size_t> steepest (std::size_t count) const
-    {
-        const auto slope = [&] (std::size_t t) { return ownSlope (textures[t], textures[t].ownAmplitude()); };
-        std::vector<std::size_t> all (textures.size());
-        std::iota (all.begin(), all.end(), std::size_t { 0 });
-        if (count < all.size()) std::ranges::stable_sort (all, std::ranges::greater {}, slope);
-        return { all.begin(), all.begin() + static_cast<std::ptrdiff_t> (count) };
-    }
-
-    static double ownSlope (const TextureWatch& t, double amplitude)
-    {
-        const auto& claims = t.claims;
-        return claims.stiffness > 0.0 && claims.stiffness < inf ? claims.stiffness : 2.0 * std::numbers::pi * amplitude * claims.spatial_frequency;
-    }
-
-    Across acrossOf (std::size_t role, std::size_t node) const
-    {
-        const auto& ways = directions[role];
-        return Across { node < ways.size() ? ways[node] : Eigen::Matrix3d (Eigen::Matrix3d::Zero()) };
-    }
-
-    /// By texture, then role: the largest speed across the texture while it gives at least felt_part of its largest force, in m/s.
-    std::vector<std::vector<double>> ownSpeeds() const
-    {
-        const auto roles = motion.roles.size();
-        std::vector<std::vector<double>> speeds (textures.size(), std::vector<double> (roles, 0.0));
-        std::vector<Across> across;
-        for (const auto& t : textures)
-            for (std::size_t r = 0; r < roles; ++r)
-                across.push_back (acrossOf (r, t.node));
-        std::vector<NodeForces> own;
-        std::size_t k = 0;
-        forcesAlong (subject, motion, {}, [&] (const Plan& running) {
-            for (std::size_t t = 0; t < textures.size(); ++t)
-            {
-                if (k == 0) own.emplace_back (running, textures[t].node);
-                const double now = own[t].largest();
-                for (std::size_t r = 0; r < roles && now > 0.0 && now >= felt_part * textures[t].loudest; ++r)
-                    speeds[t][r] = std::max (speeds[t][r], across[t * roles + r](velocities[r][k]).norm());
-            }
-            ++k;
-        });
-        return speeds;
-    }
-
-    /// A texture that has no run of its own. The roles behind it are taken to feel the force that it has.
-    void addOther (const TextureWatch& watched, const std::vector<double>& speeds)
-    {
-        for (std::size_t r = 0; r < motion.roles.size(); ++r)
-        {
-            if (! between[r][watched.node] || motion.roles[r].axis) continue;
-            const auto& role = motion.roles[r].role;
-            const double amplitude = watched.ownAmplitude();
-            if (watched.loudest > 0.0)
-                demand.textures.push_back ({ watched.node, role, watched.claims.spatial_frequency, amplitude, ownSlope (watched, amplitude), speeds[r] });
-            else
-                demand.unreached.push_back ({ watched.node, role, true });
-        }
-    }
-
-    /// `without`: the forces of the graph without this texture.
-    void addTexture (const TextureWatch& watched, const Forces& without)
-    {
-        for (std::size_t r = 0; r < motion.roles.size(); ++r)
-            if (! motion.roles[r].axis) addTexture (watched, r, without[r]);
-    }
-
-    void addTexture (const TextureWatch& watched, std::size_t r, const std::vector<Vec3>& without)
-    {
-        const auto part = [&] (std::size_t k) { return (forces[r][k] - without[k]).norm(); };
-        double most = 0.0;
-        for (std::size_t k = 0; k < motion.ticks; ++k)
-            most = std::max (most, part (k));
-        const auto& [node, own, is_driven, claims, loudest] = watched;
-        if (! (most > 0.0))
-        {
-            if (between[r][node]) demand.unreached.push_back ({ node, motion.roles[r].role, true });
-            return;
-        }
-        Texture t { .node = node, .role = motion.roles[r].role, .spatial_frequency = claims.spatial_frequency };
-        const double reach = loudest > 0.0 ? most / loudest : 1.0;   // gain of the wires and layers that follow the node
-        t.amplitude = claims.amplitude < inf ? std::max (most, reach * claims.amplitude) : most;
-        t.slope = claims.stiffness > 0.0 && claims.stiffness < inf ? reach * claims.stiffness : 2.0 * std::numbers::pi * t.amplitude * t.spatial_frequency;
-        const auto across = acrossOf (r, node);
-        for (std::size_t k = 0; k < motion.ticks; ++k)
-            if (part (k) >= felt_part * most) t.speed = std::max (t.speed, across (velocities[r][k]).norm());
-        demand.textures.push_back (std::move (t));
     }
 };
 }   // namespace
