@@ -141,10 +141,34 @@ private:
         if (c.verdict == Verdict::broken || turns) closeLoop (c, loads);
         if (turns && c.verdict == Verdict::passive)   // closeLoop() does not know the loop
         {
-            c.verdict = Verdict::unknown;
+            const bool swings = know (&DeviceNumbers::mass) && std::ranges::any_of (demand.linked, [this] (const Linked& l) { return growsSlowly (l); });
+            c.verdict = swings ? Verdict::unstable : Verdict::unknown;
             c.remedy = "forces between the hands that pull each as much as the other, or sections that all run on every tick";
+            if (swings)
+            {
+                c.may_grow = std::numeric_limits<double>::quiet_NaN();
+                c.text += "; to first order in the time by which the forces come late, the hands swing ever more";
+            }
         }
         weigh (demand, options.trials, c, its, turns, false);
+    }
+
+    /// True if M p'' + (B - T (d + 1/2) K - L) p' + K p = 0 swings ever more, with the masses and dampings of all members. It leaves out what is of second
+    /// order in the time by which the forces come late, so it is right only for a swing that is slow beside that.
+    bool growsSlowly (const Linked& place) const
+    {
+        if (of (place.excess).norm() > 0.0) return false;   // of a damper, whose sign is not known
+        const VectorXd per_mass = perAxis ([] (const DeviceNumbers& n) { return 1.0 / n.mass->value; });
+        const VectorXd damping = perAxis ([] (const DeviceNumbers& n) { return n.damping->value; });
+        const VectorXd hold = perAxis ([&] (const DeviceNumbers& n) { return (0.5 + delayOf (n)) * periodOf (demand, n); });
+        const MatrixXd k = of (place.settled);
+        MatrixXd motion = MatrixXd::Zero (2 * size(), 2 * size());
+        motion.topRightCorner (size(), size()).setIdentity();
+        motion.bottomLeftCorner (size(), size()) = -(per_mass.asDiagonal() * k);
+        motion.bottomRightCorner (size(), size()) = per_mass.asDiagonal() * (hold.asDiagonal() * k + of (place.late) - MatrixXd (damping.asDiagonal()));
+        constexpr double precision = 2e-3;   // of the slopes
+        const Eigen::VectorXcd all = motion.eigenvalues();
+        return std::ranges::any_of (all, [] (const auto& z) { return z.imag() > 0.0 && z.real() > precision * std::abs (z); });
     }
 
     /// Judges the loops of all hands together at the places whose load is above 1, exactly.

@@ -3,6 +3,7 @@
 
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/sim.hpp>
 #include <tactus/run/engine.hpp>
@@ -209,32 +210,28 @@ struct Loops
         return loaded.graph;
     }
 
-    /// Judges the loop along a slow sweep of a centimetre around the equilibrium.
+    /// Judges the slopes of the loop along a slow sweep of a centimetre around the equilibrium.
     std::vector<check::Condition> conditions (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
     {
-        std::vector<check::RoleDevice> devices;
-        for (std::size_t i = 0; i < tools.size(); ++i)
-            devices.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
-        return check::judge (demand (half_box, how), devices);
+        return check::judge (demand (half_box, how), devices());
+    }
+
+    /// The same with trials, as `tactus check` does.
+    std::vector<check::Condition> tried (double half_box, check::Thoroughness how) const
+    {
+        const auto g = graph();
+        const check::Subject subject { g, catalogue(), options() };
+        const auto motion = sweep (half_box);
+        const auto measured = check::measure (subject, motion, how);
+        const auto trials = check::tryLoops (subject, motion, measured, devices());
+        return check::judge (measured, devices(), { .trials = &trials });
     }
 
     check::Demand demand (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
     {
         const auto g = graph();
         const check::Subject subject { g, catalogue(), options() };
-        std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
-        std::vector<check::Hand> hands;
-        for (std::size_t i = 0; i < tools.size(); ++i)
-        {
-            sweeps.push_back (std::make_unique<check::SweepDevice> (Vec3 (Vec3::Constant (-half_box)), Vec3 (Vec3::Constant (half_box)),
-                                                                    1.0 + 0.37 * double (i)));
-            hands.push_back ({ hand (i), *sweeps.back() });
-        }
-        auto compiled = compile (g, catalogue(), options());
-        INFO (test::text (compiled.messages));
-        REQUIRE (compiled.plan);
-        const auto motion = check::recordMotion (compiled.plan, hands, static_cast<std::size_t> (rate_hz));
-        return check::measure (subject, motion, how);
+        return check::measure (subject, sweep (half_box), how);
     }
 
     /// Lets the tools go a little off their equilibrium. Returns their largest distance from it in the last quarter of the run, divided by
@@ -267,6 +264,30 @@ struct Loops
     }
 
 private:
+    std::vector<check::RoleDevice> devices() const
+    {
+        std::vector<check::RoleDevice> all;
+        for (std::size_t i = 0; i < tools.size(); ++i)
+            all.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
+        return all;
+    }
+
+    check::HandMotion sweep (double half_box) const
+    {
+        std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
+        std::vector<check::Hand> hands;
+        for (std::size_t i = 0; i < tools.size(); ++i)
+        {
+            sweeps.push_back (std::make_unique<check::SweepDevice> (Vec3 (Vec3::Constant (-half_box)), Vec3 (Vec3::Constant (half_box)),
+                                                                    1.0 + 0.37 * double (i)));
+            hands.push_back ({ hand (i), *sweeps.back() });
+        }
+        auto compiled = compile (graph(), catalogue(), options());
+        INFO (test::text (compiled.messages));
+        REQUIRE (compiled.plan);
+        return check::recordMotion (compiled.plan, hands, static_cast<std::size_t> (rate_hz));
+    }
+
     /// Calls see (tick, tool, position) for each tool after each tick. False if a tool runs away.
     template <typename See>
     bool letGo (int ticks, const Eigen::VectorXd& hands, See&& see) const
