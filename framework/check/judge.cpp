@@ -320,7 +320,7 @@ private:
         for (const auto& r : places.front()->responses)
             if (largestRadius (r, numbers, period_s).value_or (0.0) > largestRadius (*worst, numbers, period_s).value_or (0.0)) worst = &r;
         const auto best = strongestChange (*worst, at (*places.front()), period_s, isDragged (worst));
-        if (! best || best->room <= c.may_grow) return;
+        if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < 1.0 && ! (c.may_grow > 0.0))) return;
         if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
             c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
         else
@@ -409,7 +409,7 @@ private:
             ways.push_back ("a quantum of " + atMost (1e6 * delta * limit / value, "um"));
         }
         else
-            ways.emplace_back ("a longer window for the speed (the setting \"window\" or a motion.velocity)");
+            ways.emplace_back ("no virtual damping");
         ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
         decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }

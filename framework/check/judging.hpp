@@ -133,7 +133,7 @@ void closeLoops (Condition& c, std::vector<Place>& places, Radius&& radius, Rest
     if (c.falls)
         c.text += "; the sampled loop runs away, as the graph pushes the tool off this place, but does not swing";
     else if (swings)
-        c.text += "; the sampled loop swings, and would rest with " + text (c.may_grow) + " times this response";
+        c.text += "; the sampled loop swings" + (c.may_grow > 0.0 ? ", and would rest with " + text (c.may_grow) + " times this response" : std::string());
     else
         c.text += "; not passive, but the sampled loop comes to rest without a hand and with usual ones, up to " + text (c.may_grow) + " times this response";
     c.remedy = "for a contact that is passive, whatever the hand does: " + c.remedy;

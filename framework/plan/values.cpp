@@ -48,8 +48,7 @@ private:
         const auto unit = sheet.unit.unit.symbol == "1" ? std::string() : " " + std::string (sheet.unit.unit.symbol);
         const auto usual = rangeText (sheet.limits.usual) + unit;
         flat.warn ("param/unusual", a.origin, "'" + flat.nameOf (a.to) + "' is " + numberText (v) + unit + ", far outside the usual range, which is " + usual,
-                   std::string ("fine if intended; a number without a unit is in SI, so check the unit")
-                       + (unit == " m" ? ": 0.3 mm is \"0.3 mm\" or 0.0003" : ""));
+                   std::string ("fine if intended; if not, check its unit") + (unit == " m" ? ": 0.3 mm is \"0.3 mm\", or 0.0003 in a file" : ""));
     }
 
     void readChoice (const Assignment& a, const PortSheet& sheet, double& value)
