@@ -86,9 +86,13 @@ std::optional<Vec4> fit (std::span<const TrialRow> rows, std::span<const TrialRo
 std::optional<ToolMechanics> mechanicsOf (std::span<const FreePush> pushes, double delay_s, std::string& why)
 {
     if (pushes.size() != free_pushes) return why = "there were fewer than four pushes", std::nullopt;
+    double oldest = 0.25 * delay_s;
+    for (const auto& push : pushes)
+        for (const auto& row : push.rows)
+            oldest = std::max (oldest, row.age);
     std::array<Between, 4> ranges {};
     bool is_first = true;
-    for (const double delay : { -0.25 * delay_s, 1.25 * delay_s })
+    for (const double delay : { -oldest, 1.25 * delay_s })
     {
         std::array<Vec4, free_pushes> found {};
         Vec4 mean = Vec4::Zero(), squares = Vec4::Zero();
@@ -114,6 +118,7 @@ std::optional<ToolMechanics> mechanicsOf (std::span<const FreePush> pushes, doub
     }
     if (ranges[3].least > most_spring || ranges[3].most < -most_spring)
         return why = "something like a spring pulls it", std::nullopt;
+    if (ranges[2].most < 0.0) return why = "its readings came at other times than they say, as on a busy computer", std::nullopt;   // no friction pushes
     return ToolMechanics { ranges[0], ranges[1], ranges[2] };
 }
 

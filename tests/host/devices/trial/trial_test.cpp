@@ -296,6 +296,20 @@ TEST_CASE ("the mechanics of a tool that is pushed are within their intervals, w
     CHECK (found->damping.most - found->damping.least < (0.2 + 0.1 * tool.damping) * std::max (1, late));   // what a late force leaves open
 }
 
+TEST_CASE ("the smallest damping of a tool is not above the real one if its readings are newer than they say", "[trial]")
+{
+    const FreeTool tool { 0.2, 2.0, GENERATE (0.0, 0.02, 0.05) };
+    auto pushes = pushesOf (tool);
+    for (auto& push : pushes)
+        for (auto& row : push.rows)
+            row.age = 2e-3;
+    std::string why;
+    const auto found = mechanicsOf (pushes, 1e-3, why);
+    CAPTURE (tool.friction, why);
+    REQUIRE (found);
+    CHECK (found->damping.least <= tool.damping);
+}
+
 TEST_CASE ("the mechanics of a tool are not told if something else moves it, or nothing does", "[trial]")
 {
     std::string why;
@@ -328,6 +342,16 @@ TEST_CASE ("the mechanics of a tool are not told if something else moves it, or 
         for (std::size_t i = 400; i < 900; ++i)   // and slides along it
             pushes[0].rows[i].position.x() += 1e-5 * static_cast<double> (i - 400);
         CHECK_FALSE (mechanicsOf (pushes, 1e-3, why));
+    }
+    SECTION ("its readings are newer than they can be by their ages")
+    {
+        tool.friction = 0.0;
+        auto pushes = pushesOf (tool);
+        for (auto& push : pushes)
+            for (std::size_t k = 0; k + 1 < push.rows.size(); ++k)
+                push.rows[k].position = push.rows[k + 1].position;
+        CHECK_FALSE (mechanicsOf (pushes, 1e-3, why));
+        CHECK (why == "its readings came at other times than they say, as on a busy computer");
     }
     SECTION ("a push is missing")
     {
