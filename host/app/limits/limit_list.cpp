@@ -172,6 +172,28 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     std::stable_partition (list.limits.begin(), list.limits.end(), [] (const Limit& l) { return l.is_broken; });
     return list;
 }
+
+/// The list of a graph along which no motion could be recorded: a tool that runs away is a limit that is broken, and with anything else, nothing is judged.
+LimitList withoutMotion (const Messages& messages)
+{
+    LimitList list { .is_checked = true };
+    for (const auto& m : messages)
+    {
+        if (m.severity != Message::Severity::error) continue;
+        if (m.id == "check/diverged")
+            list.limits.push_back ({ .is_broken = true,
+                                     .id = "diverged",
+                                     .text = m.text,
+                                     .remedy = TRANS ("softer or weaker forces").toStdString(),
+                                     .details = TRANS ("No other limit of this graph is judged while its forces drive the tool away.").toStdString() });
+        else
+        {
+            ++list.unknown;
+            list.unjudged.push_back ({ .id = "motion", .text = m.text, .remedy = m.remedy });
+        }
+    }
+    return list;
+}
 }   // namespace
 
 std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& profiles)
@@ -240,7 +262,7 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
         devices.push_back ({ r.role, r.numbers, r.device, r.simulated ? check::simulationOf (*r.simulated, job.graph.folder) : std::nullopt });
     }
     const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
-    if (hasErrors (recorded.messages)) return {};
+    if (hasErrors (recorded.messages)) return withoutMotion (recorded.messages);
     const auto ticks = check::affordableTicks (*compiled.plan);   // as many as `tactus check` takes, however busy this computer is
     try
     {

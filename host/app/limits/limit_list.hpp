@@ -45,15 +45,15 @@ struct LimitJob
 struct Limit
 {
     bool is_broken = false;
-    std::string id;                   ///< id of the condition, such as "stiffness"
-    std::vector<std::string> nodes;   ///< paths of the nodes concerned; for a whole role: the steepest node, and those that push the device
-    std::string text, remedy;         ///< in one sentence, and the first of what would help
-    std::string details;              ///< value and limit, the numbers behind them, the law, and all that would help
+    std::string id;                      ///< id of the condition, such as "stiffness"; "diverged" if the forces drive a tool away
+    std::vector<std::string> nodes {};   ///< paths of the nodes concerned; for a whole role: the steepest node, and those that push the device
+    std::string text, remedy;            ///< in one sentence, and the first of what would help
+    std::string details {};              ///< value and limit, the numbers behind them, the law, and all that would help
 
     bool operator== (const Limit&) const = default;
 };
 
-/// The limits of the stiffness of a role's steepest contact, in multiples of the stiffness now.
+/// The limits of a role's steepest contact, in multiples of its stiffness and its damping now.
 struct ContactLimit
 {
     std::string node;     ///< path of the steepest node

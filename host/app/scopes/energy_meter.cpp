@@ -123,13 +123,15 @@ std::string describe (const EnergyBalance& b)
         return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
-    const auto kind = b.isPassive() ? TRANS ("passive: work of the hand %1, %2 stored, %3 dissipated")
+    const auto kind = b.isPassive() ? TRANS ("passive so far: work of the hand %1, %2 stored, %3 dissipated")
                                     : TRANS ("active: %4 more came out than went in; work of the hand %1, %2 stored, %3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first));
     if (matters (b.held, 0.01)) text << "; " << filled (TRANS ("holding the force between ticks created %1"), joule (b.held));
     if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
     if (matters (-b.elsewhere(), 0.02))
-        text << "; " << filled (TRANS ("the nodes report %1 too much, because the tool moves too far in each tick"), joule (-b.elsewhere()));
+        text << "; "
+             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool moves too far in a tick"),
+                        joule (-b.elsewhere()));
     return text.toStdString();
 }
 

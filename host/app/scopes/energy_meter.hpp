@@ -20,8 +20,8 @@ struct EnergyBalance
     double moved = 0.0;          ///< the sum of all work in either direction, in J
     std::uint64_t gaps = 0;      ///< missed ticks, across which the work is estimated
 
-    /// The energy put in that no node reports as stored or dissipated. Negative if nodes report more than was put in, as some do
-    /// when they slip within one coarse tick.
+    /// The energy put in that no node reports as stored or dissipated. Negative if nodes report more than was put in: they do not know
+    /// that a limit or a fade makes their force weaker, and some report too much when they slip within one coarse tick.
     double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
     /// True if the hand never got more energy out than was stored at the start.

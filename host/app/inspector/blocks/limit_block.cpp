@@ -20,7 +20,11 @@ juce::TextLayout layoutOf (const ContactLimit& c, const Look& look, int width)
     return wrapText (LimitBlock::textOf (c), look.font (12.0f), look.theme().dim, static_cast<float> (width));
 }
 
-std::string factorText (double v) { return std::isfinite (v) ? roundedText (v, 2) : "any"; }
+std::string factorText (double v)
+{
+    if (! std::isfinite (v)) return "any";
+    return v < 100.0 || v > 1e6 ? roundedText (v, 2) : std::to_string (std::lround (v));
+}
 
 /// True if the limit of the linear loop is where it swings: not if only the trials show a swing, or what calms it.
 bool isLimitKnown (const ContactLimit& c)
@@ -47,21 +51,23 @@ juce::String LimitBlock::textOf (const ContactLimit& c)
     using check::Verdict;
     const auto device = c.device == TRANS ("simulated").toStdString() ? TRANS ("the simulated device") : fromUtf8 (c.device);
     const bool is_known = isLimitKnown (c);
-    if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, up to %2 times as stiff"), device, factorText (c.passive_up_to));
+    if (c.verdict == Verdict::passive) return filled (TRANS ("Passive on %1, up to %2 times this stiffness and damping"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::passive_here)
-        return filled (TRANS ("Passive on %1 along this motion, up to %2 times as stiff"), device, factorText (c.passive_up_to));
+        return filled (TRANS ("Passive on %1 along this motion, up to %2 times this stiffness and damping"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::stable && ! is_known)
-        return filled (TRANS ("It comes to rest in a trial with %1; passive up to %2 times as stiff"), device, factorText (c.passive_up_to));
+        return filled (TRANS ("It comes to rest in a trial with %1; passive up to %2 times this stiffness and damping"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable && ! is_known)
         return filled (TRANS ("It does not come to rest in a trial with %1"), device)
-               + (c.passive_up_to < 1.0 ? filled (TRANS ("; passive up to %1 times as stiff"), factorText (c.passive_up_to)) : juce::String());
+               + (c.passive_up_to < 1.0 ? filled (TRANS ("; passive up to %1 times this stiffness and damping"), factorText (c.passive_up_to))
+                                        : juce::String());
     if (c.verdict == Verdict::stable)
-        return filled (TRANS ("Stable on %1 with usual hands, up to %2 times as stiff; passive up to %3 times"), device, factorText (c.stable_up_to),
-                       factorText (c.passive_up_to));
+        return filled (TRANS ("Stable on %1 with usual hands. The linear loop (no bounces) swings beyond %2 times this stiffness and damping; passive up to "
+                              "%3 times"),
+                       device, factorText (c.stable_up_to), factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable)
-        return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as stiff, passive up to %3 times"), device,
-                       factorText (c.stable_up_to), factorText (c.passive_up_to));
-    return filled (TRANS ("Not passive on %1; passive up to %2 times as stiff"), device, factorText (c.passive_up_to));
+        return filled (TRANS ("It swings on %1. The linear loop (no bounces) rests up to %2 times this stiffness and damping; passive up to %3 times"),
+                       device, factorText (c.stable_up_to), factorText (c.passive_up_to));
+    return filled (TRANS ("Not passive on %1; passive up to %2 times this stiffness and damping"), device, factorText (c.passive_up_to));
 }
 
 void LimitBlock::refresh (const graph::Node*)

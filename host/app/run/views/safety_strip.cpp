@@ -76,7 +76,7 @@ juce::String delayText (const LiveRun& run)
 juce::String wallsText (const LiveRun& run)
 {
     const auto stiffness = run.delay() ? run.stiffnessLeft() : std::nullopt;
-    return stiffness ? filled (TRANS ("walls stable up to %1"), stiffnessText (*stiffness)) : juce::String();
+    return stiffness ? filled (TRANS ("undamped walls passive up to %1"), stiffnessText (*stiffness)) : juce::String();
 }
 }   // namespace
 
@@ -325,7 +325,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         { shown.delay,
           TRANS ("How many ticks pass from a movement of the hand to its effect on the motor. Each tick of delay makes a stiff wall less stable.") },
         { shown.walls,
-          TRANS ("The largest stiffness that a wall can have with this delay and the damping of the device. A stiffer one vibrates or kicks.") },
+          TRANS ("The largest stiffness with which a wall without damping returns no energy, whatever the hand does, with this delay and the damping of the "
+                 "device. A stiffer one may rest, vibrate or kick. Problems has what the check says about this graph.") },
     };
     for (const auto& [text, meaning] : rest)   // left out rather than cut off
         if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim, meaning);

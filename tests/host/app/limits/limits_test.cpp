@@ -200,6 +200,19 @@ TEST_CASE ("a graph that does not compile is not checked", "[app][limits]")
     CHECK (checked (g).limits.empty());
 }
 
+TEST_CASE ("a graph whose forces drive the tool away breaks a limit, though no slope can be measured", "[app][limits]")
+{
+    auto g = wall ("\"damping\": 1");
+    REQUIRE (graph::apply (g, graph::SetParam { "", "wall", "stiffness", Json (1e9) }));
+    const auto list = checked (g);
+    CHECK (list.is_checked);
+    CHECK (idsOf (list) == "diverged!");
+    const auto said = list.messages (g);
+    REQUIRE (said.size() == 1);
+    CHECK (said[0].text.find ("runs away") != std::string::npos);
+    CHECK (said[0].remedy.find ("--") == std::string::npos);   // the window has no options
+}
+
 TEST_CASE ("limits are those of the device that the session binds, in the workspace of the graph", "[app][limits]")
 {
     const auto g = wall ("\"damping\": 1");

@@ -34,7 +34,7 @@ public:
         std::ofstream (file) << "language: Deutsch\n"
                                 "\"START\" = \"STARTEN\"\n\"STOP\" = \"STOPPEN\"\n\"stopped\" = \"angehalten\"\n\"edited\" = \"bearbeitet\"\n"
                                 "\"peak %1\" = \"Spitze %1\"\n\"late ticks: %1\" = \"verspaetete Ticks: %1\"\n\"guard ready\" = \"Waechter ist bereit\"\n"
-                                "\"delay %1 ticks\" = \"Verzoegerung %1 Ticks\"\n\"walls stable up to %1\" = \"Waende sind stabil bis %1\"\n"
+                                "\"delay %1 ticks\" = \"Verzoegerung %1 Ticks\"\n\"undamped walls passive up to %1\" = \"Waende sind stabil bis %1\"\n"
                                 "\"running at %1 Hz\" = \"laeuft jetzt mit %1 Hz\"\n\"Snapshots\" = \"Schnappschuesse\"\n\"Duplicate\" = \"Verdoppeln\"\n";
         useTranslation (file);
     }

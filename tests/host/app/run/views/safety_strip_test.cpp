@@ -230,7 +230,7 @@ TEST_CASE ("each part of the strip says what it means", "[app][words]")
     CHECK (says ("guard ready", "between the graph and the motors"));
     CHECK (says ("late ticks", "not finished in time"));
     CHECK (says ("delay", "from a movement of the hand"));
-    CHECK (says ("walls stable up to", "largest stiffness"));
+    CHECK (says ("undamped walls passive up to", "largest stiffness"));
     CHECK (strip.tooltipAt ({ -5, -5 }).isEmpty());
     seen.playback.run().letGo();
 }
