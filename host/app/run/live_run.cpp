@@ -104,6 +104,7 @@ void LiveRun::moveTool (std::string role)
 
 void LiveRun::startAgain (By who)
 {
+    if (who == By::person && stops->isStoppedByPerson()) return;
     if (who == By::person && ! held && ! isLatched()) stops->started();
     restart();
 }

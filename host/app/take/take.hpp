@@ -49,11 +49,12 @@ public:
         std::filesystem::path file;
         std::string hand;        ///< the role of the hand; empty if it has none
         double length_s = 0.0;   ///< what a replay plays; until the first one, it may be some milliseconds short
-        bool is_saved = false;   ///< it was saved, or something was made of it
+        bool is_saved = false;   ///< as a whole
+        bool is_used = false;    ///< something was made of a part of it, so closing need not ask about it; a crash must not lose it
         bool stays = false;      ///< the log is a file of the user, or is left for the next start
     };
 
-    void record();   ///< starts the run again, and records it
+    void record();   ///< starts the run again, and records it; what a person has stopped begins with its start
     void stop();     ///< ends the recording; the run goes on
 
     State state() const noexcept { return now; }

@@ -29,8 +29,8 @@ double secondsIn (const juce::String& text, double before)
     return number.containsOnly ("0123456789.,") ? wholeNumber (number.replaceCharacter (',', '.').toStdString()).value_or (before) : before;
 }
 
-/// The user has made something from the take, so closing need not ask about it. Neither must the next start after a crash: the file tells it.
-void markAsUsed (Take::Recording& take)
+/// The user has saved the take, so nothing needs to ask about it any more. Neither must the next start after a crash: the file tells it.
+void markAsSaved (Take::Recording& take)
 {
     take.is_saved = true;
     if (! take.stays && ! take.file.empty()) std::ofstream (take.file.parent_path() / "used");
@@ -315,7 +315,7 @@ void TakePanel::makeClip()
         const auto gain = read->unit == "N" ? std::optional (gainOf (*read)) : std::nullopt;
         if (! onChoose || ! onClip) return;
         onChoose ("take.wav", [this, made, notes, gain, of = recording.recorded()] (const std::filesystem::path& to) {
-            if (onClip (made, notes, gain, to)) markAsUsed (*of);
+            if (onClip (made, notes, gain, to)) of->is_used = true;
         });
     });
 }
@@ -329,7 +329,7 @@ void TakePanel::makeGesture()
         if (! onChoose) return;
         onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
             if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
-            markAsUsed (*of);
+            of->is_used = true;
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
                         TRANS ("To feel it again, drop the file on the panel of the hand at the lower left. The tool then goes where it was recorded, whatever "
@@ -359,7 +359,7 @@ void TakePanel::makeTest()
         if (! onChoose) return;
         onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read)), of = recording.recorded()] (const std::filesystem::path& to) {
             if (const auto saved = writeRunTest (of->file.string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
-            markAsUsed (*of);
+            of->is_used = true;
             const auto name = juce::String (printableName (to.filename().string()));
             auto text = filled (TRANS ("`tactus test %1` plays the run again and compares %2 ticks, bit for bit."), name, stretch->ticks());
             if (stretch->from > 0)
@@ -375,7 +375,7 @@ std::vector<std::shared_ptr<Take::Recording>> TakePanel::unsaved() const
 {
     std::vector<std::shared_ptr<Take::Recording>> found;
     for (const auto& take : all)
-        if (! take.recording->is_saved) found.push_back (take.recording);
+        if (! take.recording->is_saved && ! take.recording->is_used) found.push_back (take.recording);
     if (recording.state() == Take::State::recording) found.push_back (recording.recorded());
     return found;
 }
@@ -395,7 +395,7 @@ void TakePanel::saveAs (const std::shared_ptr<Take::Recording>& take, const std:
     const auto name = number == 1 ? std::string ("take.jsonl") : "take_" + std::to_string (number) + ".jsonl";
     onChoose (name, [this, then, of = take] (const std::filesystem::path& to) {
         if (const auto saved = copyRunLog (of->file.string(), to); ! saved) return refuse (saved.error());
-        markAsUsed (*of);
+        markAsSaved (*of);
         if (then) then();
     });
 }
@@ -461,7 +461,9 @@ void TakePanel::refresh()
         until.show (juce::String (recording.seconds(), 3));
     }
     const bool has_curve = curve.length() > 0.0;
-    const auto waiting = records ? TRANS ("Recording. Move, and press Stop when you are done.") : juce::translate (how_to);
+    const auto waiting = ! records                   ? juce::translate (how_to)
+                         : playback.run().isWanted() ? TRANS ("Recording. Move, and press Stop when you are done.")
+                                                     : TRANS ("Recording begins with START.");
     if (! has_curve) curve.setText (now == Take::State::reading ? TRANS ("Playing the recording again ...") : waiting);
     if (records || now != before) repaint();
 }

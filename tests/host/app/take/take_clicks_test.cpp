@@ -47,6 +47,26 @@ TEST_CASE ("undo of another hand starts nothing that a person has stopped", "[ap
     CHECK_FALSE (run.isWanted());
 }
 
+TEST_CASE ("Record starts nothing that a person has stopped: the take begins with START", "[app][take][safety]")
+{
+    DeskStage w ("dry_wood.json");
+    auto& run = w.playback.run();
+    auto& panel = w.show<TakePanel> (takesPanel);
+    REQUIRE (w.start());
+    w.playback.stop();
+    REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
+    w.click ("Record");
+    DeskStage::settle();
+    CHECK_FALSE (run.isWanted());
+    CHECK_FALSE (run.isRunning());
+    CHECK (panel.take().state() == Take::State::recording);
+    REQUIRE (w.start());
+    REQUIRE (waitFor ([&] { return run.isLogged() && panel.plot().length() > 0.05; }));
+    w.click ("Stop");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
+    CHECK (panel.take().seconds() > 0.05);
+}
+
 TEST_CASE ("a take shows its curve while it records, Stop ends the take and not the graph, and what is saved can be used at once", "[app][take]")
 {
     DeskStage w ("dry_wood.json");
