@@ -269,10 +269,9 @@ bool controlBy (Document& document, const SeenPatch& patch, const std::string& n
 
 void release (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const Catalogue& catalogue)
 {
-    const auto path = patch.address (name + '.' + port.id);
-    const auto param = controlOf (document.graph(), path);
+    const auto param = controlOf (document.graph(), patch.address (name + '.' + port.id));
     if (! param) return;
-    if (auto command = removeTarget (document.graph(), param->control, path, catalogue)) document.perform (std::move (*command));
+    if (auto command = removeTarget (document.graph(), param->control, param->path, catalogue)) document.perform (std::move (*command));
 }
 
 }   // namespace tactus::host

@@ -3,11 +3,15 @@
 
 #include <host/app/text/filled.hpp>
 
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/inside.hpp>
 #include <tactus/plan/values.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -53,6 +57,25 @@ std::string titleOf (const std::string& path)
     if (! title.empty()) title[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (title[0])));
     return title;
 }
+
+/// The path of the parameter inside that a subgraph exposes as the parameter at this path: "weave/warp.amplitude" for "weave.amplitude". Empty if none is.
+std::string exposedBy (const graph::Graph& g, const std::string& path)
+{
+    const auto to = graph::parseEndpoint (path);
+    if (! to || to->index >= 0 || to->component >= 0) return {};
+    graph::Inside in { &g, &g.root };
+    for (auto rest = to->node; in && ! rest.empty();)
+    {
+        const auto slash = rest.find ('/');
+        const auto* node = in.patch->find (graph::firstNameOf (rest));
+        in = node == nullptr ? graph::Inside {} : graph::insideOf (*in.owner, *node);
+        rest.erase (0, slash == std::string::npos ? slash : slash + 1);
+    }
+    if (! in) return {};
+    const auto& params = in.patch->expose.params;
+    const auto found = std::ranges::find (params, to->port, &std::pair<std::string, graph::Endpoint>::first);
+    return found == params.end() ? std::string() : to->node + '/' + graph::toText (found->second);
+}
 }   // namespace
 
 std::optional<ControlledParam> controlOf (const graph::Graph& g, const std::string& path)
@@ -62,9 +85,12 @@ std::optional<ControlledParam> controlOf (const graph::Graph& g, const std::stri
             if (t.path == path)
             {
                 const double low = si (t.low), high = si (t.high);
-                return ControlledParam { c.id, c.name.empty() ? c.id : c.name, low, high, low + c.value * (high - low), t.low.is_string() ? t.low : t.high };
+                return ControlledParam { c.id, c.name.empty() ? c.id : c.name, t.path, low, high, low + c.value * (high - low),
+                                         t.low.is_string() ? t.low : t.high };
             }
-    return std::nullopt;
+    constexpr auto deepest = 32;   // a subgraph that contains itself has no end
+    const auto inside = std::ranges::count (path, '/') < deepest ? exposedBy (g, path) : std::string();
+    return inside.empty() ? std::nullopt : controlOf (g, inside);
 }
 
 std::optional<graph::Command> moveControlFor (const graph::Graph& g, const ControlledParam& param, double to_si)

@@ -9,12 +9,42 @@
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/value_in_effect.hpp>
 
+#include <tactus/file/graph_file.hpp>
+
+#include "support/sketch.hpp"
+
 #include <catch2/catch.hpp>
 #include <rapidcheck.h>
 
 using namespace tactus;
 using namespace tactus::host;
 using namespace tactus::host::test;
+
+TEST_CASE ("the control of a parameter inside is that of the parameter which exposes it, and is released there", "[app][controls]")
+{
+    const auto read = readGraph (R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+      "nodes": { "weave": { "type": "graph:weave" } },
+      "graphs": { "weave": { "nodes": { "warp": { "type": "graph:warp" } }, "expose": { "params": { "amplitude": "warp.amplitude" } } },
+                  "warp": { "nodes": { "wave": { "type": "texture.grating", "params": { "amplitude": "400 mN" } } },
+                            "expose": { "params": { "amplitude": "wave.amplitude", "angle": "wave.angle" } } } },
+      "controls": { "size": { "value": 0.5, "to": { "weave/warp/wave.amplitude": [ "0 mN", "800 mN" ] } } } })");
+    INFO (tactus::test::text (read.messages));
+    REQUIRE_FALSE (hasErrors (read.messages));
+    const auto param = controlOf (read.graph, "weave.amplitude");
+    REQUIRE (param);
+    CHECK (param->path == "weave/warp/wave.amplitude");
+    CHECK (param->value == Approx (0.4));
+    CHECK (controlOf (read.graph, "weave/warp.amplitude"));
+    CHECK_FALSE (controlOf (read.graph, "weave/warp.angle"));
+    CHECK_FALSE (controlOf (read.graph, "no.amplitude"));
+    CHECK (removeTarget (read.graph, param->control, param->path, catalogue()));
+
+    auto endless = read.graph;
+    for (auto& [name, patch] : endless.graphs)
+        if (name == "warp") patch.nodes.front().type = "graph:warp";   // its param amplitude is that of itself, inside
+    endless.controls.clear();
+    CHECK_FALSE (controlOf (endless, "weave.amplitude"));
+}
 
 namespace
 {
