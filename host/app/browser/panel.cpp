@@ -9,6 +9,8 @@
 #include <tactus/file/graph_file.hpp>
 
 #include <array>
+#include <map>
+#include <memory>
 
 namespace tactus::host
 {
@@ -17,14 +19,16 @@ namespace
 {
 struct PartChoice
 {
-    const char* name;
+    const char *name, *named;     ///< in the menu of a preset, and with the name of the preset
     bool compose::Parts::*only;   ///< null: all but walls
 };
 
-constexpr std::array<PartChoice, 4> part_choices { { { NEEDS_TRANS ("Add without its walls"), nullptr },
-                                                     { NEEDS_TRANS ("Add only its friction"), &compose::Parts::friction },
-                                                     { NEEDS_TRANS ("Add only its textures"), &compose::Parts::textures },
-                                                     { NEEDS_TRANS ("Add only its vibrations"), &compose::Parts::vibrations } } };
+constexpr std::array<PartChoice, 4> part_choices {
+    { { NEEDS_TRANS ("Add without its walls"), NEEDS_TRANS ("Add %1 without its walls"), nullptr },
+      { NEEDS_TRANS ("Add only its friction"), NEEDS_TRANS ("Add only the friction of %1"), &compose::Parts::friction },
+      { NEEDS_TRANS ("Add only its textures"), NEEDS_TRANS ("Add only the textures of %1"), &compose::Parts::textures },
+      { NEEDS_TRANS ("Add only its vibrations"), NEEDS_TRANS ("Add only the vibrations of %1"), &compose::Parts::vibrations } }
+};
 
 compose::Parts partsFor (const PartChoice& c)
 {
@@ -66,8 +70,11 @@ void openMenu (const Desk& desk, PresetBrowser& list, const Preset& p)
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list).withMousePosition());
 }
 
-/// The presets that can be added to the graph, whole or without their walls. An empty graph gives way to a preset.
-std::vector<Panel::Action> actionsOf (const Desk& desk, const PresetBrowser& list)
+/// The parts of presets, each read once.
+using KnownParts = std::map<std::filesystem::path, compose::Parts>;
+
+/// The presets that can be added to the graph, whole or in part. An empty graph gives way to a preset.
+std::vector<Panel::Action> actionsOf (const Desk& desk, const PresetBrowser& list, KnownParts& known)
 {
     std::vector<Panel::Action> all;
     const bool is_empty = ! isAnythingOpen (desk);
@@ -81,8 +88,12 @@ std::vector<Panel::Action> actionsOf (const Desk& desk, const PresetBrowser& lis
             continue;
         }
         all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), about, [&desk, file = p.file] { addGraph (desk, file); } });
-        all.push_back ({ filled (TRANS ("Add %1 without its walls"), p.name), about,
-                         [&desk, file = p.file] { addGraph (desk, file, compose::withoutWalls()); } });
+        auto there = known.find (p.file);
+        if (there == known.end()) there = known.emplace (p.file, compose::partsOf (loadGraph (p.file).graph, desk.types)).first;
+        for (const auto& c : part_choices)
+            if (makesSense (c, there->second))
+                all.push_back ({ filled (juce::translate (c.named), p.name), about,
+                                 [&desk, file = p.file, parts = partsFor (c)] { addGraph (desk, file, parts); } });
     }
     return all;
 }
@@ -108,7 +119,7 @@ Panel presetsPanel (Desk& desk)
              .component = std::move (made),
              .keys = { { "ctrl + f", NEEDS_TRANS ("Ctrl+F"), NEEDS_TRANS ("searches the presets"), search },
                        { "", NEEDS_TRANS ("Ctrl+Return"), NEEDS_TRANS ("in the presets, adds the selected one to the graph, as a node and a layer") } },
-             .actions = [&desk, list] { return actionsOf (desk, *list); },
+             .actions = [&desk, list, known = std::make_shared<KnownParts>()] { return actionsOf (desk, *list, *known); },
              .reload = [list] { list->reload(); },
              .refresh = [list] { list->refresh(); },
              .restore = [&desk, list] { list->showOpen (desk.document.file().empty() ? desk.document.preset() : desk.document.file()); } };

@@ -51,9 +51,11 @@ void Palette::open (juce::Point<int> at, std::function<std::vector<PaletteEntry>
 void Palette::close()
 {
     if (! isVisible()) return;
+    const auto* now = juce::Component::getCurrentlyFocusedComponent();
+    const bool is_elsewhere = now != nullptr && now != this && ! isParentOf (now);   // such as the search of the presets, by its key
     setVisible (false);
     const auto* window = getPeer();   // while another program has the keyboard, the canvas must not take it back
-    if (auto* parent = getParentComponent(); parent != nullptr && (window == nullptr || window->isFocused())) takeFocus (*parent);
+    if (auto* parent = getParentComponent(); parent != nullptr && ! is_elsewhere && (window == nullptr || window->isFocused())) takeFocus (*parent);
 }
 
 void Palette::update()

@@ -199,10 +199,8 @@ void TopBar::placeCaption (juce::Rectangle<int> area)
     caption = area.getWidth() - width - 8 < for_trail ? juce::Rectangle<int>() : area.removeFromRight (width + 8).withTrimmedRight (8);
 }
 
-/// Each snapshot that is stored can be recalled and cleared, and each can be stored.
-void TopBar::openSnapshots (juce::Component& at, int first, int last)
+void TopBar::fillSnapshotMenu (juce::PopupMenu& list, int first, int last)
 {
-    juce::PopupMenu list;
     const auto add = [&] (const char* stored, const char* empty, const std::function<void (int)>& act) {
         for (int n = first; n <= last; ++n)
             if (const auto* text = hasSnapshot (document.graph(), n) ? stored : empty; text != nullptr)
@@ -216,6 +214,12 @@ void TopBar::openSnapshots (juce::Component& at, int first, int last)
         for (int to = 1; to <= snapshot_count && first == last && hasSnapshot (document.graph(), n); ++to)
             if (to != n && hasSnapshot (document.graph(), to))
                 list.addItem (filled (TRANS ("Morph from snapshot %1 to %2"), n, to), [this, n, to] { morph (n, to); });
+}
+
+void TopBar::openSnapshots (juce::Component& at, int first, int last)
+{
+    juce::PopupMenu list;
+    fillSnapshotMenu (list, first, last);
     list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (at));
 }
 

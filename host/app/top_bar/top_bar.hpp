@@ -32,6 +32,8 @@ public:
     const juce::String& savedText() const noexcept { return saved; }
 
     juce::String graphName() const;
+    /// Each snapshot from `first` to `last` that is stored can be recalled and cleared, and each can be stored. A single one can be morphed to another.
+    void fillSnapshotMenu (juce::PopupMenu&, int first, int last);
     bool snapshotKey (const juce::KeyPress&);   ///< a digit recalls a snapshot or stores it, and V compares; false for other keys
 
     std::function<void()> onHelp;

@@ -95,6 +95,18 @@ void CommandSearch::addKnobs (std::vector<Action>& all)
     }
 }
 
+/// Adds what the menu of each snapshot offers.
+void CommandSearch::addSnapshots (std::vector<Action>& all)
+{
+    if (parts.welcome.isVisible()) return;
+    for (int n = 1; n <= snapshot_count; ++n)
+    {
+        juce::PopupMenu menu;
+        parts.top.fillSnapshotMenu (menu, n, n);
+        addItems (menu, {}, all);
+    }
+}
+
 void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
 {
     auto& layout = parts.layout;
@@ -179,6 +191,7 @@ void CommandSearch::open()
     std::vector<Action> all;
     addEdits (all);
     addKnobs (all);
+    addSnapshots (all);
     addHands (all);
     addTabsAndButtons (all);
     addItems (menu.items(), {}, all);

@@ -104,6 +104,13 @@ TEST_CASE ("the menu of a preset adds it or a part of it, and Ctrl+Return adds t
     denim->act();
     REQUIRE (w.graph().find ("denim") != nullptr);
     CHECK (w.graph().root.find ("denim") != nullptr);
+    const auto grain = std::ranges::find (actions, juce::String ("Add only the textures of Dry wood"), &Panel::Action::name);
+    REQUIRE (grain != actions.end());
+    grain->act();
+    REQUIRE (w.graph().find ("dry_wood_3") != nullptr);
+    CHECK (w.graph().find ("dry_wood_3")->find ("grain") != nullptr);
+    CHECK (w.graph().find ("dry_wood_3")->find ("drag") == nullptr);
+    CHECK (std::ranges::find (actions, juce::String ("Add only the vibrations of Dry wood"), &Panel::Action::name) == actions.end());   // it has none
 }
 
 TEST_CASE ("a file that is dropped on the canvas is added, and opens where nothing is open", "[app][compose]")

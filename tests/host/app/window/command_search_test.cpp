@@ -3,6 +3,7 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/storage/snapshots.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <tactus/file/graph_file.hpp>
 
@@ -200,6 +201,33 @@ TEST_CASE ("the search for commands finds what a click can do, wherever it is", 
     find ("roughness modulate lfo");
     CHECK (w.graph().root.nodes.size() == nodes + 1);
     CHECK (w.graph().root.nodes.back().type == "signal.lfo");
+}
+
+TEST_CASE ("Ctrl+K finds the snapshots, and the morph between two that are stored", "[app][keyboard]")
+{
+    SearchDesk d { "dry_wood.json" };
+    d.choose ("ctrl + k", "store in snapshot 1");
+    d.choose ("ctrl + k", "store in snapshot 2");
+    CHECK (hasSnapshot (d.w.graph(), 1));
+    CHECK (hasSnapshot (d.w.graph(), 2));
+    const auto found = d.listed ("ctrl + k", "morph");
+    CHECK (std::ranges::count (found, std::string ("Morph from snapshot 1 to 2"), &PaletteEntry::name) == 1);
+    CHECK (std::ranges::count (found, std::string ("Morph from snapshot 1 to 3"), &PaletteEntry::name) == 0);
+}
+
+TEST_CASE ("the key of another search leaves the search for commands, and gets what is typed", "[app][keyboard]")
+{
+    SearchDesk d { "dry_wood.json" };
+    const auto before = writeGraph (d.w.graph());
+    static_cast<void> (d.listed ("ctrl + k", "den"));
+    d.w.key ("ctrl + f");
+    WindowRig::settle();
+    d.w.stage->type ("bronze");   // B bypasses a node on the canvas, and N makes a note
+    WindowRig::settle();
+    const auto* search = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+    REQUIRE (search != nullptr);
+    CHECK (search->getText() == "bronze");
+    CHECK (writeGraph (d.w.graph()) == before);
 }
 
 TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[app][keyboard]")
