@@ -89,7 +89,7 @@ std::optional<ToolMechanics> mechanicsOf (std::span<const FreePush> pushes, doub
     double oldest = 0.25 * delay_s;
     for (const auto& push : pushes)
         for (const auto& row : push.rows)
-            oldest = std::max (oldest, row.age);
+            oldest = std::max (oldest, 1.25 * row.age);
     std::array<Between, 4> ranges {};
     bool is_first = true;
     for (const double delay : { -oldest, 1.25 * delay_s })

@@ -34,8 +34,8 @@ inline constexpr int free_pushes = 4;
 
 /// The mechanics that explain each of four pushes: m x'' + B x' + c = F while the tool moves in the direction of the push. Each push gives numbers of its own.
 /// Their spread gives the interval (99 %, Student), widened by what the numbers change if each force came up to 1.25 `delay_s` later, or if each reading were
-/// newer than it says by the largest age. Empty, with the reason in `why`, if a push cannot be used, if a hand, a spring or a stop takes part, or if the whole
-/// interval of the friction is below 0.
+/// newer than it says by 1.25 times the largest age. Empty, with the reason in `why`, if a push cannot be used, if a hand, a spring or a stop takes part, or if
+/// the whole interval of the friction is below 0.
 std::optional<ToolMechanics> mechanicsOf (std::span<const FreePush>, double delay_s, std::string& why);
 
 }   // namespace tactus::host
