@@ -77,7 +77,7 @@ struct Rig
     {
         const char* what;
         std::function<void()> act;
-        bool chooses_hand;
+        bool stays_over;
     };
     static constexpr int hand_choices = 4;
 
@@ -87,7 +87,7 @@ struct Rig
                  { "the choice of a gesture", [this] { choose (2); }, true },
                  { "the choice of the pointer", [this] { choose (1); }, true },
                  { "a recording that is dropped", [this] { playback.moveBy ({ LiveRun::Hand::Kind::path, "circle" }); }, true },
-                 { "the recording of a take", [this] { Take (playback).record(); }, false },
+                 { "the recording of a take", [this] { Take (playback).record(); }, true },
                  { "another graph", [this] { playback.startOther ({}); }, false } };
     }
 
@@ -124,7 +124,7 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     const auto start = r.starts()[static_cast<std::size_t> (which)];
     INFO (start.what << (is_over ? " after the run was over" : "") << (is_previewed ? " after a preview" : ""));
     start.act();
-    if (start.chooses_hand && (is_over || is_previewed))
+    if (start.stays_over && (is_over || is_previewed))
         CHECK (r.staysOver());
     else
     {
