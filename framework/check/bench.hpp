@@ -79,8 +79,8 @@ private:
 /// Ticks a plan while some nodes, given by number, are silent: their outputs are as at the start.
 void tickWithout (Plan&, const std::vector<bool>& silent) noexcept;
 
-/// The forces of all roles along the motion, of the whole graph or of the graph without some nodes.
-using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
+/// The forces of all roles along a motion, by role, then tick.
+using Forces = std::vector<std::vector<Vec3>>;
 
 /// Runs a graph once along the motion. Calls after (plan) after each tick.
 template <typename AfterTick>
@@ -98,6 +98,7 @@ Forces forcesAlong (Bench& bench, const HandMotion& motion, AfterTick&& after)
     return forces;
 }
 
+/// The same with a bench of its own, on which the nodes `without` are silent.
 template <typename AfterTick>
 Forces forcesAlong (const Subject& subject, const HandMotion& motion, const std::vector<std::size_t>& without, AfterTick&& after)
 {

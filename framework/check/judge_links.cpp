@@ -141,7 +141,8 @@ private:
         if (c.verdict == Verdict::broken || turns) closeLoop (c, loads);
         if (turns && c.verdict == Verdict::passive)   // closeLoop() does not know the loop
         {
-            const bool swings = know (&DeviceNumbers::mass) && std::ranges::any_of (demand.linked, [this] (const Linked& l) { return growsSlowly (l); });
+            const auto grows = [this] (const Linked& l) { return l.is_smooth && growsSlowly (l); };
+            const bool swings = know (&DeviceNumbers::mass) && std::ranges::any_of (demand.linked, grows);
             c.verdict = swings ? Verdict::unstable : Verdict::unknown;
             c.remedy = "forces between the hands that pull each as much as the other, or sections that all run on every tick";
             if (swings)

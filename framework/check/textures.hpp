@@ -15,11 +15,11 @@ namespace tactus::check
 struct RunAlong
 {
     const Subject& subject;
-    const HandMotion& motion;   // with axes
+    const HandMotion& motion;   ///< with axes
     const Forces& forces;
-    const std::vector<std::vector<Vec3>>& velocities;   // of the tools, by role, then tick, in m/s
-    const std::vector<Directions>& directions;          // by role, then node
-    const std::vector<std::vector<bool>>& between;      // by role, then node: the nodes between its sources and its sinks
+    const std::vector<std::vector<Vec3>>& velocities;   ///< of the tools, by role, then tick, in m/s
+    const std::vector<Directions>& directions;          ///< by role, then node
+    const std::vector<std::vector<bool>>& between;      ///< by role, then node: the nodes between its sources and its sinks
 };
 
 /// The nodes of a graph that render a spatial frequency.

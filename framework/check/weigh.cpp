@@ -99,7 +99,7 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
 
 void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed)
 {
-    const bool is_unknown = c.verdict == Verdict::unknown;
+    if (c.verdict == Verdict::unknown) return;
     if (c.verdict == Verdict::passive)
     {
         bool is_here = false;
@@ -115,7 +115,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
     if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable)   // only the trial says that it swings, and the swing dies there
     {
-        if (c.verdict != Verdict::passive && ! is_unknown) doubtful = worst;   // a passive contact near its limit takes long to settle
+        if (c.verdict != Verdict::passive) doubtful = worst;   // a passive contact near its limit takes long to settle
         worst = nullptr;
     }
     const auto letGo = [] (const Trial& t) {
@@ -131,7 +131,6 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         if (c.remedy.empty()) c.remedy = "softer or weaker forces at this place, or a device with more damping";
         return;
     }
-    if (is_unknown) return;   // a tool that comes to rest in the trials does not tell what the slopes leave open
     if (doubtful != nullptr)
     {
         c.verdict = Verdict::unknown;

@@ -48,6 +48,38 @@ TEST_CASE ("hands of unequal damping that pull each other with unequal forces ar
     CHECK (isJudgedUnstable (all) == explodes);
 }
 
+TEST_CASE ("such hands beside a slow section are unstable where a simulation swings, and else not judged", "[check]")
+{
+    Loops loops { .tools = { { .mass = 0.23, .damping = 0.2 }, { .mass = 0.02, .damping = 1.0 } } };
+    loops.ground ("h0.y", 1.0);
+    loops.ground ("h1.y", 8.1);
+    loops.slowGround (1, 'x', 20.0, 2);
+    for (const auto* place : { "h0.x", "h0.z", "h1.z" })   // nothing drifts
+        loops.ground (place, 10.0);
+    loops.wire ("h1_at.position.y", "h0_motor.force.y", "-1 N/m");
+    const auto pull = GENERATE (2.0, 8.0, 12.0, 14.0, 15.0, 16.0, 17.0, 20.0, 40.0);
+    loops.wire ("h0_at.position.y", "h1_motor.force.y", std::to_string (pull) + " N/m");
+    const double growth = loops.growth (80'000);
+    const auto all = loops.tried (5e-3, { .places = 2 });
+    CAPTURE (pull, growth);
+    INFO (test::describe (all));
+    const auto coupling = std::ranges::find (all, "coupling", &check::Condition::id);
+    REQUIRE (coupling != all.end());
+    CHECK (coupling->verdict == (growth > 1.0 ? check::Verdict::unstable : check::Verdict::unknown));
+}
+
+TEST_CASE ("no remedy is to make a response 0 times as large", "[check]")
+{
+    Loops loops { .tools = { { .mass = 0.1, .damping = 1.0 } } };
+    loops.ground ("h0.x", 1e8);
+    for (const auto& c : loops.conditions())
+    {
+        INFO (c.id << ": " << c.text << "; " << c.remedy);
+        CHECK (c.text.find (" 0 times") == std::string::npos);
+        CHECK (c.remedy.find (" 0 times") == std::string::npos);
+    }
+}
+
 TEST_CASE ("two hands on a spring begin to swing where the sampled loop of both does, within 2 %", "[check]")
 {
     test::property ("masses, dampings, delays, rates", [] {
