@@ -3,6 +3,10 @@
 
 #include "graph.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace tactus::graph
 {
 
@@ -17,5 +21,9 @@ struct Inside
 
 /// The inside of a subgraph node. Empty for a node of the catalogue, and if the subgraph or file does not exist.
 Inside insideOf (const Graph& owner, const Node&);
+
+/// The port inside that a subgraph exposes as this endpoint of a patch, however deep, and without "[*]"; the endpoint itself if none does. `list`: what the
+/// endpoint may be, such as &Expose::params.
+Endpoint innermost (const Graph&, const Patch&, Endpoint, std::vector<std::pair<std::string, Endpoint>> Expose::*list);
 
 }   // namespace tactus::graph

@@ -4,14 +4,12 @@
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
-#include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/inside.hpp>
 #include <tactus/plan/values.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <utility>
 
 namespace tactus::host
 {
@@ -58,23 +56,17 @@ std::string titleOf (const std::string& path)
     return title;
 }
 
-/// The path of the parameter inside that a subgraph exposes as the parameter at this path: "weave/warp.amplitude" for "weave.amplitude". Empty if none is.
-std::string exposedBy (const graph::Graph& g, const std::string& path)
+/// The path of the parameter that this one exposes, however deep; the same path if it exposes none.
+std::string innermostPath (const graph::Graph& g, const std::string& path)
 {
-    const auto to = graph::parseEndpoint (path);
-    if (! to || to->index >= 0 || to->component >= 0) return {};
-    graph::Inside in { &g, &g.root };
-    for (auto rest = to->node; in && ! rest.empty();)
-    {
-        const auto slash = rest.find ('/');
-        const auto* node = in.patch->find (graph::firstNameOf (rest));
-        in = node == nullptr ? graph::Inside {} : graph::insideOf (*in.owner, *node);
-        rest.erase (0, slash == std::string::npos ? slash : slash + 1);
-    }
-    if (! in) return {};
-    const auto& params = in.patch->expose.params;
-    const auto found = std::ranges::find (params, to->port, &std::pair<std::string, graph::Endpoint>::first);
-    return found == params.end() ? std::string() : to->node + '/' + graph::toText (found->second);
+    const auto end = graph::parseEndpoint (path);
+    return end ? graph::toText (graph::innermost (g, g.root, *end, &graph::Expose::params)) : path;
+}
+
+ControlledParam controlled (const graph::Control& c, const graph::Control::Target& t)
+{
+    const double low = si (t.low), high = si (t.high);
+    return { c.id, c.name.empty() ? c.id : c.name, t.path, low, high, low + c.value * (high - low), t.low.is_string() ? t.low : t.high };
 }
 }   // namespace
 
@@ -82,15 +74,12 @@ std::optional<ControlledParam> controlOf (const graph::Graph& g, const std::stri
 {
     for (const auto& c : g.controls)
         for (const auto& t : c.to)
-            if (t.path == path)
-            {
-                const double low = si (t.low), high = si (t.high);
-                return ControlledParam { c.id, c.name.empty() ? c.id : c.name, t.path, low, high, low + c.value * (high - low),
-                                         t.low.is_string() ? t.low : t.high };
-            }
-    constexpr auto deepest = 32;   // a subgraph that contains itself has no end
-    const auto inside = std::ranges::count (path, '/') < deepest ? exposedBy (g, path) : std::string();
-    return inside.empty() ? std::nullopt : controlOf (g, inside);
+            if (t.path == path) return controlled (c, t);
+    const auto inside = innermostPath (g, path);
+    for (const auto& c : g.controls)
+        for (const auto& t : c.to)
+            if (inside != path && innermostPath (g, t.path) == inside) return controlled (c, t);
+    return std::nullopt;
 }
 
 std::optional<graph::Command> moveControlFor (const graph::Graph& g, const ControlledParam& param, double to_si)
