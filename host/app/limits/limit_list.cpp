@@ -173,19 +173,32 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     return list;
 }
 
+/// The nodes that push the device of a role.
+std::vector<std::string> motorsOf (const std::string& role, const Plan& plan)
+{
+    std::vector<std::string> all;
+    for (const auto& node : plan.flat().nodes)
+        if (node.role == role && node.type->effort != nullptr) all.push_back (node.path);
+    return all;
+}
+
 /// The list of a graph along which no motion could be recorded: a tool that runs away is a limit that is broken, and with anything else, nothing is judged.
-LimitList withoutMotion (const Messages& messages)
+LimitList withoutMotion (const Messages& messages, const Plan& plan)
 {
     LimitList list { .is_checked = true };
     for (const auto& m : messages)
     {
         if (m.severity != Message::Severity::error) continue;
         if (m.id == "check/diverged")
+        {
+            const auto role = m.where.substr (m.where.rfind ('/') + 1);
             list.limits.push_back ({ .is_broken = true,
                                      .id = "diverged",
-                                     .text = m.text,
+                                     .nodes = motorsOf (role, plan),
+                                     .text = filled (TRANS ("The forces drive the tool of %1 away, so nothing else is judged"), role).toStdString(),
                                      .remedy = TRANS ("softer or weaker forces").toStdString(),
-                                     .details = TRANS ("No other limit of this graph is judged while its forces drive the tool away.").toStdString() });
+                                     .details = m.text });
+        }
         else
         {
             ++list.unknown;
@@ -262,7 +275,7 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
         devices.push_back ({ r.role, r.numbers, r.device, r.simulated ? check::simulationOf (*r.simulated, job.graph.folder) : std::nullopt });
     }
     const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
-    if (hasErrors (recorded.messages)) return withoutMotion (recorded.messages);
+    if (hasErrors (recorded.messages)) return withoutMotion (recorded.messages, *compiled.plan);
     const auto ticks = check::affordableTicks (*compiled.plan);   // as many as `tactus check` takes, however busy this computer is
     try
     {

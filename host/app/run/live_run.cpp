@@ -104,9 +104,7 @@ void LiveRun::moveTool (std::string role)
 
 void LiveRun::startAgain (By who)
 {
-    if (who == By::person && stops->isStoppedByPerson()) return;
-    if (who == By::person && ! held && ! isLatched()) stops->started();
-    restart();
+    if (who == By::program || wanted || ! stops->isStoppedByPerson()) restart();
 }
 
 /// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched, and the graph's guards do not become

@@ -86,8 +86,8 @@ public:
     void moveTool (std::string role);
 
     /// After something else ran, or in order to record it. No limit becomes looser, and a tool that the mouse holds stays where it is. As after each restart,
-    /// the forces rise within Guard::rearm_ramp_s or longer: the tool may be inside of a wall. By a person, does nothing if a person has stopped: only
-    /// start() starts then.
+    /// the forces rise within Guard::rearm_ramp_s or longer: the tool may be inside of a wall. By a person, does nothing after a person has ended the
+    /// run: only start() starts then.
     void startAgain (By = By::person);
 
     void stop (By = By::person) noexcept;   ///< ramps the forces to zero, then stops; does not wait

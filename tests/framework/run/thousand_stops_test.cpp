@@ -93,7 +93,7 @@ void print (const char* what, std::vector<double> seconds)
 }
 }   // namespace
 
-TEST_CASE ("each of 1000 emergency stops brings the force to zero within the fade and one tick after the call", "[runtime][safety]")
+TEST_CASE ("each emergency stop brings the force to zero within the fade and one tick after the call", "[runtime][safety]")
 {
     const int count = test::rounds (1000);
     test::Sketch sketch;

@@ -228,7 +228,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
             const bool is_past = event.why == Guard::Stop::stale && ! (is_stopped && now.running && ! halting);
             if (is_over || (is_meant && ! is_stopped) || is_past) continue;
             const bool is_from_before = event.why == Guard::Stop::emergency && run.beganHeld();
-            const auto why = is_from_before ? TRANS ("stopped before this graph began; REARM gives it forces") : fromUtf8 (describe (event));
+            const auto why = is_from_before ? TRANS ("stopped before this graph began; REARM or START gives it forces") : fromUtf8 (describe (event));
             now.guard = juce::String (std::string (role.name)) + ": " + why;
             (is_meant ? now.warned : now.alarmed) |= is_stopped;
         }

@@ -20,21 +20,21 @@ namespace fs = std::filesystem;
 namespace
 {
 /// A window with a graph that runs. Files are saved in a folder of the test under the names that the window proposes.
-struct Closing
+struct ClosingWindow
 {
     TemporaryFolder folder;
     WindowRig w;
     int closed = 0;
     fs::path chosen;   // the latest file
 
-    explicit Closing (const std::string& preset = "dry_wood.json") : w (preset, 1280, 720, false)
+    explicit ClosingWindow (const std::string& preset = "dry_wood.json") : w (preset, 1280, 720, false)
     {
         w.view->chooseFile = [this] (bool, const fs::path& begin, const std::function<void (const fs::path&)>& then) {
             chosen = folder / begin.filename().string();
             then (chosen);
         };
     }
-    ~Closing()
+    ~ClosingWindow()
     {
         if (w.view) w.view->run().letGo();
     }
@@ -78,7 +78,7 @@ struct Closing
 
 TEST_CASE ("closing while a film is being saved waits for it, with progress", "[app][closing]")
 {
-    Closing c;
+    ClosingWindow c;
     c.saveFilm();
     c.close();
     REQUIRE (c.question().isOpen());
@@ -104,7 +104,7 @@ TEST_CASE ("closing while a film is being saved waits for it, with progress", "[
 
 TEST_CASE ("Cancel keeps the window, and the film is saved, and so does a film that cannot be saved", "[app][closing]")
 {
-    Closing c;
+    ClosingWindow c;
     SECTION ("cancelled")
     {
         c.saveFilm();
@@ -132,7 +132,7 @@ TEST_CASE ("Cancel keeps the window, and the film is saved, and so does a film t
 
 TEST_CASE ("a film that was filmed is kept until it is saved, whatever the user cancels, and closing asks about it", "[app][closing]")
 {
-    Closing c;
+    ClosingWindow c;
     const auto save = c.w.view->chooseFile;
     c.w.view->chooseFile = [] (bool, const fs::path&, const auto&) {};   // Cancel
     c.filmSomething();
@@ -166,7 +166,7 @@ TEST_CASE ("a film that was filmed is kept until it is saved, whatever the user 
 
 TEST_CASE ("a film can be discarded at closing, and what was changed while it was saved is asked about", "[app][closing]")
 {
-    Closing c;
+    ClosingWindow c;
     SECTION ("discarded")
     {
         c.saveFilm();
@@ -199,7 +199,7 @@ TEST_CASE ("a film can be discarded at closing, and what was changed while it wa
 
 TEST_CASE ("what is being filmed is saved before the window closes or another graph is opened", "[app][closing]")
 {
-    Closing c;
+    ClosingWindow c;
     c.filmSomething();
     SECTION ("closing, and Cancel")
     {
@@ -232,7 +232,7 @@ TEST_CASE ("what is being filmed is saved before the window closes or another gr
 
 TEST_CASE ("closing asks about a take of which nothing was made, and saves it so that it can be played again", "[app][closing][take]")
 {
-    Closing c { "pebbled_leather.json" };   // it reads a picture, which the saved take must find
+    ClosingWindow c { "pebbled_leather.json" };   // it reads a picture, which the saved take must find
     c.record();
     const bool is_complete = GENERATE (true, false);
     if (is_complete) c.stopRecording();
@@ -278,7 +278,7 @@ TEST_CASE ("closing asks about a take of which nothing was made, and saves it so
 
 TEST_CASE ("a take of which something was made needs no question, a new graph keeps a take, and a new take keeps the one before", "[app][closing][take]")
 {
-    Closing c;
+    ClosingWindow c;
     c.record();
     SECTION ("something was made of it")
     {
@@ -334,7 +334,7 @@ TEST_CASE ("a take of which something was made needs no question, a new graph ke
 
 TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app][take][recovery]")
 {
-    Closing c;
+    ClosingWindow c;
     c.record();
     const bool is_crash = GENERATE (false, true), is_complete = GENERATE (false, true);
     INFO ((is_crash ? "crash, " : "signal, ") << (is_complete ? "complete" : "recording"));
@@ -374,7 +374,7 @@ TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app]
 
 TEST_CASE ("a take of which only a gesture was saved is offered after a crash", "[app][take][recovery]")
 {
-    Closing c;
+    ClosingWindow c;
     c.record();
     c.stopRecording();
     c.w.click ("Make a gesture...");
