@@ -274,8 +274,8 @@ inline std::string Plane::warning (const Setup& setup) const
     auto text = "a tool of " + roundedText (tool.mass, 2) + " kg that hits at " + roundedText (hard_hit, 2) + " m/s comes back at " + roundedText (wrong, 2)
                 + " times its speed instead of " + roundedText (right, 2) + " times, because the contact lasts only "
                 + roundedText (rebound.duration * setup.rate_hz, 2) + " samples; ";
-    if (needed <= highest) text += "raise the rate to " + roundedText (std::ceil (needed / digit) * digit, 7) + " Hz, ";
-    return text + "use a softer law, or play the contact with shock.hunt_crossley";
+    if (needed <= highest) text += "raise the rate to " + roundedText (std::ceil (needed / digit) * digit, 7) + " Hz, or ";
+    return text + "use a softer law";
 }
 
 }   // namespace tactus::nodes
