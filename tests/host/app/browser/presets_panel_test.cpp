@@ -72,7 +72,17 @@ TEST_CASE ("a preset that is dragged onto the canvas is added as a node and a la
     w.key ("ctrl + z");
     CHECK (w.text() == before);
     w.key ("ctrl + y");
-    CHECK (w.block() != nullptr);
+    REQUIRE (w.block() != nullptr);
+    const auto controls = w.graph().controls.size();
+    REQUIRE (layersOf (*w.graph().root.find ("desk"), catalogue()) == 4);
+    w.canvas.select ({ w.block()->id });
+    w.key ("delete");   // with its layer and its knobs
+    CHECK (w.block() == nullptr);
+    CHECK (layersOf (*w.graph().root.find ("desk"), catalogue()) == 3);
+    CHECK (w.graph().controls.size() == 1);
+    CHECK (controls > 1);
+    w.key ("ctrl + z");
+    CHECK (w.graph().controls.size() == controls);
 
     w.stage->click (w.rowOf ("Velvet"));
     DeskStage::settle();

@@ -2,6 +2,7 @@
 // A preset that is added to another one: what the devices get, compared with what they get from each of the two alone.
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/compose/removal.hpp>
 #include <host/app/layers/mixer.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
@@ -271,6 +272,47 @@ TEST_CASE ("an added preset is one node with its controls, and one layer of the 
     CHECK (made.block == "dry_wood_2");
     CHECK (made.label == "Dry wood 2");
     CHECK (std::ranges::count (third.controls, "Roughness (Dry wood 2)", &graph::Control::name) == 1);
+}
+
+TEST_CASE ("an added preset that is removed takes its layer and its controls along, and nothing of others", "[compose]")
+{
+    AddedPreset zip, bell;
+    const auto wood = with (preset ("dry_wood"), preset ("zip"), { .roles = { { "slider", "stylus" } } }, &zip);
+    auto all = with (wood, preset ("bronze_bell"), { .roles = { { rolesIn (preset ("bronze_bell")).front(), "stylus" } } }, &bell);
+    const auto isOfZip = [&] (const graph::Control& c) { return ! c.to.empty() && c.to.front().path.starts_with (zip.block + '/'); };
+    auto shared = wood.controls.front();   // of the wood
+    shared.id = "both";
+    shared.to.push_back (std::ranges::find_if (wood.controls, isOfZip)->to.front());
+    all.controls.push_back (shared);
+    all.controls.push_back ({ "empty", "Empty", 0.5, {} });   // its user may fill it
+    const auto* desk = all.root.find ("desk");
+    const auto layers = layerNames (*desk, layersOf (*desk, catalogue()));
+    REQUIRE (layers.size() == 5);
+
+    auto left = all;
+    const auto removal = withLeftovers (all, { "delete", { graph::RemoveNode { "", zip.block } } }, catalogue());
+    const auto back = graph::apply (left, removal);
+    REQUIRE (back);
+    desk = left.root.find ("desk");
+    CHECK (layerNames (*desk, layersOf (*desk, catalogue())) == std::vector<std::string> { layers[0], layers[1], layers[2], layers[4] });
+    for (const auto& c : all.controls)
+    {
+        INFO (c.id);
+        CHECK (std::ranges::count (left.controls, c.id, &graph::Control::id) == (isOfZip (c) ? 0 : 1));
+    }
+    REQUIRE (graph::apply (left, *back));
+    CHECK (writeGraph (left) == writeGraph (all));
+
+    // A plain node leaves its layer, which has a name and values of its own; a mixer keeps its last layer.
+    const auto plain = withLeftovers (all, { "delete", { graph::RemoveNode { "", "drag" } } }, catalogue());
+    REQUIRE (graph::apply (left, plain));
+    CHECK (layersOf (*left.root.find ("desk"), catalogue()) == 5);
+    auto alone = with ({}, preset ("zip"), {}, &zip);
+    REQUIRE (graph::apply (alone, withLeftovers (alone, { "delete", { graph::RemoveNode { "", zip.block } } }, catalogue())));
+    CHECK (alone.controls.empty());
+    const auto mixers = mixersOf (alone);
+    REQUIRE (mixers.size() == 1);
+    CHECK (layersOf (*findMixer (alone, mixers.front()), catalogue()) == 1);
 }
 
 TEST_CASE ("a part of a preset is added without its walls, and what rubs keeps its load", "[compose]")

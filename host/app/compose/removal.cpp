@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "removal.hpp"
+
+#include <host/app/layers/mixer.hpp>
+#include <host/app/model/patch.hpp>
+
+#include <tactus/graph/endpoints.hpp>
+
+#include <algorithm>
+
+namespace tactus::host::compose
+{
+
+graph::Command withLeftovers (const graph::Graph& g, graph::Batch removal, const Catalogue& catalogue)
+{
+    auto after = g;
+    if (! graph::apply (after, removal)) return removal;
+    const auto add = [&] (graph::Command c) {
+        if (graph::apply (after, c)) removal.commands.push_back (std::move (c));
+    };
+    const auto wasSubgraph = [&] (const std::string& patch, const std::string& name) {
+        const auto* node = findPatch (g, patch)->find (name);
+        return node != nullptr && node->type.starts_with ("graph:") && findPatch (after, patch)->find (name) == nullptr;
+    };
+    for (const auto& at : mixersOf (g))
+        for (int i = layersOf (*findMixer (g, at), catalogue); i-- > 0 && findMixer (after, at) != nullptr;)
+        {
+            const auto* wire = wireInto (g, at, i);
+            if (wire == nullptr || ! wasSubgraph (at.patch, graph::firstNameOf (wire->from.node)) || wireInto (after, at, i) != nullptr) continue;
+            if (auto layer = removeLayer (after, at, catalogue, i)) add (*std::move (layer));
+        }
+    for (const auto& c : g.controls)
+    {
+        const auto left = std::ranges::find (after.controls, c.id, &graph::Control::id);
+        if (! c.to.empty() && left != after.controls.end() && left->to.empty()) add (graph::RemoveControl { c.id });
+    }
+    return removal;
+}
+
+}   // namespace tactus::host::compose
