@@ -39,7 +39,7 @@ struct ScopeTrigger
     bool operator== (const ScopeTrigger&) const = default;
 };
 
-/// A clicked position: x in s, Hz or the unit of the x axis, y in the unit of its lane.
+/// A clicked position: x in s, Hz or the unit of the x axis, y in the unit of its lane, on a curve if there is one at x.
 struct Cursor
 {
     std::size_t lane = 0;

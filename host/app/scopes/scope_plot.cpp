@@ -261,7 +261,8 @@ void ScopePlot::mouseUp (const juce::MouseEvent& e)
     if (dragged || lanes.empty() || e.mods.isPopupMenu() || e.getNumberOfClicks() > 1) return;
     const auto i = laneAt (e.position);
     const auto at = lanes[i].area.getConstrainedPoint (e.position);
-    click (spec.cursors, { i, lanes[i].xAt (at.x), lanes[i].yAt (at.y) });
+    const double x = lanes[i].xAt (at.x), y = lanes[i].yAt (at.y);
+    click (spec.cursors, { i, x, curveAt (i, x, y).value_or (y) });
     repaint();
 }
 

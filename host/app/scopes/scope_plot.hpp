@@ -37,7 +37,7 @@ struct ScopeContext
     std::uint64_t samples = 0;           ///< counts what the traces have received
 };
 
-/// The plot of a scope: lanes with axes, two cursors, and zoom with the wheel.
+/// The plot of a scope: lanes with axes, two cursors that read the nearest curve, and zoom with the wheel.
 class ScopePlot : public juce::Component
 {
 public:
@@ -74,6 +74,9 @@ protected:
     virtual void paintOver (juce::Graphics&) {}
     virtual juce::String emptyText() const = 0;
     virtual void zoomX (double factor, const Lane&, float at);
+
+    /// The value of a curve of a lane at x, of the curve that is nearest to y. Empty if the plot has no curve there, or no curves over x.
+    virtual std::optional<double> curveAt (std::size_t /*lane*/, double /*x*/, double /*y*/) const { return {}; }
 
     /// Lays out lanes, one per unit, which share the x axis.
     void layOut (const std::vector<std::string>& units);

@@ -4,6 +4,7 @@
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -120,6 +121,26 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
         g.setColour (l.colour);
         g.strokePath (l.path, juce::PathStrokeType (1.5f));
     }
+}
+
+std::optional<double> SpectrumPlot::curveAt (std::size_t lane, double x, double y) const
+{
+    const float pixel = lanes[lane].toPixels (x, y).x;
+    const double from_hz = lanes[lane].xAt (pixel - 0.5f), to_hz = lanes[lane].xAt (pixel + 0.5f);
+    std::optional<double> nearest;
+    for (const auto& l : lines)
+    {
+        const double step_hz = l.spectrum.step_hz;
+        const auto& amplitude = l.spectrum.amplitude;
+        const auto first = std::lround (from_hz / step_hz);
+        if (l.lane != lane || first < 0 || first >= std::ssize (amplitude)) continue;
+        double highest_here = amplitude[static_cast<std::size_t> (first)];   // the curve keeps the highest of the lines that share a pixel
+        for (auto i = first; i < std::ssize (amplitude) && static_cast<double> (i) * step_hz <= to_hz; ++i)
+            highest_here = std::max (highest_here, amplitude[static_cast<std::size_t> (i)]);
+        const double value = height (highest_here);
+        if (! nearest || std::abs (value - y) < std::abs (*nearest - y)) nearest = value;
+    }
+    return nearest;
 }
 
 void SpectrumPlot::paintOver (juce::Graphics& g)

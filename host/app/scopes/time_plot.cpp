@@ -5,6 +5,7 @@
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -118,6 +119,22 @@ void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index
         if (lines[i].lane == index) drawTrace (g, lane, columns[i].columns(), zero, rate_hz, lines[i].colour);
 
     if (const auto legend = legendOf (index); ! legend.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), legend, false);
+}
+
+std::optional<double> TimePlot::curveAt (std::size_t lane, double x, double y) const
+{
+    std::optional<double> nearest;
+    for (std::size_t i = 0; i < std::min (lines.size(), columns.size()); ++i)
+    {
+        const auto& shown = columns[i].columns();
+        const double at = (zero + x * rate_hz - shown.first) / shown.ticks_each;
+        if (lines[i].lane != lane || ! (at >= 0.0 && at < static_cast<double> (shown.all.size()))) continue;
+        const auto& extent = shown.all[static_cast<std::size_t> (at)].extent;
+        if (extent.isEmpty()) continue;
+        const double value = std::clamp (y, extent.low, extent.high);
+        if (! nearest || std::abs (value - y) < std::abs (*nearest - y)) nearest = value;
+    }
+    return nearest;
 }
 
 /// The ports of a lane, if there are several, and the components of its first vector: components differ in lightness, in the same way for all vectors.
