@@ -225,7 +225,18 @@ void TakePanel::openMenu()
     add (TRANS ("Open take..."), is_free && onOpen, false, [] (TakePanel& p) {
         p.onOpen ([&p] (const std::filesystem::path& log) { p.open (log, false); });
     });
+    const bool is_pinned = curve.hasPinned();
+    add (is_pinned ? TRANS ("Compare with no take") : TRANS ("Compare others with this take"), is_pinned || (has_take && curve.length() > 0.0), false,
+         [] (TakePanel& panel) { panel.togglePinned(); });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list));
+}
+
+/// A take is compared with others by its curve, which stays behind theirs.
+void TakePanel::togglePinned()
+{
+    if (curve.hasPinned()) return curve.unpin();
+    const auto take = static_cast<std::size_t> (std::ranges::find (all, recording.recorded(), &Shown::recording) - all.begin());
+    if (take < all.size()) curve.pin (filled ("%1, %2", nameOf (take).upToFirstOccurrenceOf (":", false, false), printableName (shown_port)));
 }
 
 bool TakePanel::open (const std::filesystem::path& log, bool copies)

@@ -30,6 +30,7 @@ public:
     void showPort (const std::string& port);   ///< shows another port of the recording
     const std::string& port() const noexcept { return shown_port; }
     void toggleRecording();
+    void togglePinned();   ///< see TakePlot::pin()
 
     // The commands of the buttons. They ask for a file.
     void makeClip();

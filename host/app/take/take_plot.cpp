@@ -29,16 +29,37 @@ void TakePlot::show (Stretch s)
 {
     const bool is_other = s.ticks() != shown.ticks();
     shown = std::move (s);
-    low = high = 0.0;
-    for (const double v : shown.values)
-        if (std::isfinite (v))
-        {
-            low = std::min (low, v);
-            high = std::max (high, v);
-        }
-    if (high - low < 1e-12) high = low + 1.0;
+    findRange();
     columnsOf();
     if (is_other) mark (0.0, length());
+    repaint();
+}
+
+void TakePlot::findRange()
+{
+    low = high = 0.0;
+    for (const auto* stretch : { &shown, showsPinned() ? &pinned : &shown })
+        for (const double v : stretch->values)
+            if (std::isfinite (v))
+            {
+                low = std::min (low, v);
+                high = std::max (high, v);
+            }
+    if (high - low < 1e-12) high = low + 1.0;
+}
+
+void TakePlot::pin (const juce::String& name)
+{
+    pinned = shown;
+    pinned_name = name;
+    findRange();
+    repaint();
+}
+
+void TakePlot::unpin()
+{
+    pinned = {};
+    findRange();
     repaint();
 }
 
@@ -114,11 +135,40 @@ void TakePlot::paintScale (juce::Graphics& g) const
     }
 }
 
+float TakePlot::yAt (double value) const
+{
+    const auto box = area().reduced (0.0f, 4.0f);
+    return box.getBottom() - static_cast<float> ((value - low) / (high - low)) * box.getHeight();
+}
+
+/// The pinned curve, in grey, with its name.
+void TakePlot::paintPinned (juce::Graphics& g) const
+{
+    const auto& look = lookOf (*this);
+    const auto box = area();
+    const auto width = static_cast<std::size_t> (std::max (1.0f, box.getWidth()));
+    const auto tickAt = [&] (std::size_t x) {   // counted from its first tick
+        const double s = begins() + length() * static_cast<double> (x) / static_cast<double> (width);
+        return s * pinned.rate_hz - static_cast<double> (pinned.from);
+    };
+    g.setColour (look.theme().dim.withAlpha (0.7f));
+    for (std::size_t c = 0; c < pinned.names.size(); ++c)
+        for (std::size_t x = 0; x < width; ++x)
+        {
+            const double begin = std::max (0.0, tickAt (x)), end = std::min (static_cast<double> (pinned.ticks()), std::max (tickAt (x + 1), begin + 1.0) + 1.0);
+            Extent all;
+            for (auto k = static_cast<std::size_t> (begin); static_cast<double> (k) < end; ++k)
+                if (std::isfinite (pinned.value (k, c))) all.include (pinned.value (k, c));
+            if (! all.isEmpty()) g.fillRect (box.getX() + static_cast<float> (x), yAt (all.high), 1.2f, std::max (1.2f, yAt (all.low) - yAt (all.high)));
+        }
+    g.setFont (look.font (11.0f));
+    g.drawText (filled (TRANS ("grey: %1"), pinned_name), box.reduced (6.0f, 3.0f).toNearestInt(), juce::Justification::bottomRight, false);
+}
+
 void TakePlot::paintCurves (juce::Graphics& g) const
 {
     const auto& theme = themeOf (*this);
     const auto box = area().reduced (0.0f, 4.0f);
-    const auto yAt = [&] (double v) { return box.getBottom() - static_cast<float> ((v - low) / (high - low)) * box.getHeight(); };
     g.setColour (theme.hairline);
     g.drawHorizontalLine (juce::roundToInt (yAt (0.0)), box.getX(), box.getRight());
     for (std::size_t c = columns.size(); c-- > 0;)
@@ -180,6 +230,7 @@ void TakePlot::paint (juce::Graphics& g)
     }
     else
     {
+        if (showsPinned()) paintPinned (g);
         paintCurves (g);
         paintMark (g);
         paintScale (g);

@@ -19,6 +19,11 @@ public:
     void show (Stretch);   ///< shows the whole recording; if it has no ticks, shows the text
     void setText (const juce::String&);
 
+    /// Draws a copy of the curve that is shown now behind those that are shown later, if they have its unit. Both begin with their takes.
+    void pin (const juce::String& name);
+    void unpin();
+    bool hasPinned() const noexcept { return pinned.ticks() > 0; }
+
     void mark (double from_s, double until_s);
     double from() const noexcept { return from_s; }
     double until() const noexcept { return until_s; }
@@ -52,12 +57,18 @@ private:
     double timeAt (float x) const;
     Edge edgeAt (float x) const;
     void columnsOf();
+    bool showsPinned() const noexcept { return hasPinned() && pinned.unit == shown.unit && pinned.names.size() == shown.names.size(); }
+    void findRange();
+    void paintPinned (juce::Graphics&) const;
     void paintCurves (juce::Graphics&) const;
     void paintMark (juce::Graphics&) const;
     void paintScale (juce::Graphics&) const;
     juce::Colour colourOf (std::size_t component) const;
 
-    Stretch shown;
+    float yAt (double value) const;
+
+    Stretch shown, pinned;
+    juce::String pinned_name;
     juce::String text;
     double from_s = 0.0, until_s = 0.0, pressed_s = 0.0;
     Edge held = Edge::none;

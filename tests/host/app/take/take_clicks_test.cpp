@@ -60,6 +60,9 @@ TEST_CASE ("Record starts nothing that a person has stopped: the take begins wit
     CHECK_FALSE (run.isWanted());
     CHECK_FALSE (run.isRunning());
     CHECK (panel.take().state() == Take::State::recording);
+    w.click ("Stop");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::empty; }));   // nothing was recorded
+    w.click ("Record");
     REQUIRE (w.start());
     REQUIRE (waitFor ([&] { return run.isLogged() && panel.plot().length() > 0.05; }));
     w.click ("Stop");
@@ -327,6 +330,36 @@ TEST_CASE ("a take is saved from the list, and opened again, also with another g
     CHECK (r.isReady());
     r.w.panel.reset();
     CHECK (std::filesystem::exists (r.w.home / "wood.jsonl"));   // the file of the user
+}
+
+TEST_CASE ("a take is compared with later ones: its curve stays behind theirs, in grey", "[app][take]")
+{
+    Recorder r;
+    r.w.click ("Stop");
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    const auto texts = [&] {
+        juce::StringArray all;
+        for (const auto& t : tactus::host::test::readTexts (r.panel.plot()))
+            all.add (t.text);
+        return all.joinIntoString (" ");
+    };
+    CHECK_FALSE (texts().contains ("grey:"));
+    r.choose (4);   // its own name, save, open, compare
+    REQUIRE (r.panel.plot().hasPinned());
+    r.record();
+    r.w.click ("Stop");
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    const auto port = r.panel.port();
+    CHECK (texts().contains ("grey: Take 1, " + port));
+    r.panel.showPort ("board.stored_energy");   // in another unit
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    CHECK_FALSE (texts().contains ("grey:"));
+    r.panel.showPort (port);
+    REQUIRE (waitFor ([&] { return r.isReady(); }));
+    CHECK (texts().contains ("grey: Take 1"));
+    r.choose (5);   // two takes now
+    CHECK_FALSE (r.panel.plot().hasPinned());
+    CHECK_FALSE (texts().contains ("grey:"));
 }
 
 TEST_CASE ("another graph does not show the take of the one before, which stays in the list under the name of its graph", "[app][take]")
