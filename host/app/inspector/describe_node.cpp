@@ -200,7 +200,6 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
     if (face.kind == Face::Kind::placeholder)
         column.add (TRANS ("Unknown node type. The node keeps its parameters and wires. A graph with it does not start."), TextBlock::Kind::text);
     if (face.kind == Face::Kind::subgraph) column.add (TRANS ("A subgraph. Double-click it on the canvas to enter."), TextBlock::Kind::text);
-    column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
     if (help)
     {
         listPorts (face.inputs, TRANS ("Inputs"), column);
@@ -223,7 +222,9 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
     if (! settings.empty()) column.add (TRANS ("Settings"), TextBlock::Kind::heading);
     for (const auto& s : settings)
         column.add (settingEditor (s, bindingOf<graph::SetSetting> (at, node.name, std::string (s.id), &graph::Node::settings), at.editors));
-    if (at.contacts && at.patch.empty())   // below what can be changed: it comes a moment later, and nothing moves under the pointer
+    // Below what can be changed: these come a moment later, and nothing moves under the pointer.
+    column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
+    if (at.contacts && at.patch.empty())
         column.add (std::make_unique<LimitBlock> ([contacts = at.contacts, name = node.name] { return contacts (name); }));
     if (face.type == nullptr) return;
     if (const auto law = lawOf (node.type); ! law.empty())

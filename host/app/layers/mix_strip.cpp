@@ -57,8 +57,8 @@ void MixStrip::refresh (const Traces::Client& traces, const std::vector<std::str
         motor.take (traces.of (motors.front()), 1.0, dt_s);
         motor_peak = levelText (motor.meter.peak(), motor.unit);
     }
-    const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
     feed.take (traces.of (context->place.path + ".out"), 1.0, dt_s);
+    const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
     over_db = 0.0;
     const bool is_heard = feed.meter.peak() > 0.0;   // the traces of a run stay after it
     if (const auto found = traces.of (context->place.path + ".reduction"); is_heard && ! found.empty())

@@ -82,13 +82,19 @@ void CommandSearch::addEdits (std::vector<Action>& all)
         }
 }
 
-/// Adds the actions for the knobs.
+/// Adds the knobs and their actions.
 void CommandSearch::addKnobs (std::vector<Action>& all)
 {
     if (parts.welcome.isVisible()) return;
     auto& knobs = parts.inspector.knobs();
     for (std::size_t i = 0; i < knobs.size(); ++i)
     {
+        const auto focus = [this, i] {
+            parts.turnTo (parts.inspector);
+            if (i < parts.inspector.knobs().size()) takeFocus (parts.inspector.knobs().knob (i));
+        };
+        const auto about = TRANS ("A knob: the arrow keys turn it, a number sets it");
+        all.push_back ({ knobs.knob (i).getTitle(), about, focus, "knob " + std::to_string (i) });
         juce::PopupMenu menu;
         knobs.fillMenu (menu, i);
         addItems (menu, knobs.knob (i).getTitle() + ": ", all);

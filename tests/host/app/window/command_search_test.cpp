@@ -215,6 +215,19 @@ TEST_CASE ("Ctrl+K finds the snapshots, and the morph between two that are store
     CHECK (std::ranges::count (found, std::string ("Morph from snapshot 1 to 3"), &PaletteEntry::name) == 0);
 }
 
+TEST_CASE ("Ctrl+K finds a knob by its name, before what can be done with it, and the arrow keys turn it", "[app][keyboard]")
+{
+    SearchDesk desk ("dry_wood.json");
+    const auto before = desk.w.graph().controls.front();
+    const auto entries = desk.listed ("ctrl + k", before.name.c_str());
+    REQUIRE (entries.size() > 1);
+    CHECK (entries.front().name == before.name);
+    desk.w.key ("return");
+    WindowRig::settle();
+    desk.w.key ("cursor up");
+    CHECK (desk.w.graph().controls.front().value == Approx (before.value + 0.01));
+}
+
 TEST_CASE ("the key of another search leaves the search for commands, and gets what is typed", "[app][keyboard]")
 {
     SearchDesk d { "dry_wood.json" };
