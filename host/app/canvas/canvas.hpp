@@ -127,6 +127,9 @@ public:
 
     /// Receives the file of a graph that is dropped here, or dragged here from the list of presets.
     std::function<void (const std::filesystem::path&, juce::Point<float> at)> onGraphDropped;
+    /// Extends the removal of nodes by what was made for them elsewhere, such as their layers.
+    std::function<graph::Command (graph::Batch removal)> completeRemoval;
+
     std::function<void (const graph::Graph&)> onLayerPasted;                           ///< receives a copied graph that is to become a layer
     std::function<void (const std::string& type, const NodeRequest&)> onTypeDropped;   ///< a node is dragged here from the list of nodes
     std::function<void (const std::filesystem::path&)> onSaveClip;                     ///< receives the clip of a node, to be saved in another format

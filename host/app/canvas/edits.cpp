@@ -3,7 +3,6 @@
 #include "arrange.hpp"
 #include "canvas.hpp"
 
-#include <host/app/compose/removal.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
@@ -196,7 +195,10 @@ void CanvasCommands::removeSelection()
         all.commands.push_back (setNotes (document.graph(), canvas.patch(), left, NEEDS_TRANS ("delete")));
     }
     all.commands.push_back (removeSelected (document.graph(), canvas.patch(), canvas.scene(), canvas.selection()));
-    perform (compose::withLeftovers (document.graph(), std::move (all), canvas.types()));
+    if (canvas.completeRemoval)
+        perform (canvas.completeRemoval (std::move (all)));
+    else
+        perform (std::move (all));
 }
 
 void CanvasCommands::duplicateSelection()

@@ -155,7 +155,8 @@ void TakePlot::paintPinned (juce::Graphics& g) const
     for (std::size_t c = 0; c < pinned.names.size(); ++c)
         for (std::size_t x = 0; x < width; ++x)
         {
-            const double begin = std::max (0.0, tickAt (x)), end = std::min (static_cast<double> (pinned.ticks()), std::max (tickAt (x + 1), begin + 1.0) + 1.0);
+            const double begin = std::max (0.0, tickAt (x));
+            const double end = std::min (static_cast<double> (pinned.ticks()), std::max (tickAt (x + 1), begin + 1.0) + 1.0);   // one more, as above
             Extent all;
             for (auto k = static_cast<std::size_t> (begin); static_cast<double> (k) < end; ++k)
                 if (std::isfinite (pinned.value (k, c))) all.include (pinned.value (k, c));

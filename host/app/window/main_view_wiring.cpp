@@ -6,6 +6,7 @@
 #include <host/app/adding/add_graph.hpp>
 #include <host/app/adding/node_palette.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/compose/removal.hpp>
 #include <host/app/desk/save_clip.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
@@ -171,6 +172,7 @@ void MainView::connect()
     };
     canvas.onProbe = [this] (const auto& ports) { parts.desk.probe (ports); };
     canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (parts.desk, file, {}, at); };
+    canvas.completeRemoval = [this] (graph::Batch removal) { return compose::withLeftovers (parts.edited.graph(), std::move (removal), parts.catalogue); };
     canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (parts.desk, g); };
     canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (parts.desk, type, request); };
     canvas.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (parts.desk, file); };

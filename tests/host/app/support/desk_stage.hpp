@@ -7,6 +7,7 @@
 #include <host/app/adding/add_graph.hpp>
 #include <host/app/adding/node_palette.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/compose/removal.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/run/views/hand_panel.hpp>
 #include <host/app/run/views/live_feed.hpp>
@@ -156,6 +157,7 @@ private:
         desk.addNode = [this] (const std::string& type) {
             host::addNode (desk, type, { canvas.view().toCanvas (canvas.getLocalBounds().getCentre().toFloat()) });
         };
+        canvas.completeRemoval = [this] (graph::Batch removal) { return compose::withLeftovers (document.graph(), std::move (removal), catalogue()); };
         canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (desk, g); };
         inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) { canvas.commands().addModulator (node, param, type); };
         inspector.messagesNow = [this] { return playback.run().messages(); };

@@ -3,6 +3,7 @@
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
+#include <host/app/layers/mixer.hpp>
 #include <host/app/storage/snapshots.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -226,6 +227,23 @@ TEST_CASE ("Ctrl+K finds a knob by its name, before what can be done with it, an
     WindowRig::settle();
     desk.w.key ("cursor up");
     CHECK (desk.w.graph().controls.front().value == Approx (before.value + 0.01));
+}
+
+TEST_CASE ("a preset that Ctrl+K adds takes its layer and its knobs along when Delete removes it", "[app][keyboard][compose]")
+{
+    SearchDesk desk ("dry_wood.json");
+    const auto knobs = desk.w.graph().controls.size();
+    desk.choose ("ctrl + k", "add soft pad");
+    const auto layers = [&] { return layersOf (*desk.w.graph().root.find ("desk"), catalogue()); };
+    REQUIRE (desk.w.graph().root.find ("soft_pad") != nullptr);
+    REQUIRE (layers() == 4);
+    CHECK (desk.w.graph().controls.size() == knobs + 1);
+    desk.canvas().select ({ desk.id ("soft_pad") });
+    desk.w.key ("delete");
+    WindowRig::settle();
+    CHECK (desk.w.graph().root.find ("soft_pad") == nullptr);
+    CHECK (layers() == 3);
+    CHECK (desk.w.graph().controls.size() == knobs);
 }
 
 TEST_CASE ("the key of another search leaves the search for commands, and gets what is typed", "[app][keyboard]")
