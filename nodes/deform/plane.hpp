@@ -248,7 +248,7 @@ inline double Plane::returned (double rate_hz, double phase) const
 /// Compares a sampled hard hit with the same hit on a continuous wall.
 inline std::string Plane::warning (const Setup& setup) const
 {
-    constexpr double tolerance = 0.2, many = 64.0;   // fraction of the impact speed; samples in a contact that is always accurate
+    constexpr double tolerance = 0.2, cured = 0.05, many = 64.0;   // fractions of the impact speed; samples in a contact that is always accurate
     if (! (tool.mass > 0.0)) return {};
 
     const auto force = [this] (double d, double v) noexcept { return d > 0.0 ? push (law (d), v) + tool.damping * v : 0.0; };
@@ -267,14 +267,15 @@ inline std::string Plane::warning (const Setup& setup) const
 
     constexpr double highest = 1e6;   // Hz
     double needed = setup.rate_hz;
-    while (needed <= highest && needed * rebound.duration < many && ! (std::abs (farthest (needed) - right) <= tolerance))
+    while (needed <= highest && needed * rebound.duration < many && ! (std::abs (farthest (needed) - right) <= cured))
         needed *= 1.1;
     const double digit = math::pow (10.0, std::floor (math::log10 (needed)) - 1.0);
 
     auto text = "a tool of " + roundedText (tool.mass, 2) + " kg that hits at " + roundedText (hard_hit, 2) + " m/s comes back at " + roundedText (wrong, 2)
                 + " times its speed instead of " + roundedText (right, 2) + " times, because the contact lasts only "
                 + roundedText (rebound.duration * setup.rate_hz, 2) + " samples; ";
-    if (needed <= highest) text += "raise the rate to " + roundedText (std::ceil (needed / digit) * digit, 7) + " Hz, or ";
+    if (const double rate = std::ceil (needed / digit) * digit; needed <= highest)
+        text += "raise the rate to " + roundedText (rate, 7) + " Hz, which gives " + roundedText (farthest (rate), 2) + " times, or ";
     return text + "use a softer law";
 }
 

@@ -280,7 +280,7 @@ TEST_CASE ("plane: a rate too low for a hard hit is reported, with the rate that
     node.learn ({ .mass = 0.05 });
     CHECK (node.warning ({ .rate_hz = 1000.0 })
            == "a tool of 0.05 kg that hits at 2 m/s comes back at 1.5 times its speed instead of 0.41 times, because the contact lasts only 5.2 samples; "
-              "raise the rate to 2200 Hz, or use a softer law");
+              "raise the rate to 3800 Hz, which gives 0.45 times, or use a softer law");
     CHECK (node.warning ({ .rate_hz = 2200.0 }) == "");
     CHECK (node.warning ({ .rate_hz = 20'000.0 }) == "");
 
