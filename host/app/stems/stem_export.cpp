@@ -166,7 +166,12 @@ void StemExport::attend()
     for (const auto& f : (*result)->files)
         if (! f.not_applied.empty() && f.kind == "not_mixed")
             text << ". " << filled (TRANS ("%1 is without %2, through which it reaches the motor"), f.file, listText (f.not_applied));
-    desk.notify (text);
+    const auto& losses = (*result)->losses;
+    if (losses.empty()) return desk.notify (text);
+    auto lost = TRANS ("What the clips do not hold, or hold differently:") + "\n";
+    for (const auto& m : losses)
+        lost << "\n- " << fromUtf8 (m.where + ": " + messageText (m)) << ".";
+    desk.tell (text, lost);
 }
 
 }   // namespace tactus::host
