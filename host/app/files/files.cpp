@@ -374,6 +374,15 @@ AutosavedDocument Files::autosaved (bool is_changed, std::string text) const
     return { document.file(), document.preset(), is_changed, clock(), std::move (text), document.graph().folder, by_pointer, knownHash(), was_stopped };
 }
 
+/// The `ui` of the graph with what the panels keep in a file, such as the scopes.
+Json Files::uiToWrite() const
+{
+    graph::Graph written;
+    written.extra = document.graph().extra;
+    if (callbacks.onWrite) callbacks.onWrite (written);
+    return written.extra.value ("ui", Json());
+}
+
 /// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
 void Files::autosaveSoon()
 {
@@ -388,7 +397,7 @@ void Files::handToAutosaver()
     is_dirty = false;
     handed_step = document.history().position();
     handed_at = clock();
-    autosaver->write ({ autosaved (true, {}), document.graph(), document.savedText() });
+    autosaver->write ({ autosaved (true, {}), document.graph(), document.savedText(), uiToWrite() });
 }
 
 void Files::finishAutosave()
@@ -405,7 +414,9 @@ bool Files::autosave()
     if (! session) return false;
     is_dirty = false;
     autosaver->finish();
-    const auto saved = session->autosave (autosaved (document.isChanged(), writeGraph (document.graph())));
+    auto document_now = document.graph();
+    if (callbacks.onWrite) callbacks.onWrite (document_now);
+    const auto saved = session->autosave (autosaved (document.isChanged(), writeGraph (document_now)));
     if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }

@@ -79,6 +79,7 @@ private:
     void documentChanged() override;
     std::string knownHash() const;
     AutosavedDocument autosaved (bool is_changed, std::string text) const;   ///< the document as it is now
+    Json uiToWrite() const;
     void autosaveSoon();
     void handToAutosaver();
     bool autosave();

@@ -52,6 +52,12 @@ Result<> Autosaver::writeOne (const Copy& copy)
     auto document = copy.document;
     document.graph = writeGraph (copy.graph);
     document.changed = document.graph != copy.saved;
+    if (copy.ui.is_object())
+    {
+        auto written = copy.graph;
+        written.extra["ui"] = copy.ui;
+        document.graph = writeGraph (written);
+    }
     return session.autosave (document);
 }
 

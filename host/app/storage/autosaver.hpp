@@ -20,6 +20,7 @@ public:
         AutosavedDocument document {};   ///< without `graph` and `changed`
         graph::Graph graph {};
         std::string saved {};   ///< the text of the graph in its file, to find out whether it has changed
+        Json ui {};             ///< written in place of that of the graph, as a file keeps it; null: that of the graph
     };
 
     explicit Autosaver (RecoverySession&);   ///< the session must outlive this object

@@ -45,6 +45,31 @@ TEST_CASE ("after each edit, the autosave matches the document, without waiting 
     }
 }
 
+TEST_CASE ("an autosave holds what panels keep in a file, such as the scopes, which alone are no change")
+{
+    Rig d;
+    d.keep = [] (graph::Graph& g) { g.extra["ui"]["scopes"] = Json::array ({ Json { { "kind", "spectrum" } } }); };
+    d.files->beginSession (d.folder.path());
+    d.files->open (wood);
+    d.runs = false;
+    const auto isKept = [&] {
+        const auto saved = d.autosaved();
+        REQUIRE (saved);
+        const auto restored = restore (*saved);
+        CHECK (restored.problem.empty());
+        CHECK (saved->changed == d.document.isChanged());
+        return restored.graph.extra.value ("ui", Json::object()).contains ("scopes");
+    };
+    d.edit (0.25);
+    d.files->finishAutosave();
+    CHECK (isKept());
+    d.document.undo();
+    d.files->finishAutosave();
+    CHECK (isKept());
+    d.files->beforeRun();   // this one is written at once
+    CHECK (isKept());
+}
+
 TEST_CASE ("a drag is autosaved while it goes on: a step that comes while another one is being written is written next")
 {
     Rig d;

@@ -40,7 +40,8 @@ struct FilesRig
     bool runs = false, by_pointer = false;
     int starts = 0;
     juce::String notice;
-    fs::path chosen;   // the file that the user picks when asked; empty: cancels
+    std::function<void (graph::Graph&)> keep;   // what panels write into a file
+    fs::path chosen;                            // the file that the user picks when asked; empty: cancels
     std::unique_ptr<Files> files = make();
 
     std::unique_ptr<Files> make()
@@ -60,7 +61,7 @@ struct FilesRig
             .prepare = {},
             .openTake = {},
             .onSettings = [] {},
-            .onWrite = {},
+            .onWrite = [this] (graph::Graph& g) { if (keep) keep (g); },
             .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) {
                 if (! chosen.empty()) then (chosen); }
         };
