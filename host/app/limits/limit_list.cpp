@@ -156,7 +156,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                 is_reached ? unitShown (c.remedy) : TRANS ("move the hand to the node, or change the place or the size of its shape").toStdString();
             list.unjudged.push_back ({ false, std::string (c.id), nodesOf (c, demand, plan), limitSentence (c, c.node, nameOf (devices, c.role)), remedy, {} });
         }
-        else if (! is_broken && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
+        else if (! is_broken && c.verdict != check::Verdict::stable && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
             ++list.held;
         else
         {

@@ -41,7 +41,7 @@ struct LimitJob
     std::vector<LimitRole> roles {};
 };
 
-/// A condition that a graph breaks or nearly breaks.
+/// A condition that a graph breaks or nearly breaks, or that holds only with usual hands.
 struct Limit
 {
     bool is_broken = false;

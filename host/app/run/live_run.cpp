@@ -274,7 +274,9 @@ void LiveRun::begin()
     held_at.reset();
     if (hand_before && hand_role == role_before) held_at = HeldAt { held_before->position, hand_before->place() };
     probes.clear();
-    std::ranges::move (session->openDevices(), std::back_inserter (said));
+    auto of_devices = session->openDevices();
+    lacks_device = hasErrors (of_devices);
+    std::ranges::move (of_devices, std::back_inserter (said));
     if (lacksPluginDevice())
     {
         log_next.clear();
@@ -295,7 +297,7 @@ void LiveRun::end()
     if (session) static_cast<void> (session->end());
     session.reset();
     rig.reset();
-    hand_damping = 0.0;
+    hand_damping = hand_delay = 0.0;
     scene_feed.clear();
     port_feed.clear();
     pointer.reset();
@@ -345,6 +347,7 @@ void LiveRun::takeOver()
     });
     if (has_other_hand) return restart();
     said = std::move (edited.messages);
+    lacks_device = false;
     if (! edited.is_taken_over) return;
     note (session->engine().newest());
     if (rig->limitsFirst (Sound::channels)) mutes_sound = true;
@@ -399,9 +402,12 @@ std::optional<RunStatus> LiveRun::status() const
 /// If a sound card ticks the run, all ticks of a block use the same reading, which adds the length of a block.
 std::optional<std::int64_t> LiveRun::delay() const
 {
-    if (! delay_ticks || ! rig || rig->clock() == nullptr) return delay_ticks;
+    if (! delay_ticks) return std::nullopt;
+    auto ticks = *delay_ticks + static_cast<std::int64_t> (std::ceil (hand_delay));
+    if (! rig || rig->clock() == nullptr) return ticks;
     const auto card = rig->status().card;
-    return card.rate_hz > 0.0 ? *delay_ticks + static_cast<std::int64_t> (std::ceil (card.block * rate() / card.rate_hz)) : *delay_ticks;
+    if (card.rate_hz > 0.0) ticks += static_cast<std::int64_t> (std::ceil (card.block * rate() / card.rate_hz));
+    return ticks;
 }
 
 std::optional<double> LiveRun::stiffnessLeft() const

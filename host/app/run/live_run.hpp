@@ -115,6 +115,7 @@ public:
     bool isWanted() const noexcept { return wanted; }                               ///< started and not stopped since; it may still fail to compile
     bool isWaiting() const noexcept { return wanted && ! session; }                 ///< started, but the graph does not compile yet: an edit may start it
     bool isOfOpenGraph() const noexcept { return run_of == document.identity(); }   ///< false while the run of the previous graph still fades out
+    bool lacksDevice() const noexcept { return lacks_device; }                      ///< a device could not be opened as the graph or the session describes it
     const Hand& hand() const noexcept { return moved_by; }
 
     /// True if the mouse, or a path that the user has chosen, moves the tool of the role.
@@ -152,8 +153,8 @@ public:
     /// The run's tick rate, in Hz.
     double rate() const noexcept { return session ? session->rate() : document.graph().rate_hz; }
 
-    /// The delay of the slowest source-sink pair, in ticks; each pair counts by its shortest path. Empty if no source is
-    /// connected to a sink.
+    /// The delay from hand to motor in ticks: that of the slowest source-sink pair, where each pair counts by its shortest path, and that of the hand's
+    /// device. Empty if no source is connected to a sink.
     std::optional<std::int64_t> delay() const;
 
     /// The stiffness that a wall may have on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is unknown.
@@ -309,6 +310,8 @@ private:
     std::string log_program;
     bool is_logged = false;      // this run writes a log
     double hand_damping = 0.0;   // damping of the hand role's device, as seen in the graph's workspace, in N s/m
+    bool lacks_device = false;
+    double hand_delay = 0.0;   // of that device, in ticks
     std::vector<RoleNeeds> needed;
     std::optional<Fuser::Options> fuses;   // empty: runs by the plan
     std::optional<std::int64_t> delay_ticks;

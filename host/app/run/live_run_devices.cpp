@@ -173,7 +173,12 @@ void LiveRun::adoptHand (Run::RoleDevice& opened, const Workspace& in, Messages&
     auto& driver = opened.driver != nullptr ? *opened.driver : *opened.device;
     const auto* simulated = dynamic_cast<const SimulatedDevice*> (&driver);
     hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;
-    if (const auto real = realDevice (role, driver)) hand_damping = real->profile().limits.device_damping / in.scale;
+    hand_delay = simulated != nullptr ? static_cast<double> (simulated->simulation().delay) : 0.0;
+    if (const auto real = realDevice (role, driver))
+    {
+        hand_damping = real->profile().limits.device_damping / in.scale;
+        if (const auto& ticks = real->profile().physics.delay) hand_delay = ticks->value;
+    }
     if (const auto plugin = pluginRole (role, driver)) hand_damping = plugin->device->about().layout.mechanics.damping / in.scale;
     if (held_at && (! in.isPlain() || ! isFinite (held_at->tool))) held_at->tool = held_at->hand;   // the hand is in the coordinates of the device
     auto hand = chosenHand (simulated, hand_damping, messages);

@@ -187,6 +187,8 @@ SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
     const bool halting = status->phase == RunStatus::Phase::halting;
     if (has_errors && run.isRunning() && ! run.isOfOpenGraph())
         now.state = filled (TRANS ("this graph cannot run: %1; the one before is felt until it stops"), firstError (run));
+    else if (has_errors && run.isRunning() && run.lacksDevice())
+        now.state = filled (TRANS ("runs without a device: %1"), firstError (run));
     else if (has_errors)
         now.state = run.isRunning() && ! halting ? TRANS ("edit has errors; still running the last valid version") : whyNot (run);
     else if (! now.running)
@@ -228,7 +230,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Statu
             const bool is_past = event.why == Guard::Stop::stale && ! (is_stopped && now.running && ! halting);
             if (is_over || (is_meant && ! is_stopped) || is_past) continue;
             const bool is_from_before = event.why == Guard::Stop::emergency && run.beganHeld();
-            const auto why = is_from_before ? TRANS ("stopped before this graph began; REARM or START gives it forces") : fromUtf8 (describe (event));
+            const auto why = is_from_before ? TRANS ("stopped before this graph began; REARM gives it forces") : fromUtf8 (describe (event));
             now.guard = juce::String (std::string (role.name)) + ": " + why;
             (is_meant ? now.warned : now.alarmed) |= is_stopped;
         }
@@ -323,7 +325,7 @@ void SafetyStrip::paint (juce::Graphics& g)
           TRANS ("Ticks that were not finished in time since the start. A few are not felt; many mean that the computer is too slow for the rate. "
                  "C shows what each node costs.") },
         { shown.delay,
-          TRANS ("How many ticks pass from a movement of the hand to its effect on the motor. Each tick of delay makes a stiff wall less stable.") },
+          TRANS ("How many ticks pass from a movement of the hand to its effect on the motor, in the graph and in the device as far as its delay is known. Each tick of delay makes a stiff wall less stable.") },
         { shown.walls,
           TRANS ("The largest stiffness with which a wall without damping returns no energy, whatever the hand does, with this delay and the damping of the "
                  "device. A stiffer one may rest, vibrate or kick. Problems has what the check says about this graph.") },

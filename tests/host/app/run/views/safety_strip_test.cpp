@@ -206,6 +206,36 @@ TEST_CASE ("a graph with a node of an unknown type is opened as one that cannot 
     CHECK (strip.text().contains ("lab.strange"));
 }
 
+TEST_CASE ("the strip counts the delay of the device, and says so if a device could not be opened", "[app][run]")
+{
+    auto wood = CanvasRig::preset ("dry_wood");
+    REQUIRE (wood.rate_hz == 4000.0);
+    const auto says = [] (graph::Graph g, const juce::String& part) {
+        CanvasRig rig { std::move (g) };
+        StripRig seen { rig };
+        seen.strip.setSize (1920, SafetyStrip::height);
+        seen.playback.start ({});
+        const bool is_said = tactus::test::eventually (std::chrono::milliseconds (5), [&] {
+            seen.playback.poll();
+            seen.strip.refresh();
+            juce::StringArray all { seen.strip.text() };
+            for (const auto& t : readTexts (seen.strip))
+                all.add (t.text);
+            return all.joinIntoString ("|").contains (part);
+        });
+        seen.playback.run().letGo();
+        return is_said;
+    };
+    auto& device = wood.devices.front().second;
+    device["damping"] = 1.0;
+    CHECK (says (wood, "undamped walls passive up to 8.0 N/mm"));   // 2 B / T
+    device["delay"] = 3;
+    CHECK (says (wood, "delay 3 ticks"));
+    CHECK (says (wood, "undamped walls passive up to 1.1 N/mm"));   // 2 B / ((2 d + 1) T)
+    device["mass"] = -3;
+    CHECK (says (wood, "runs without a device: "));
+}
+
 TEST_CASE ("each part of the strip says what it means", "[app][words]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
