@@ -39,6 +39,7 @@ void EnergyMeter::restart()
     now = {};
     read.clear();
     shown.clear();
+    from_now = true;
 }
 
 void EnergyMeter::begin (const Sources& s)
@@ -51,10 +52,11 @@ void EnergyMeter::begin (const Sources& s)
     shown = { work, stored, dissipated };
     has_last = was_gap = false;
     last_step = {};
-    next = s.position.front()->begin();
+    next = 0;
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
-            next = std::max (next, t->begin());
+            next = std::max (next, from_now ? t->end() : t->begin());
+    from_now = false;
 }
 
 void EnergyMeter::follow (const Sources& s)
@@ -106,6 +108,7 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
     }
     now.stored = in;
     now.dissipated = lost - lost_first;
+    now.seconds += 1.0 / work->rate();
     has_last = true;
     was_gap = false;
     last = p;
@@ -123,9 +126,10 @@ std::string describe (const EnergyBalance& b)
         return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
-    const auto kind = b.isPassive() ? TRANS ("passive so far: work of the hand %1, %2 stored, %3 dissipated")
-                                    : TRANS ("active: %4 more came out than went in; work of the hand %1, %2 stored, %3 dissipated");
-    auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first));
+    const auto kind = b.isPassive() ? TRANS ("passive over %5: work of the hand %1, %2 stored, %3 dissipated")
+                                    : TRANS ("active over %5: %4 more came out than went in; work of the hand %1, %2 stored, %3 dissipated");
+    auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
+                        juce::String (b.seconds, b.seconds < 10.0 ? 1 : 0) + juce::String::fromUTF8 ("\u00a0s"));
     if (matters (b.held, 0.01)) text << "; " << filled (TRANS ("holding the force between ticks created %1"), joule (b.held));
     if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
     if (matters (-b.elsewhere(), 0.02))

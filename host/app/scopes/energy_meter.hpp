@@ -18,6 +18,7 @@ struct EnergyBalance
     double held = 0.0;           ///< created by holding the force between ticks, in J; with a continuous force, the hand would have done that much more work
     double worst = 0.0;          ///< the lowest value of `work` so far, in J
     double moved = 0.0;          ///< the sum of all work in either direction, in J
+    double seconds = 0.0;        ///< the time that is summed, in s
     std::uint64_t gaps = 0;      ///< missed ticks, across which the work is estimated
 
     /// The energy put in that no node reports as stored or dissipated. Negative if nodes report more than was put in: they do not know
@@ -43,7 +44,7 @@ public:
 
     /// Processes the new ticks. Restarts if it gets different traces.
     void follow (const Sources&);
-    void restart();
+    void restart();   ///< from zero; what the traces hold already does not count
 
     const EnergyBalance& balance() const noexcept { return now; }
 
@@ -59,12 +60,12 @@ private:
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
     std::uint64_t next = 0;
-    bool has_last = false, was_gap = false;
+    bool has_last = false, was_gap = false, from_now = false;
     std::array<double, 3> last {}, last_force {}, last_step {};
     double lost_first = 0.0;
 };
 
-/// "passive: work of the hand 3.1 mJ, 0.4 mJ stored, 2.7 mJ dissipated"
+/// "passive over 2.5 s: work of the hand 3.1 mJ, 0.4 mJ stored, 2.7 mJ dissipated"
 std::string describe (const EnergyBalance&);
 
 }   // namespace tactus::host

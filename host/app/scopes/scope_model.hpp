@@ -44,6 +44,7 @@ struct Cursor
 {
     std::size_t lane = 0;
     double x = 0.0, y = 0.0;
+    std::optional<std::size_t> curve {};   ///< the number of the curve that it reads, while the curve moves, too; empty: none
     bool operator== (const Cursor&) const = default;
 };
 

@@ -252,6 +252,12 @@ std::size_t ScopePlot::laneAt (juce::Point<float> p) const
     return nearest;
 }
 
+void ScopePlot::followCurves()
+{
+    for (auto& c : spec.cursors)
+        if (c.curve && c.lane < lanes.size()) c = onCurve (c).value_or (c);
+}
+
 void ScopePlot::mouseDown (const juce::MouseEvent&) { dragged = false; }
 
 void ScopePlot::mouseDrag (const juce::MouseEvent& e) { dragged = dragged || e.mouseWasDraggedSinceMouseDown(); }
@@ -261,8 +267,8 @@ void ScopePlot::mouseUp (const juce::MouseEvent& e)
     if (dragged || lanes.empty() || e.mods.isPopupMenu() || e.getNumberOfClicks() > 1) return;
     const auto i = laneAt (e.position);
     const auto at = lanes[i].area.getConstrainedPoint (e.position);
-    const double x = lanes[i].xAt (at.x), y = lanes[i].yAt (at.y);
-    click (spec.cursors, { i, x, curveAt (i, x, y).value_or (y) });
+    const Cursor clicked { i, lanes[i].xAt (at.x), lanes[i].yAt (at.y) };
+    click (spec.cursors, onCurve (clicked).value_or (clicked));
     repaint();
 }
 

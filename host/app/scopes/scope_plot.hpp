@@ -75,8 +75,12 @@ protected:
     virtual juce::String emptyText() const = 0;
     virtual void zoomX (double factor, const Lane&, float at);
 
-    /// The value of a curve of a lane at x, of the curve that is nearest to y. Empty if the plot has no curve there, or no curves over x.
-    virtual std::optional<double> curveAt (std::size_t /*lane*/, double /*x*/, double /*y*/) const { return {}; }
+    /// The cursor on the curve that it reads, or on the nearest one. Where a curve covers several values, the nearest. Empty if the plot has no curve
+    /// there, or no curves over x.
+    virtual std::optional<Cursor> onCurve (const Cursor&) const { return {}; }
+
+    /// Moves the cursors with their curves.
+    void followCurves();
 
     /// Lays out lanes, one per unit, which share the x axis.
     void layOut (const std::vector<std::string>& units);

@@ -28,6 +28,7 @@ void SpectrumPlot::show (const Signals& signals)
         scale (lanes[i], i, rate);
     for (auto& l : lines)
         l.path = pathOf (l.spectrum, lanes[l.lane]);
+    followCurves();
 }
 
 /// Computes the spectra. Returns the rate in Hz.
@@ -123,22 +124,21 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
     }
 }
 
-std::optional<double> SpectrumPlot::curveAt (std::size_t lane, double x, double y) const
+std::optional<Cursor> SpectrumPlot::onCurve (const Cursor& c) const
 {
-    const float pixel = lanes[lane].toPixels (x, y).x;
-    const double from_hz = lanes[lane].xAt (pixel - 0.5f), to_hz = lanes[lane].xAt (pixel + 0.5f);
-    std::optional<double> nearest;
-    for (const auto& l : lines)
+    const float pixel = lanes[c.lane].toPixels (c.x, c.y).x;
+    const double from_hz = lanes[c.lane].xAt (pixel - 0.5f), to_hz = lanes[c.lane].xAt (pixel + 0.5f);
+    std::optional<Cursor> nearest;
+    for (std::size_t n = 0; n < lines.size(); ++n)
     {
-        const double step_hz = l.spectrum.step_hz;
-        const auto& amplitude = l.spectrum.amplitude;
+        const double step_hz = lines[n].spectrum.step_hz;
+        const auto& amplitude = lines[n].spectrum.amplitude;
         const auto first = std::lround (from_hz / step_hz);
-        if (l.lane != lane || first < 0 || first >= std::ssize (amplitude)) continue;
-        double highest_here = amplitude[static_cast<std::size_t> (first)];   // the curve keeps the highest of the lines that share a pixel
+        if (lines[n].lane != c.lane || n != c.curve.value_or (n) || first < 0 || first >= std::ssize (amplitude)) continue;
+        double most = amplitude[static_cast<std::size_t> (first)];   // the curve keeps the highest of the lines that share a pixel
         for (auto i = first; i < std::ssize (amplitude) && static_cast<double> (i) * step_hz <= to_hz; ++i)
-            highest_here = std::max (highest_here, amplitude[static_cast<std::size_t> (i)]);
-        const double value = height (highest_here);
-        if (! nearest || std::abs (value - y) < std::abs (*nearest - y)) nearest = value;
+            most = std::max (most, amplitude[static_cast<std::size_t> (i)]);
+        if (! nearest || std::abs (height (most) - c.y) < std::abs (nearest->y - c.y)) nearest = Cursor { c.lane, c.x, height (most), n };
     }
     return nearest;
 }

@@ -33,7 +33,7 @@ private:
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
     juce::String emptyText() const override;
-    std::optional<double> curveAt (std::size_t lane, double x, double y) const override;
+    std::optional<Cursor> onCurve (const Cursor&) const override;
     double readLines (const Signals&);
     void scale (Lane&, std::size_t index, double rate);
     double height (double amplitude) const;

@@ -76,6 +76,7 @@ void TimePlot::show (const Signals& signals)
         lanes[i].x_unit = "s";
         lanes[i].y = rangeOf (units[i], extents[i]);
     }
+    followCurves();
 }
 
 std::vector<ScopePlot::Action> TimePlot::actions()
@@ -121,18 +122,19 @@ void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index
     if (const auto legend = legendOf (index); ! legend.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), legend, false);
 }
 
-std::optional<double> TimePlot::curveAt (std::size_t lane, double x, double y) const
+std::optional<Cursor> TimePlot::onCurve (const Cursor& c) const
 {
-    std::optional<double> nearest;
+    std::optional<Cursor> nearest;
     for (std::size_t i = 0; i < std::min (lines.size(), columns.size()); ++i)
     {
         const auto& shown = columns[i].columns();
-        const double at = (zero + x * rate_hz - shown.first) / shown.ticks_each;
-        if (lines[i].lane != lane || ! (at >= 0.0 && at < static_cast<double> (shown.all.size()))) continue;
+        const double at = (zero + c.x * rate_hz - shown.first) / shown.ticks_each;
+        const bool is_there = at >= 0.0 && at < static_cast<double> (shown.all.size());
+        if (lines[i].lane != c.lane || i != c.curve.value_or (i) || ! is_there) continue;
         const auto& extent = shown.all[static_cast<std::size_t> (at)].extent;
         if (extent.isEmpty()) continue;
-        const double value = std::clamp (y, extent.low, extent.high);
-        if (! nearest || std::abs (value - y) < std::abs (*nearest - y)) nearest = value;
+        const double value = std::clamp (c.y, extent.low, extent.high);
+        if (! nearest || std::abs (value - c.y) < std::abs (nearest->y - c.y)) nearest = Cursor { c.lane, c.x, value, i };
     }
     return nearest;
 }

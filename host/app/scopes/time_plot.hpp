@@ -32,7 +32,7 @@ private:
     std::vector<Entry> legendOf (std::size_t lane) const;
     void paintOver (juce::Graphics&) override;
     juce::String emptyText() const override;
-    std::optional<double> curveAt (std::size_t lane, double x, double y) const override;
+    std::optional<Cursor> onCurve (const Cursor&) const override;
     bool hasTrigger() const noexcept { return spec.trigger.edge != ScopeTrigger::Edge::off; }
     float levelPixel() const { return lanes.front().toPixels (0.0, spec.trigger.level).y; }
 
