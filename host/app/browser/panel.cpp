@@ -24,10 +24,10 @@ struct PartChoice
 };
 
 constexpr std::array<PartChoice, 4> part_choices {
-    { { NEEDS_TRANS ("Add without its walls"), NEEDS_TRANS ("Add %1 without its walls"), nullptr },
-      { NEEDS_TRANS ("Add only its friction"), NEEDS_TRANS ("Add only the friction of %1"), &compose::Parts::friction },
-      { NEEDS_TRANS ("Add only its textures"), NEEDS_TRANS ("Add only the textures of %1"), &compose::Parts::textures },
-      { NEEDS_TRANS ("Add only its vibrations"), NEEDS_TRANS ("Add only the vibrations of %1"), &compose::Parts::vibrations } }
+    { { NEEDS_TRANS ("Add without its walls"), NEEDS_TRANS ("Add %1, without its walls"), nullptr },
+      { NEEDS_TRANS ("Add only its friction"), NEEDS_TRANS ("Add %1, only its friction"), &compose::Parts::friction },
+      { NEEDS_TRANS ("Add only its textures"), NEEDS_TRANS ("Add %1, only its textures"), &compose::Parts::textures },
+      { NEEDS_TRANS ("Add only its vibrations"), NEEDS_TRANS ("Add %1, only its vibrations"), &compose::Parts::vibrations } }
 };
 
 compose::Parts partsFor (const PartChoice& c)
@@ -87,7 +87,7 @@ std::vector<Panel::Action> actionsOf (const Desk& desk, const PresetBrowser& lis
             all.push_back ({ filled (TRANS ("Open %1"), p.name), about, [&desk, file = p.file] { desk.openGraph (file); } });
             continue;
         }
-        all.push_back ({ filled (TRANS ("Add %1 to this graph"), p.name), about, [&desk, file = p.file] { addGraph (desk, file); } });
+        all.push_back ({ filled (TRANS ("Add %1"), p.name), about, [&desk, file = p.file] { addGraph (desk, file); } });
         auto there = known.find (p.file);
         if (there == known.end()) there = known.emplace (p.file, compose::partsOf (loadGraph (p.file).graph, desk.types)).first;
         for (const auto& c : part_choices)

@@ -7,6 +7,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/text/list_text.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -35,6 +36,22 @@ std::set<std::string> subgraphsOf (const graph::Graph& g)
     for (const auto& [name, patch] : g.graphs)
         names.insert (name);
     return names;
+}
+
+/// " (friction)" for a part of a graph. Empty for all of it.
+std::string partText (const Parts& parts)
+{
+    if (parts.isAll()) return {};
+    if (parts == withoutWalls()) return " (" + TRANS ("no walls").toStdString() + ")";
+    const std::pair<bool Parts::*, const char*> kinds[] { { &Parts::walls, NEEDS_TRANS ("walls") },
+                                                          { &Parts::friction, NEEDS_TRANS ("friction") },
+                                                          { &Parts::textures, NEEDS_TRANS ("textures") },
+                                                          { &Parts::vibrations, NEEDS_TRANS ("vibrations") },
+                                                          { &Parts::others, NEEDS_TRANS ("others") } };
+    std::vector<std::string> kept;
+    for (const auto& [kind, name] : kinds)
+        if (parts.*kind) kept.push_back (juce::translate (name).toStdString());
+    return " (" + listText (kept) + ")";
 }
 
 /// Moves the subgraphs of the added graph into the open one, under free names.
@@ -192,6 +209,7 @@ Result<AddedPreset> addPreset (const graph::Graph& open, graph::Graph added, con
     AddedPreset made { graph::Batch {}, block.name, block.id, called, {}, std::max (open.rate_hz, added.rate_hz) };
     const auto number = block.name.substr (std::min (block.name.size(), idFor (called).size()));   // "_2" for a second one
     if (number.starts_with ('_')) made.label += ' ' + number.substr (1);
+    made.label += partText (how.parts);
     moveControls (*after, added, block.name, made.label);
     moveSources (*after, added, block.name);
     after->files.insert (added.files.begin(), added.files.end());

@@ -138,7 +138,7 @@ void LayersPanel::rebuildStrips (std::size_t layers)
             if (onSelect) onSelect (patch, id);
         };
         const auto dragged = [this] (int layer, int x, bool let_go) { drag (layer, x, let_go); };
-        const auto context = std::make_shared<const MixerContext> (MixerContext { document, catalogue, chosen, hint, select, dragged });
+        const auto context = std::make_shared<const MixerContext> (MixerContext { document, catalogue, chosen, hint, select, dragged, completeRemoval });
         for (std::size_t i = 0; i < layers; ++i)
         {
             row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));

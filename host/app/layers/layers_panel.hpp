@@ -29,6 +29,9 @@ public:
     /// Asks for the file of a new clip layer. Nothing is added if the user chooses none. If this is not set, the layer begins without a file.
     std::function<void (std::function<void (const std::filesystem::path&)> chosen)> onChooseClip;
 
+    /// Extends the removal of a node by what was made for it, see Canvas. Without it, the node of a removed layer stays.
+    std::function<graph::Command (graph::Batch removal)> completeRemoval;
+
     /// The edit that makes a layer of a signal. Must be set before mixIn().
     std::function<Result<graph::Command> (const UnmixedSignal&)> commandToMix;
 

@@ -60,7 +60,7 @@ void MixStrip::refresh (const Traces::Client& traces, const std::vector<std::str
     feed.take (traces.of (context->place.path + ".out"), 1.0, dt_s);
     const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
     over_db = 0.0;
-    const bool is_heard = feed.meter.peak() > 0.0;   // the traces of a run stay after it
+    const bool is_heard = feed.meter.rms() > 0.0;   // the traces of a run stay after it
     if (const auto found = traces.of (context->place.path + ".reduction"); is_heard && ! found.empty())
     {
         std::vector<double> latest;
@@ -94,6 +94,7 @@ void MixStrip::paint (juce::Graphics& g)
     drawLine (filled (TRANS ("peak %1"), peak));
     if (motor_peak.isNotEmpty()) drawLine (filled (TRANS ("motor %1"), motor_peak));
     auto state = limits ? TRANS ("below the ceiling") : TRANS ("no ceiling");
+    if (limits && feed.meter.peak() > 0.99 * ceiling.shown().si()) state = TRANS ("at the ceiling");
     if (limits && over) state = filled (TRANS ("over by %1 dB"), juce::String (over_db, 1));
     g.setColour (over ? theme.warning : theme.dim);
     drawLine (state);

@@ -14,6 +14,9 @@ Panel layersPanel (Desk& desk)
     auto* layers = made.get();
     layers->onHint = [&desk] (const juce::String& text) { desk.hint (text); };
     layers->onSelect = [&desk] (const std::string& patch, graph::Id node) { desk.show (patch, node); };
+    layers->completeRemoval = [&desk] (graph::Batch removal) -> graph::Command {
+        return desk.canvas.completeRemoval ? desk.canvas.completeRemoval (std::move (removal)) : graph::Command (std::move (removal));
+    };
     layers->commandToMix = [&desk] (const UnmixedSignal& u) { return desk.layerOf (u.sink, u.port); };
     layers->onChooseClip = [&desk] (auto chosen) { desk.chooseInput (clip_patterns, {}, std::move (chosen)); };
     layers->onAdded = [&desk] (const std::string& patch, graph::Id node) {

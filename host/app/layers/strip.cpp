@@ -5,6 +5,7 @@
 #include <host/app/model/face.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
@@ -267,9 +268,25 @@ void LayerStrip::rename (const juce::String& to)
     context->perform (renameLayer (*node, context->place, layers, layer, to.toStdString()));
 }
 
+/// A subgraph that feeds this layer and nothing else, such as an added preset; null if there is none.
+const graph::Node* LayerStrip::onlySource() const
+{
+    const auto& g = context->document.graph();
+    const auto* wire = wireInto (g, context->place, layer);
+    const auto* patch = findPatch (g, context->place.patch);
+    if (wire == nullptr || patch == nullptr) return nullptr;
+    const auto name = graph::firstNameOf (wire->from.node);
+    const auto* node = patch->find (name);
+    const bool is_alone = std::ranges::count_if (patch->wires, [&] (const graph::Wire& w) { return graph::firstNameOf (w.from.node) == name; }) == 1;
+    return node != nullptr && node->type.starts_with ("graph:") && is_alone ? node : nullptr;
+}
+
+/// An added preset goes with its layer.
 void LayerStrip::remove()
 {
     auto command = removeLayer (context->document.graph(), context->place, context->catalogue, layer);
+    if (const auto* node = onlySource(); command && node != nullptr && context->completeRemoval)
+        command = context->completeRemoval ({ NEEDS_TRANS ("remove a layer"), { graph::RemoveNode { context->place.patch, node->name } } });
     if (! command)
     {
         if (context->hint) context->hint (juce::String (messageText (command.error())));

@@ -25,7 +25,8 @@ struct MixerContext
     MixerPlace place;
     std::function<void (const juce::String&)> hint;
     std::function<void (const std::string& patch, graph::Id)> select;
-    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is being dragged by its name; x is the position in its parent
+    std::function<void (int layer, int x, bool let_go)> drag;               ///< a strip is being dragged by its name; x is the position in its parent
+    std::function<graph::Command (graph::Batch removal)> completeRemoval;   ///< extends the removal of a node, see Canvas; empty: nodes stay
 
     const graph::Node* node() const { return findMixer (document.graph(), place); }
     void perform (graph::Command c, bool goes_on = false) const { document.perform (std::move (c), goes_on ? graph::Step::joined : graph::Step::own); }
@@ -62,6 +63,7 @@ public:
     void sendTo (const std::string& sink);   ///< turns the send to an output on or off; "" adds a vibration motor
     void setSendGain (double decibels, bool goes_on);
     void rename (const juce::String&);
+    const graph::Node* onlySource() const;
     void remove();
 
     const Meter& meter() const noexcept { return feed.meter; }

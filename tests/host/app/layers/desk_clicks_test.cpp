@@ -251,6 +251,19 @@ TEST_CASE ("a preset that is dropped on the mixer is a layer of it, in one undo 
     DeskStage::settle();
     CHECK (std::ranges::any_of (w.graph().root.nodes, [] (const graph::Node& n) { return n.type.starts_with ("graph:"); }));
     CHECK (w.status.text().contains ("as a layer"));
+    const auto added = writeGraph (w.graph());
+    REQUIRE (panel.layers() == 4);
+    panel.layer (3).remove();   // the node of the preset goes with its layer
+    DeskStage::settle();
+    CHECK (panel.layers() == 3);
+    CHECK (std::ranges::none_of (w.graph().root.nodes, [] (const graph::Node& n) { return n.type.starts_with ("graph:"); }));
+    CHECK (w.graph().controls.size() == 1);
+    panel.layer (0).remove();   // a node of the graph itself stays
+    DeskStage::settle();
+    CHECK (w.graph().root.find ("board") != nullptr);
+    w.document.undo();
+    w.document.undo();
+    CHECK (writeGraph (w.graph()) == added);
     w.document.undo();
     CHECK (writeGraph (w.graph()) == before);
 }
