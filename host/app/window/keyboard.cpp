@@ -90,7 +90,7 @@ bool Keyboard::isAnythingOpen() const
 }
 
 /// Esc closes a page, a dialog or a field before it stops, unless there are motors: then the user should not have to look first. While a graph runs, it
-/// stops before it closes the palette or a menu, which open briefly over the graph.
+/// stops also if the palette or a menu is open.
 bool Keyboard::escStops() const
 {
     const auto* modal = juce::Component::getCurrentlyModalComponent();
@@ -98,12 +98,14 @@ bool Keyboard::escStops() const
     return parts.playback.current().drivesDevice() || is_menu_open || parts.palette.isVisible() || ! isAnythingOpen();
 }
 
-/// Stops if Esc, with or without Shift, means that now.
+/// Stops if Esc, with or without Shift, means that now. The palette and a menu, which are open only for a moment, close with it.
 bool Keyboard::stopsBy (const juce::KeyPress& esc)
 {
     const bool is_at_once = esc.getModifiers().isShiftDown();
     if (! parts.playback.current().isWanted() || ! (is_at_once || escStops())) return false;
     is_at_once ? parts.playback.emergencyStop() : parts.playback.stop();
+    parts.palette.close();
+    juce::PopupMenu::dismissAllActiveMenus();
     return true;
 }
 
