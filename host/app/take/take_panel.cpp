@@ -157,6 +157,13 @@ void TakePanel::restore (const Shown& to)
     refresh();
 }
 
+/// The curve goes on showing the same port, if the take has it.
+void TakePanel::showTake (Shown take)
+{
+    if (std::ranges::count (take.names, shown_port) > 0) take.port = shown_port;
+    restore (take);
+}
+
 std::function<void()> TakePanel::restored (const Shown& to)
 {
     return [safe = SafePointer (this), to] {
@@ -218,7 +225,7 @@ void TakePanel::openMenu()
         });
     };
     for (std::size_t i = 0; i < all.size(); ++i)
-        add (nameOf (i), is_free, all[i].recording == recording.recorded(), [take = all[i]] (TakePanel& p) { p.restore (take); });
+        add (nameOf (i), is_free, all[i].recording == recording.recorded(), [take = all[i]] (TakePanel& p) { p.showTake (take); });
     menu.addSeparator();
     const bool has_take = is_free && recording.recorded() != nullptr;
     add (TRANS ("Save take..."), has_take, false, [] (TakePanel& p) { p.saveAs (p.recording.recorded(), {}); });

@@ -82,6 +82,7 @@ private:
     Shown shown() const { return { recording.recorded(), names, shown_port, recorded_graph }; }
     void endRecording();
     void restore (const Shown&);
+    void showTake (Shown);
     std::function<void()> restored (const Shown&);   ///< for a step of the history
     void recorded (const std::shared_ptr<Take::Recording>&, Take::End);
     void keep (const Shown&, bool goes_on);

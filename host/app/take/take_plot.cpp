@@ -28,10 +28,19 @@ TakePlot::TakePlot()
 void TakePlot::show (Stretch s)
 {
     const bool is_other = s.ticks() != shown.ticks();
+    const bool was_whole = view_from <= 0.0 && view_until >= length();
     shown = std::move (s);
     findRange();
-    columnsOf();
     if (is_other) mark (0.0, length());
+    was_whole || view_until > length() ? setView (0.0, length()) : setView (view_from, view_until);
+}
+
+/// Shows a part, in s.
+void TakePlot::setView (double from, double until)
+{
+    view_from = from;
+    view_until = until;
+    columnsOf();
     repaint();
 }
 
@@ -79,9 +88,12 @@ void TakePlot::mark (double from, double until)
     repaint();
 }
 
-float TakePlot::xAt (double s) const { return area().getX() + static_cast<float> (s / std::max (1e-9, length())) * area().getWidth(); }
+float TakePlot::xAt (double s) const { return area().getX() + static_cast<float> ((s - view_from) / viewLength()) * area().getWidth(); }
 
-double TakePlot::timeAt (float x) const { return std::clamp (static_cast<double> ((x - area().getX()) / area().getWidth()), 0.0, 1.0) * length(); }
+double TakePlot::timeAt (float x) const
+{
+    return view_from + std::clamp (static_cast<double> ((x - area().getX()) / area().getWidth()), 0.0, 1.0) * (view_until - view_from);
+}
 
 TakePlot::Edge TakePlot::edgeAt (float x) const
 {
@@ -96,10 +108,14 @@ void TakePlot::columnsOf()
     const auto width = static_cast<std::size_t> (std::max (1.0f, area().getWidth()));
     const auto ticks = shown.ticks();
     if (ticks == 0) return;
+    const auto tickAt = [&] (std::size_t x) {
+        const double s = view_from + viewLength() * static_cast<double> (x) / static_cast<double> (width);
+        return std::min (ticks, static_cast<std::size_t> (s * shown.rate_hz + 1e-6));
+    };
     for (std::size_t c = 0; c < columns.size(); ++c)
         for (std::size_t x = 0; x < width; ++x)
         {
-            const auto begin = x * ticks / width, end = std::max (begin + 1, (x + 1) * ticks / width);
+            const auto begin = std::min (ticks - 1, tickAt (x)), end = std::max (begin + 1, tickAt (x + 1));
             double least = shown.value (begin, c), most = least;
             for (auto k = begin; k < std::min (end + 1, ticks); ++k)   // one more, so that the columns join
             {
@@ -148,7 +164,7 @@ void TakePlot::paintPinned (juce::Graphics& g) const
     const auto box = area();
     const auto width = static_cast<std::size_t> (std::max (1.0f, box.getWidth()));
     const auto tickAt = [&] (std::size_t x) {   // counted from its first tick
-        const double s = begins() + length() * static_cast<double> (x) / static_cast<double> (width);
+        const double s = begins() + view_from + viewLength() * static_cast<double> (x) / static_cast<double> (width);
         return s * pinned.rate_hz - static_cast<double> (pinned.from);
     };
     g.setColour (look.theme().dim.withAlpha (0.7f));
@@ -190,7 +206,8 @@ void TakePlot::paintMark (juce::Graphics& g) const
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     const auto box = area();
-    const float a = xAt (from_s), b = xAt (until_s);
+    const auto within = [&] (float x) { return std::clamp (x, box.getX(), box.getRight()); };
+    const float a = within (xAt (from_s)), b = within (xAt (until_s));
     g.setColour (theme.canvas.withAlpha (0.45f));
     g.fillRect (box.withRight (a));
     g.fillRect (box.withLeft (b));
@@ -202,14 +219,14 @@ void TakePlot::paintMark (juce::Graphics& g) const
     g.setColour (theme.dim);
     g.setFont (look.font (11.0f));
     const auto low_edge = getLocalBounds().removeFromBottom (15).reduced (2, 0);
-    const double begin = begins();
-    const auto ends = juce::String (begin + length(), 2) + " s";
+    const double begin = begins() + view_from;
+    const auto ends = juce::String (begins() + view_until, 2) + " s";
     g.drawText (begin > 0.0 ? juce::String (begin, 2) + " s" : "0 s", low_edge, juce::Justification::centredLeft, false);
     g.drawText (ends, low_edge, juce::Justification::centredRight, false);
     const float room = g.getCurrentFont().getStringWidthFloat (ends) + 24.0f;
-    for (const auto& tick : ticksWithin ({ begin, begin + length() }, std::max (2, low_edge.getWidth() / 100)))
+    for (const auto& tick : ticksWithin ({ begin, begins() + view_until }, std::max (2, low_edge.getWidth() / 100)))
     {
-        const float x = xAt (tick.at - begin);
+        const float x = xAt (tick.at - begins());
         if (x < box.getX() + room || x > box.getRight() - room) continue;
         g.drawVerticalLine (juce::roundToInt (x), box.getBottom(), box.getBottom() + 3.0f);
         g.drawText (fromUtf8 (tick.text), juce::Rectangle<float> (x - 40.0f, static_cast<float> (low_edge.getY()), 80.0f, 15.0f),
@@ -255,12 +272,30 @@ void TakePlot::mouseDrag (const juce::MouseEvent& e)
     mark (pressed_s, timeAt (e.position.x));
 }
 
-void TakePlot::mouseDoubleClick (const juce::MouseEvent&) { mark (0.0, length()); }
+void TakePlot::mouseDoubleClick (const juce::MouseEvent&)
+{
+    mark (0.0, length());
+    setView (0.0, length());
+}
+
+/// Zooms around the pointer. Sideways, or with Shift, it moves along the take.
+void TakePlot::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
+{
+    constexpr double least_s = 5e-3;
+    if (shown.ticks() == 0) return;
+    const double before = view_until - view_from, about = timeAt (e.position.x);
+    const bool moves = e.mods.isShiftDown() || std::abs (wheel.deltaX) > std::abs (wheel.deltaY);
+    const double turned = static_cast<double> (std::abs (wheel.deltaX) > std::abs (wheel.deltaY) ? wheel.deltaX : wheel.deltaY);
+    const double now = moves ? before : std::clamp (before * std::exp2 (-2.0 * turned), std::min (least_s, length()), length());
+    const double from = moves ? view_from - 0.5 * turned * before : about - (about - view_from) * now / std::max (1e-9, before);
+    const double begin = std::clamp (from, 0.0, length() - now);
+    setView (begin, begin + now);
+}
 
 void TakePlot::mouseMove (const juce::MouseEvent& e)
 {
     const bool on_edge = shown.ticks() > 0 && edgeAt (e.position.x) != Edge::none;
-    if (onHint && shown.ticks() > 0) onHint (TRANS ("Drag to mark a stretch, or to move its edge. Double-click to mark all. The arrow keys move the stretch."));
+    if (onHint && shown.ticks() > 0) onHint (TRANS ("Drag to mark a stretch, or to move its edge; the wheel zooms. Double-click to mark and see all. The arrow keys move the stretch."));
     setMouseCursor (on_edge ? juce::MouseCursor::LeftRightResizeCursor : juce::MouseCursor::NormalCursor);
 }
 

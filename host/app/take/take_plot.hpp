@@ -9,8 +9,8 @@
 namespace tactus::host
 {
 
-/// A recorded port over time, with a marked stretch. Dragging marks a stretch or moves its edge, a double-click marks everything, and the
-/// arrow keys move the stretch (with Shift: its end).
+/// A recorded port over time, with a marked stretch. Dragging marks a stretch or moves its edge, a double-click marks and shows everything, the wheel
+/// zooms, and the arrow keys move the stretch (with Shift: its end).
 class TakePlot final : public juce::Component
 {
 public:
@@ -38,6 +38,7 @@ public:
     void mouseDrag (const juce::MouseEvent&) override;
     void mouseDoubleClick (const juce::MouseEvent&) override;
     void mouseMove (const juce::MouseEvent&) override;
+    void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
     void mouseExit (const juce::MouseEvent&) override;
     bool keyPressed (const juce::KeyPress&) override;
     void focusGained (FocusChangeType) override { repaint(); }
@@ -55,6 +56,8 @@ private:
     float xAt (double s) const;
     double begins() const noexcept { return shown.rate_hz > 0.0 ? static_cast<double> (shown.from) / shown.rate_hz : 0.0; }   ///< in the take, in s
     double timeAt (float x) const;
+    void setView (double from, double until);
+    double viewLength() const noexcept { return std::max (1e-9, view_until - view_from); }
     Edge edgeAt (float x) const;
     void columnsOf();
     bool showsPinned() const noexcept { return hasPinned() && pinned.unit == shown.unit && pinned.names.size() == shown.names.size(); }
@@ -73,6 +76,7 @@ private:
     double from_s = 0.0, until_s = 0.0, pressed_s = 0.0;
     Edge held = Edge::none;
     double low = 0.0, high = 0.0;
+    double view_from = 0.0, view_until = 0.0;                      // the part that the plot shows, in s
     std::vector<std::vector<std::pair<double, double>>> columns;   // by component: the lowest and highest value of each column of pixels
 };
 

@@ -351,7 +351,7 @@ TEST_CASE ("a take is compared with later ones: its curve stays behind theirs, i
     REQUIRE (waitFor ([&] { return r.isReady(); }));
     const auto port = r.panel.port();
     CHECK (texts().contains ("grey: Take 1, " + port));
-    r.panel.showPort ("board.stored_energy");   // in another unit
+    r.panel.showPort ("hand.position");   // in another unit
     REQUIRE (waitFor ([&] { return r.isReady(); }));
     CHECK_FALSE (texts().contains ("grey:"));
     r.panel.showPort (port);
