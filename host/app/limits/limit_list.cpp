@@ -136,6 +136,9 @@ std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::st
     return device != devices.end() ? device->name : TRANS ("unknown device").toStdString();
 }
 
+/// True for a contact that rests with usual hands, and is stiffer than what is passive.
+bool isPastPassivity (const check::Condition& c) { return c.verdict == check::Verdict::stable && c.value > c.limit; }
+
 LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const check::Trials& trials, const Plan& plan)
 {
     LimitList list;
@@ -156,7 +159,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                 is_reached ? unitShown (c.remedy) : TRANS ("move the hand to the node, or change the place or the size of its shape").toStdString();
             list.unjudged.push_back ({ false, std::string (c.id), nodesOf (c, demand, plan), limitSentence (c, c.node, nameOf (devices, c.role)), remedy, {} });
         }
-        else if (! is_broken && c.verdict != check::Verdict::stable && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
+        else if (! is_broken && ! isPastPassivity (c) && ! (c.margin() < LimitList::near))   // a margin that is not known is not near
             ++list.held;
         else
         {

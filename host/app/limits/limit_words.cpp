@@ -95,11 +95,12 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
     else if (c.isBroken())
         text = has_factor ? filled (TRANS ("%1 of %2 is %3 times what %4 allows"), noun, who, twoDigits (1.0 / margin), role)
                           : filled (TRANS ("%1 of %2 is more than %3 allows"), noun, who, role);
-    else if (c.verdict == check::Verdict::stable)
+    else if (c.verdict == check::Verdict::stable && c.value > c.limit)
         text = filled (TRANS ("%1 of %2 is not passive on %3, but rests with usual hands"), noun, who, role);
+    else if (c.id == "stiffness" && (c.verdict == check::Verdict::passive || c.verdict == check::Verdict::passive_here))
+        text = filled (TRANS ("%1 of %2 is at %3 % of what is passive on %4"), noun, who, percent, role);
     else
-        text = filled (c.id == "stiffness" ? TRANS ("%1 of %2 is at %3 % of what is passive on %4") : TRANS ("%1 of %2 is at %3 % of what %4 allows"), noun, who,
-                       percent, role);
+        text = filled (TRANS ("%1 of %2 is at %3 % of what %4 allows"), noun, who, percent, role);
     return text.toStdString();
 }
 

@@ -295,7 +295,8 @@ void TakePlot::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheel
 void TakePlot::mouseMove (const juce::MouseEvent& e)
 {
     const bool on_edge = shown.ticks() > 0 && edgeAt (e.position.x) != Edge::none;
-    if (onHint && shown.ticks() > 0) onHint (TRANS ("Drag to mark a stretch, or to move its edge; the wheel zooms. Double-click to mark and see all. The arrow keys move the stretch."));
+    if (onHint && shown.ticks() > 0) onHint (TRANS ("Drag to mark a stretch, or to move its edge; the wheel zooms. Double-click to mark and see all. "
+                                                    "The arrow keys move the stretch."));
     setMouseCursor (on_edge ? juce::MouseCursor::LeftRightResizeCursor : juce::MouseCursor::NormalCursor);
 }
 

@@ -325,7 +325,8 @@ void SafetyStrip::paint (juce::Graphics& g)
           TRANS ("Ticks that were not finished in time since the start. A few are not felt; many mean that the computer is too slow for the rate. "
                  "C shows what each node costs.") },
         { shown.delay,
-          TRANS ("How many ticks pass from a movement of the hand to its effect on the motor, in the graph and in the device as far as its delay is known. Each tick of delay makes a stiff wall less stable.") },
+          TRANS ("How many ticks pass from a movement of the hand to its effect on the motor, in the graph and in the device as far as its delay is "
+                 "known. Each tick of delay makes a stiff wall less stable.") },
         { shown.walls,
           TRANS ("The largest stiffness with which a wall without damping returns no energy, whatever the hand does, with this delay and the damping of the "
                  "device. A stiffer one may rest, vibrate or kick. Problems has what the check says about this graph.") },

@@ -97,6 +97,29 @@ TEST_CASE ("a tool that does not come to rest in trials is not said to be too st
     CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot is 2 times what stylus (simulated) allows");
 }
 
+TEST_CASE ("a contact that rests but is not passive is near a limit, and each share says of what", "[app][limits]")
+{
+    check::Condition c;
+    c.id = "stiffness";
+    c.role = "stylus";
+    c.node = "foot";
+    c.value = 0.9;
+    c.limit = 1.0;
+    c.verdict = check::Verdict::passive;
+    CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of foot is at 90 % of what is passive on stylus (simulated)");
+    c.verdict = check::Verdict::stable;
+    c.may_grow = 1.1;
+    CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of foot is at 90 % of what stylus (simulated) allows");
+    c.value = 1.4;
+    c.may_grow = 1.9;
+    CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of foot is not passive on stylus (simulated), but rests with usual hands");
+
+    const auto listed = [] (const char* preset) { return idsOf (checked (loadGraph (std::string (TACTUS_SOURCE_DIR "/graphs/") + preset).graph)); };
+    CHECK (listed ("rubber_ball.json").find ("stiffness") != std::string::npos);   // 1.01 of 0.5 N s/m
+    CHECK (listed ("rubber_ball.json").find ("stiffness!") == std::string::npos);
+    CHECK (listed ("dry_wood.json").find ("stiffness") == std::string::npos);   // its slopes are passive
+}
+
 TEST_CASE ("a ceiling is no step of the force", "[app][limits]")
 {
     auto wood = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;

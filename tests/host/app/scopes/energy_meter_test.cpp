@@ -65,18 +65,30 @@ Rig bristle()
     node.param ("d_max", 2e-3).prepare();
     return node;
 }
+
+/// A friction that is rubbed for 2 s, and its balance.
+struct Rubbed
+{
+    Recorded r;
+    Rig node = bristle();
+    EnergyMeter meter;
+
+    Rubbed() { more (8000); }
+
+    void more (int ticks)
+    {
+        rub (r, node, ticks);
+        meter.follow (r.sources());
+    }
+};
 }   // namespace
 
 TEST_CASE ("scopes: the work of the hand on friction is stored or dissipated, except for the leak of the held force", "[app][scopes]")
 {
-    Recorded r;
-    auto node = bristle();
-    rub (r, node, 8000);
-    EnergyMeter meter;
-    meter.follow (r.sources());
-    const auto& b = meter.balance();
+    const Rubbed rubbed;
+    const auto& b = rubbed.meter.balance();
     CHECK (b.dissipated > 0.02);
-    CHECK (b.dissipated == r.dissipated->at (7999));
+    CHECK (b.dissipated == rubbed.r.dissipated->at (7999));
     CHECK (std::abs (b.elsewhere()) < 1e-4 * b.work);
     CHECK (b.isPassive());
     CHECK (describe (b).starts_with ("passive"));
@@ -179,21 +191,17 @@ TEST_CASE ("scopes: across missed ticks the work is estimated, and the gaps are 
 
 TEST_CASE ("scopes: a reset counts from now on, and says over what time", "[app][scopes]")
 {
-    Recorded r;
-    auto node = bristle();
-    rub (r, node, 8000);
-    EnergyMeter meter;
-    meter.follow (r.sources());
+    Rubbed rubbed;
+    auto& meter = rubbed.meter;
+    const auto& heat = *rubbed.r.dissipated;
     CHECK (describe (meter.balance()).starts_with ("passive over 2.0\u00a0s: "));
-    const double before = r.dissipated->at (7999);
     meter.restart();
-    meter.follow (r.sources());   // nothing new
+    rubbed.more (0);
     CHECK (meter.balance().work == 0.0);
     CHECK (meter.balance().dissipated == 0.0);
-    rub (r, node, 4000);
-    meter.follow (r.sources());
-    CHECK (meter.balance().dissipated == Approx (r.dissipated->at (11'999) - r.dissipated->at (8000)));
-    CHECK (meter.balance().dissipated < 0.75 * before);
+    rubbed.more (4000);
+    CHECK (meter.balance().dissipated == Approx (heat.at (11'999) - heat.at (8000)));
+    CHECK (meter.balance().dissipated < 0.75 * heat.at (7999));
     CHECK (describe (meter.balance()).starts_with ("passive over 1.0\u00a0s: "));
 }
 
