@@ -169,8 +169,15 @@ void StemExport::attend()
     const auto& losses = (*result)->losses;
     if (losses.empty()) return desk.notify (text);
     auto lost = TRANS ("What the clips do not hold, or hold differently:") + "\n";
+    std::vector<std::pair<std::string, std::string>> lines;   // a text, and the formats that it is about
     for (const auto& m : losses)
-        lost << "\n- " << fromUtf8 (m.where + ": " + messageText (m)) << ".";
+    {
+        const auto text = messageText (m);
+        const auto known = std::ranges::find (lines, text, &std::pair<std::string, std::string>::first);
+        known == lines.end() ? void (lines.emplace_back (text, m.where)) : void (known->second += ", " + m.where);
+    }
+    for (const auto& [loss, formats] : lines)
+        lost << "\n- " << fromUtf8 (formats + ": " + loss) << ".";
     desk.tell (text, lost);
 }
 

@@ -2,6 +2,7 @@
 #include "stem_clips.hpp"
 #include "stems.hpp"
 
+#include <host/devices/audio/high_pass.hpp>
 #include <host/devices/audio/listening.hpp>
 #include <tactus/file/clips/clip_file.hpp>
 #include <tactus/file/clips/clip_signal.hpp>
@@ -21,38 +22,34 @@ const std::vector<std::string>& stemClipFormats()
 
 namespace
 {
-/// The mean over 0.1 s around each sample.
-std::vector<double> meansOf (const std::vector<double>& samples, double rate_hz)
+double rmsOf (const std::vector<float>& samples)
 {
-    constexpr double window_s = 0.1;
-    std::vector<double> sums { 0.0 }, means;   // sums of the samples before each
-    for (const double v : samples)
-        sums.push_back (sums.back() + v);
-    const auto half = static_cast<std::size_t> (std::max (1.0, std::round (0.5 * window_s * rate_hz)));
-    for (std::size_t k = 0; k < samples.size(); ++k)
-    {
-        const auto first = k - std::min (k, half), last = std::min (samples.size(), k + half + 1);
-        means.push_back ((sums[last] - sums[first]) / static_cast<double> (last - first));
-    }
-    return means;
+    double sum = 0.0;
+    for (const float v : samples)
+        sum += double { v } * double { v };
+    return samples.empty() ? 0.0 : std::sqrt (sum / static_cast<double> (samples.size()));
 }
 
-/// Subtracts the mean of the means, which leaves 96 % or more of what is faster than 15 Hz. Samples that are not finite become 0.
-void removeHeld (OneSignal& signal, double rate_hz)
+/// Leaves out what an actuator that vibrates cannot play. The signal begins as if its first sample had been held before, a loop as if it had gone on. Samples
+/// that are not finite become 0.
+void removeHeld (OneSignal& signal, double rate_hz, bool loops)
 {
-    std::vector<double> samples;
-    for (const float v : signal.samples)
-        samples.push_back (std::isfinite (v) ? double { v } : 0.0);
-    const auto slow = meansOf (meansOf (samples, rate_hz), rate_hz);
-    for (std::size_t k = 0; k < samples.size(); ++k)
-    {
-        signal.held = std::max (signal.held, std::abs (slow[k]));
-        signal.samples[k] = static_cast<float> (samples[k] - slow[k]);
-    }
+    constexpr double noticed = 0.95;
+    auto& samples = signal.samples;
+    for (auto& v : samples)
+        if (! std::isfinite (v)) v = 0.0f;
+    if (samples.empty()) return;
+    const double before = rmsOf (samples), first = double { samples.front() };
+    audio::HighPass high_pass (OneSignal::cutoff_hz, rate_hz);
+    for (std::size_t k = 0; loops && k < samples.size(); ++k)
+        (void)high_pass (double { samples[k] } - first);
+    for (auto& v : samples)
+        v = static_cast<float> (high_pass (double { v } - first));
+    signal.lacks_held = rmsOf (samples) < noticed * before;
 }
 }   // namespace
 
-OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const std::vector<std::string>& names, double rate_hz)
+OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const std::vector<std::string>& names, double rate_hz, bool loops)
 {
     OneSignal one;
     if (channels.size() == 3)
@@ -74,7 +71,7 @@ OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const st
         one.samples = channels.front();
         one.channel = names.front();
     }
-    removeHeld (one, rate_hz);
+    removeHeld (one, rate_hz, loops);
     for (const float v : one.samples)
         one.peak = std::max (one.peak, std::abs (double { v }));
     return one;
@@ -87,10 +84,9 @@ Result<std::string> clipTextOf (const OneSignal& signal, double rate_hz, double 
     samples.reserve (signal.samples.size());
     for (const float v : signal.samples)
         samples.push_back (std::clamp (double { v } / full_scale, -1.0, 1.0));
-    constexpr double noticed = 0.01;   // of amplitude 1
-    if (signal.held > noticed * full_scale)
+    if (signal.lacks_held)
         losses.push_back (Message::warning ("clip/held", {},
-                                            "forces that are held, and all that changes more slowly than 10 times a second, are left out: a clip vibrates"));
+                                            "a force that is held is left out, and what changes more slowly than 8 times a second is weaker: a clip vibrates"));
     auto clip = readers::clipOfSignal ({ .rate_hz = rate_hz, .channels = { std::move (samples) } }, losses);
     clip.notes = { { "description", description } };
     auto made = readers::writeClip (clip, "stem." + format);

@@ -10,17 +10,19 @@
 namespace tactus::host
 {
 
-/// A stem as one signal that a vibrating actuator can play: its only channel, or the component of a vector in the direction in which it moves most, without
-/// the part that changes more slowly than about 10 times a second, such as the force of a wall that is held.
+/// A stem as one signal that a vibrating actuator can play: its only channel, or the component of a vector in the direction in which it moves most, through a
+/// high-pass of the second order. A force that is held would be a buzz.
 struct OneSignal
 {
+    static constexpr double cutoff_hz = 8.0;
+
     std::vector<float> samples {};
     std::string channel {};   ///< "desk.in[0]", or "along 0 0 1"
     double peak = 0.0;
-    double held = 0.0;   ///< the largest value of the slow part, which is left out
+    bool lacks_held = false;   ///< the high-pass has left out a part that matters
 };
 
-OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const std::vector<std::string>& names, double rate_hz);
+OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const std::vector<std::string>& names, double rate_hz, bool loops);
 
 /// The text of a clip file. Amplitude 1 is `full_scale`. `losses` receives what the format cannot hold. Ids: those of readers::writeClip.
 Result<std::string> clipTextOf (const OneSignal&, double rate_hz, double full_scale, const std::string& description, const std::string& format,

@@ -207,7 +207,7 @@ private:
         double most = 0.0;
         for (const auto& s : recorded.stems)
             if (! options.clips.empty() && (s.to.kind == "layer" || s.to.kind == "not_mixed"))
-                most = std::max (most, parts.emplace_back (&s, oneSignalOf (s.channels, s.to.channels, recorded.rate_hz)).second.peak);
+                most = std::max (most, parts.emplace_back (&s, oneSignalOf (s.channels, s.to.channels, recorded.rate_hz, options.loop_s > 0.0)).second.peak);
         std::vector<std::pair<WrittenStem, std::string>> made;
         for (const auto& [s, signal] : parts)
             for (const auto& format : options.clips)

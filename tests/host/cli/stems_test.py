@@ -69,15 +69,16 @@ def amplitude(samples, hertz, rate):
     return 2 * math.hypot(sum(s * math.cos(t) for s, t in zip(part, turn)), sum(s * math.sin(t) for s, t in zip(part, turn))) / len(part)
 
 
-def unheld(samples, rate):
-    """Without the slow part: the mean over 0.1 s of the mean over 0.1 s."""
-    def means(values):
-        half, sums = round(0.05 * rate), [0.0]
-        for v in values:
-            sums.append(sums[-1] + v)
-        ends = [(max(0, k - half), min(len(values), k + half + 1)) for k in range(len(values))]
-        return [(sums[last] - sums[first]) / (last - first) for first, last in ends]
-    return [v - m for v, m in zip(samples, means(means(samples)))]
+def vibrating(samples, rate):
+    """Through a second-order Butterworth high-pass at 8 Hz, from rest at the first sample."""
+    w = 2 * math.pi * 8 / rate
+    c, alpha = math.cos(w), math.sin(w) / (2 * 0.7071)
+    before, made = [0.0, 0.0], [0.0, 0.0]
+    for v in (s - samples[0] for s in samples):
+        out = (0.5 * (1 + c) * (v - 2 * before[-1] + before[-2]) + 2 * c * made[-1] - (1 - alpha) * made[-2]) / (1 + alpha)
+        before.append(v)
+        made.append(out)
+    return made[2:]
 
 
 class Stems(unittest.TestCase):
@@ -142,12 +143,13 @@ class Stems(unittest.TestCase):
         clips = [f for f in said["files"] if f["kind"] == "clip"]
         parts = [f for f in said["files"] if f["kind"] in ("layer", "not_mixed")]
         self.assertEqual([f["file"] for f in clips], [p["file"][:-3] + name for p in parts for name in formats])
-        heard = {p["file"]: unheld(floats(self.out / p["file"])[0][0], 4000) for p in parts}
+        heard = {p["file"]: vibrating(floats(self.out / p["file"])[0][0], 4000) for p in parts}
         scales = {f["full_scale"] for f in clips}
         loudest = scales.pop()
         self.assertFalse(scales)
         self.assertAlmostEqual(loudest, max(max(map(abs, h)) for h in heard.values()), delta=1e-6 * loudest)
         self.assertIn("the wave becomes its envelope, in steps of 10 ms", self.done.stdout)
+        self.assertIn("a force that is held", self.done.stdout)   # of the tone of 5 Hz
         for part in parts:
             samples = heard[part["file"]]
             name = part["file"][:-4]
@@ -169,7 +171,7 @@ class Stems(unittest.TestCase):
         vectors = self.render("--stem-clips", "haptic", "--stem-scale", "each", graph=GRAPHS / "bronze_bell.json")
         wall = next(f for f in vectors["files"] if f["file"] == "not_mixed_wall_force.haptic")
         self.assertEqual((wall["channels"], wall["full_scale"]), (["along 0 0 1"], wall["peak"]))
-        self.assertIn("forces that are held, and all that changes more slowly than 10 times a second, are left out", self.done.stdout)
+        self.assertIn("a force that is held is left out", self.done.stdout)
         self.assertEqual(sorted(f["file"] for f in vectors["files"] if f["kind"] == "clip"), sorted(p.name for p in self.out.glob("*.haptic")))
         self.assertIn("one of haptic, ahap, hjif", run("render", self.graph, "--stems", self.out, "--stem-clips", "wav", status=2).stderr)
 
@@ -178,10 +180,31 @@ class Stems(unittest.TestCase):
         held["nodes"]["low"] = {"type": "signal.constant", "params": {"value": 3}}
         held["nodes"]["desk"]["params"] = {"mute": [0, 0, 1]}
         self.graph.write_text(json.dumps(held))
-        said = self.render("--stem-clips", "haptic", "--stem-scale", "each")
-        clips = {f["label"]: f for f in said["files"] if f["kind"] == "clip"}
-        self.assertLess(clips["Low tone"]["peak"], 1e-9)
-        self.assertAlmostEqual(clips["High tone"]["peak"], 1.0, delta=0.02)
+        said = self.render("--stem-clips", "hjif", "--stem-scale", "each")
+        self.assertIn("a force that is held is left out", self.done.stdout)
+        clips = {f["file"].split(".")[0]: f for f in said["files"] if f["kind"] == "clip"}
+        self.assertLess(clips["layer_1_low_tone"]["peak"], 1e-6)
+        for name, hertz, right in (("layer_2_high_tone", 100, 1.0), ("not_mixed_side_out", 20, 0.5)):
+            frames = json.loads((self.out / clips[name]["file"]).read_text())["perceptions"][0]["channels"][0]["bands"][0]["effects"][0]["keyframes"]
+            played = amplitude([k["amplitude_modulation"] * clips[name]["full_scale"] for k in frames], hertz, 4000)
+            self.assertAlmostEqual(played, right, delta=0.02 * right)
+        held["nodes"]["low"] = {"type": "signal.lfo", "params": {"frequency": "200 Hz"}}
+        self.graph.write_text(json.dumps(held))
+        self.render("--stem-clips", "hjif")
+        self.assertNotIn("a force that is held", self.done.stdout)   # tones of 200, 100 and 20 Hz
+
+    def test_a_clip_is_silent_before_the_first_touch(self):
+        step = json.loads(json.dumps(MIXED))
+        step["nodes"] = {"turn": {"type": "signal.lfo", "params": {"frequency": "1 Hz", "amplitude": 1, "shape": "square"}},
+                         "desk": {"type": "layer.mix", "settings": {"inputs": 1}}, "motor": step["nodes"]["motor"]}
+        step["wires"] = ["turn.out -> desk.in[0]", "desk.out -> motor.force.z"]
+        self.graph.write_text(json.dumps(step))
+        self.render("--stem-clips", "hjif")
+        frames = json.loads(next(self.out.glob("layer_*.hjif")).read_text())["perceptions"][0]["channels"][0]["bands"][0]["effects"][0]["keyframes"]
+        values = [k["amplitude_modulation"] for k in frames]
+        first = next(k for k, v in enumerate(values) if v)
+        self.assertGreater(first, 1000)   # half a second before the first edge, and nothing rises before it
+        self.assertGreater(abs(values[first]), 0.9 * max(map(abs, values)))
 
     def test_nodes_between_what_is_not_mixed_and_the_motor_are_named(self):
         graph = json.loads(json.dumps(MIXED))

@@ -56,7 +56,7 @@ std::filesystem::path exportBell (DeskRig& r, std::size_t choice)
     const auto said = has_clips ? r.question.title() : r.said;
     INFO (said);
     CHECK (said.contains ("files are in"));
-    if (has_clips) CHECK (r.question.text().contains ("forces that are held"));
+    if (has_clips) CHECK (r.question.text().contains ("a force that is held"));
     r.question.cancel();
     return proposed;
 }
