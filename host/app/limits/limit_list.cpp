@@ -74,7 +74,7 @@ std::string detailsOf (const check::Condition& c, const std::string& device, boo
     auto who = printableName (c.role) + " (" + printableName (device) + ")";
     if (! c.node.empty()) who = filled (TRANS ("%1 on %2"), printableName (c.node), who).toStdString();
     auto text = filled (TRANS ("%1 of %2: %3, limit %4"), c.id, who, number (c.value, c.unit), number (c.limit, c.unit));
-    if (! is_broken) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
+    if (! is_broken && ! isPastPassivity (c)) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
     return unitShown (text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")"
                       + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString()));
 }
@@ -136,9 +136,6 @@ std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::st
     return device != devices.end() ? device->name : TRANS ("unknown device").toStdString();
 }
 
-/// True for a contact that rests with usual hands, and is stiffer than what is passive.
-bool isPastPassivity (const check::Condition& c) { return c.verdict == check::Verdict::stable && c.value > c.limit; }
-
 LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const check::Trials& trials, const Plan& plan)
 {
     LimitList list;
@@ -176,15 +173,6 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     return list;
 }
 
-/// The nodes that push the device of a role.
-std::vector<std::string> motorsOf (const std::string& role, const Plan& plan)
-{
-    std::vector<std::string> all;
-    for (const auto& node : plan.flat().nodes)
-        if (node.role == role && node.type->effort != nullptr) all.push_back (node.path);
-    return all;
-}
-
 /// The list of a graph along which no motion could be recorded: a tool that runs away is a limit that is broken, and with anything else, nothing is judged.
 LimitList withoutMotion (const Messages& messages, const Plan& plan)
 {
@@ -197,7 +185,7 @@ LimitList withoutMotion (const Messages& messages, const Plan& plan)
             const auto role = m.where.substr (m.where.rfind ('/') + 1);
             list.limits.push_back ({ .is_broken = true,
                                      .id = "diverged",
-                                     .nodes = motorsOf (role, plan),
+                                     .nodes = sinksOf (plan, role),
                                      .text = filled (TRANS ("The forces drive the tool of %1 away, so nothing else is judged"), role).toStdString(),
                                      .remedy = TRANS ("softer or weaker forces").toStdString(),
                                      .details = m.text });

@@ -71,6 +71,12 @@ std::string readableNumbers (const std::string& text)
 }
 }   // namespace
 
+bool isPastPassivity (const check::Condition& c)
+{
+    const bool is_contact = c.id == "stiffness" || c.id == "coupling";
+    return is_contact && c.verdict == check::Verdict::stable && c.value > c.limit && std::isfinite (c.may_grow);
+}
+
 std::string limitSentence (const check::Condition& c, const std::string& node, const std::string& device)
 {
     const auto* found = std::ranges::find (nouns, c.id, &LimitNoun::id);
@@ -95,7 +101,7 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
     else if (c.isBroken())
         text = has_factor ? filled (TRANS ("%1 of %2 is %3 times what %4 allows"), noun, who, twoDigits (1.0 / margin), role)
                           : filled (TRANS ("%1 of %2 is more than %3 allows"), noun, who, role);
-    else if (c.verdict == check::Verdict::stable && c.value > c.limit)
+    else if (isPastPassivity (c))
         text = filled (TRANS ("%1 of %2 is not passive on %3, but rests with usual hands"), noun, who, role);
     else if (c.id == "stiffness" && (c.verdict == check::Verdict::passive || c.verdict == check::Verdict::passive_here))
         text = filled (TRANS ("%1 of %2 is at %3 % of what is passive on %4"), noun, who, percent, role);

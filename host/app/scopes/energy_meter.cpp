@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace tactus::host
 {
@@ -39,7 +40,7 @@ void EnergyMeter::restart()
     now = {};
     read.clear();
     shown.clear();
-    from_now = true;
+    is_reset = true;
 }
 
 void EnergyMeter::begin (const Sources& s)
@@ -52,11 +53,24 @@ void EnergyMeter::begin (const Sources& s)
     shown = { work, stored, dissipated };
     has_last = was_gap = false;
     last_step = {};
+    const auto& reference = s.position.front();
+    begun = reference->beginnings();
     next = 0;
+    std::uint64_t end = 0;
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
-            next = std::max (next, from_now ? t->end() : t->begin());
-    from_now = false;
+        {
+            next = std::max (next, t->begin());
+            end = std::max (end, t->end());
+        }
+    if (std::exchange (is_reset, false))
+    {
+        reset_of = reference;
+        reset_begun = begun;
+        reset_tick = end;
+    }
+    if (reset_of.lock() == reference && reset_begun == begun) next = std::max (next, reset_tick);
+    first = next;
 }
 
 void EnergyMeter::follow (const Sources& s)
@@ -68,7 +82,7 @@ void EnergyMeter::follow (const Sources& s)
     auto end = all.front()->end();
     for (const auto& t : all)
         end = std::min (end, t->end());
-    if (all != read || all.front()->begin() > next)   // ticks that are no longer stored are lost
+    if (all != read || all.front()->beginnings() != begun || all.front()->begin() > next)   // ticks that are no longer stored are lost
     {
         begin (s);
         read = std::move (all);
@@ -108,7 +122,7 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
     }
     now.stored = in;
     now.dissipated = lost - lost_first;
-    now.seconds += 1.0 / work->rate();
+    now.seconds = static_cast<double> (next - first + 1) / work->rate();
     has_last = true;
     was_gap = false;
     last = p;

@@ -42,9 +42,9 @@ public:
         TraceList stored, dissipated;
     };
 
-    /// Processes the new ticks. Restarts if it gets different traces.
+    /// Processes the new ticks. Restarts if it gets different traces, or those of a new run.
     void follow (const Sources&);
-    void restart();   ///< from zero; what the traces hold already does not count
+    void restart();   ///< from zero; what the traces of this run hold already does not count
 
     const EnergyBalance& balance() const noexcept { return now; }
 
@@ -60,7 +60,10 @@ private:
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
     std::uint64_t next = 0;
-    bool has_last = false, was_gap = false, from_now = false;
+    bool has_last = false, was_gap = false, is_reset = false;
+    std::weak_ptr<const Trace> reset_of;                        // the first trace at the reset
+    std::uint64_t begun = 0, reset_begun = 0, reset_tick = 0;   // beginnings of the first trace; at the reset; and the first tick after it
+    std::uint64_t first = 0;                                    // the first tick that counts
     std::array<double, 3> last {}, last_force {}, last_step {};
     double lost_first = 0.0;
 };

@@ -31,6 +31,7 @@ void EnergyPlot::show (const Signals& signals)
         lanes.clear();
         return;
     }
+    is_reset = false;
     layOut ({ "J" });
     auto& lane = lanes.front();
     constexpr float least_plot = 40.0f;   // pixels; the numbers and the legend give way to it
@@ -110,6 +111,7 @@ std::vector<ScopePlot::Action> EnergyPlot::actions()
 {
     return { { TRANS ("reset"), TRANS ("Restarts the energy balance from zero"), [this] (juce::Component&) {
                   meter.restart();
+                  is_reset = true;
                   if (context.onChange) context.onChange();
               } } };
 }
@@ -117,7 +119,7 @@ std::vector<ScopePlot::Action> EnergyPlot::actions()
 juce::String EnergyPlot::emptyText() const
 {
     if (spec.x.empty() || spec.y.empty()) return TRANS ("Energy needs a device.position node for the hand, and a device.force node for the force on it");
-    return whyEmpty();
+    return is_reset ? TRANS ("The balance begins with the next tick") : whyEmpty();
 }
 
 }   // namespace tactus::host

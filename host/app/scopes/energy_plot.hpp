@@ -29,6 +29,7 @@ private:
     static constexpr float margin = 8.0f;   // at the left and the right of the text
 
     EnergyMeter meter;
+    bool is_reset = false;   // and nothing has been counted since
     MovingColumns work, stored, dissipated;
     double rate_hz = 1.0, zero = 0.0;
     juce::String text;   // what is said about the balance

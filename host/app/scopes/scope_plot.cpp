@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tactus::host
 {
@@ -252,8 +253,11 @@ std::size_t ScopePlot::laneAt (juce::Point<float> p) const
     return nearest;
 }
 
-void ScopePlot::followCurves()
+void ScopePlot::followCurves (std::size_t curves)
 {
+    const bool are_others = std::exchange (followed, curves) != curves;   // their numbers mean others now
+    for (auto& c : spec.cursors)
+        if (are_others) c.curve.reset();
     for (auto& c : spec.cursors)
         if (c.curve && c.lane < lanes.size()) c = onCurve (c).value_or (c);
 }

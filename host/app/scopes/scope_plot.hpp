@@ -79,8 +79,8 @@ protected:
     /// there, or no curves over x.
     virtual std::optional<Cursor> onCurve (const Cursor&) const { return {}; }
 
-    /// Moves the cursors with their curves.
-    void followCurves();
+    /// Moves the cursors with their curves, of which the plot has so many. Where curves come or go, the cursors stay.
+    void followCurves (std::size_t curves);
 
     /// Lays out lanes, one per unit, which share the x axis.
     void layOut (const std::vector<std::string>& units);
@@ -123,6 +123,7 @@ private:
 
     std::map<std::string, AutoRange> ranges;
     bool dragged = false;
+    std::size_t followed = 0;   // curves
 };
 
 /// The colour of a component of the n-th port of a quantity. The first port has the quantity's colour, and components differ in lightness.

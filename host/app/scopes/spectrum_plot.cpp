@@ -28,7 +28,7 @@ void SpectrumPlot::show (const Signals& signals)
         scale (lanes[i], i, rate);
     for (auto& l : lines)
         l.path = pathOf (l.spectrum, lanes[l.lane]);
-    followCurves();
+    followCurves (lines.size());
 }
 
 /// Computes the spectra. Returns the rate in Hz.
@@ -133,12 +133,15 @@ std::optional<Cursor> SpectrumPlot::onCurve (const Cursor& c) const
     {
         const double step_hz = lines[n].spectrum.step_hz;
         const auto& amplitude = lines[n].spectrum.amplitude;
-        const auto first = std::lround (from_hz / step_hz);
-        if (lines[n].lane != c.lane || n != c.curve.value_or (n) || first < 0 || first >= std::ssize (amplitude)) continue;
-        double most = amplitude[static_cast<std::size_t> (first)];   // the curve keeps the highest of the lines that share a pixel
-        for (auto i = first; i < std::ssize (amplitude) && static_cast<double> (i) * step_hz <= to_hz; ++i)
-            most = std::max (most, amplitude[static_cast<std::size_t> (i)]);
-        if (! nearest || std::abs (height (most) - c.y) < std::abs (nearest->y - c.y)) nearest = Cursor { c.lane, c.x, height (most), n };
+        const auto count = std::ssize (amplitude), before = static_cast<std::ptrdiff_t> (c.x / step_hz);
+        if (lines[n].lane != c.lane || n != c.curve.value_or (n) || before < 1 || before + 1 >= count) continue;
+        const auto at = [&] (std::ptrdiff_t i) { return height (amplitude[static_cast<std::size_t> (i)]); };
+        double y = std::lerp (at (before), at (before + 1), c.x / step_hz - static_cast<double> (before));
+        auto i = static_cast<std::ptrdiff_t> (std::ceil (from_hz / step_hz));
+        if (static_cast<double> (i) * step_hz <= to_hz) y = at (i);   // the curve keeps the highest of the lines that share a pixel
+        for (; i < count && static_cast<double> (i) * step_hz <= to_hz; ++i)
+            y = std::max (y, at (i));
+        if (! nearest || std::abs (y - c.y) < std::abs (nearest->y - c.y)) nearest = Cursor { c.lane, c.x, y, n };
     }
     return nearest;
 }

@@ -76,7 +76,7 @@ void TimePlot::show (const Signals& signals)
         lanes[i].x_unit = "s";
         lanes[i].y = rangeOf (units[i], extents[i]);
     }
-    followCurves();
+    followCurves (lines.size());
 }
 
 std::vector<ScopePlot::Action> TimePlot::actions()

@@ -203,6 +203,20 @@ TEST_CASE ("scopes: a reset counts from now on, and says over what time", "[app]
     CHECK (meter.balance().dissipated == Approx (heat.at (11'999) - heat.at (8000)));
     CHECK (meter.balance().dissipated < 0.75 * heat.at (7999));
     CHECK (describe (meter.balance()).starts_with ("passive over 1.0\u00a0s: "));
+
+    auto with_another = rubbed.r.sources();   // an edit adds a node: what was before the reset still does not count
+    with_another.dissipated.push_back (traceOf (std::vector<double> (12'000, 0.0), 0, 4000.0));
+    meter.follow (with_another);
+    CHECK (meter.balance().dissipated == Approx (heat.at (11'999) - heat.at (8000)));
+}
+
+TEST_CASE ("scopes: the energy of a run that begins again in the same traces counts from its first tick", "[app][scopes]")
+{
+    Rubbed rubbed;
+    rubbed.r.tick = 0;   // as after STOP and START
+    rubbed.more (400);
+    CHECK (describe (rubbed.meter.balance()).starts_with ("passive over 0.1\u00a0s: "));
+    CHECK (rubbed.meter.balance().dissipated == Approx (rubbed.r.dissipated->at (399) - rubbed.r.dissipated->at (0)));
 }
 
 TEST_CASE ("scopes: a new run restarts the energy balance", "[app][scopes]")

@@ -236,6 +236,31 @@ TEST_CASE ("scopes: a frozen scope does not change while the run continues", "[a
     CHECK (plot.window().to == 4000.0);
 }
 
+TEST_CASE ("scopes: a cursor stays on its curve while the curve moves", "[app][scopes]")
+{
+    Bench b;
+    b.run (6000);
+    auto& view = b.view (ScopeKind::time);
+    auto& plot = view.plot();
+    const auto lane = plot.shownLanes().front();
+    const auto trace = b.live_run.traces().of (view.shown().ports.front()).front();   // x, along which the tool strokes
+    clickAt (plot, lane.toPixels (-0.5, trace->at (trace->end() - static_cast<std::uint64_t> (0.5 * trace->rate()))));
+    REQUIRE (view.shown().cursors.size() == 1);
+    const auto before = view.shown().cursors.front();
+    REQUIRE (before.curve);
+    std::vector<double> read;
+    for (int i = 0; i < 8; ++i)
+    {
+        b.run (400);
+        b.panel->refresh();
+        const auto& now = view.shown().cursors.front();
+        CHECK (now.x == before.x);
+        CHECK (now.curve == before.curve);
+        read.push_back (now.y);
+    }
+    CHECK (*std::ranges::max_element (read) > *std::ranges::min_element (read));
+}
+
 TEST_CASE ("scopes: two clicks measure, the wheel zooms time, and Shift+wheel zooms values around the pointer", "[app][scopes]")
 {
     Bench b;
