@@ -146,6 +146,8 @@ void LayerStrip::showSource()
     source.setButtonText (wired ? juce::String (graph::toText (w->from)) : TRANS ("not wired"));
     gate.setEnabled (wired);
     send.setEnabled (wired);
+    close.setTooltip (context->completeRemoval && onlySource() != nullptr ? TRANS ("Remove this layer, the node that feeds it, and its knobs")
+                                                                          : TRANS ("Remove this layer and its wires"));
     if (! wired)
     {
         source.setTooltip (filled (TRANS ("Draw a wire into %1"), juce::String (context->place.node) + ".in[" + juce::String (layer) + "]"));
@@ -277,7 +279,9 @@ const graph::Node* LayerStrip::onlySource() const
     if (wire == nullptr || patch == nullptr) return nullptr;
     const auto name = graph::firstNameOf (wire->from.node);
     const auto* node = patch->find (name);
-    const bool is_alone = std::ranges::count_if (patch->wires, [&] (const graph::Wire& w) { return graph::firstNameOf (w.from.node) == name; }) == 1;
+    const auto isFrom = [&] (const graph::Wire& w) { return graph::firstNameOf (w.from.node) == name; };
+    const auto isInto = [&] (const graph::Wire& w) { return w.to.node == wire->to.node && w.to.port == wire->to.port && w.to.index == wire->to.index; };
+    const bool is_alone = std::ranges::count_if (patch->wires, isFrom) == 1 && std::ranges::count_if (patch->wires, isInto) == 1;
     return node != nullptr && node->type.starts_with ("graph:") && is_alone ? node : nullptr;
 }
 

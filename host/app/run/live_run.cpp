@@ -275,7 +275,7 @@ void LiveRun::begin()
     if (hand_before && hand_role == role_before) held_at = HeldAt { held_before->position, hand_before->place() };
     probes.clear();
     auto of_devices = session->openDevices();
-    lacks_device = hasErrors (of_devices);
+    std::ranges::copy_if (of_devices, std::back_inserter (lacking), [] (const Message& m) { return m.severity == Message::Severity::error; });
     std::ranges::move (of_devices, std::back_inserter (said));
     if (lacksPluginDevice())
     {
@@ -298,6 +298,7 @@ void LiveRun::end()
     session.reset();
     rig.reset();
     hand_damping = hand_delay = 0.0;
+    lacking.clear();
     scene_feed.clear();
     port_feed.clear();
     pointer.reset();
@@ -346,8 +347,8 @@ void LiveRun::takeOver()
         return ! has_other_hand;
     });
     if (has_other_hand) return restart();
-    said = std::move (edited.messages);
-    lacks_device = false;
+    said = lacking;
+    std::ranges::move (edited.messages, std::back_inserter (said));
     if (! edited.is_taken_over) return;
     note (session->engine().newest());
     if (rig->limitsFirst (Sound::channels)) mutes_sound = true;

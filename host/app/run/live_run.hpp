@@ -115,7 +115,7 @@ public:
     bool isWanted() const noexcept { return wanted; }                               ///< started and not stopped since; it may still fail to compile
     bool isWaiting() const noexcept { return wanted && ! session; }                 ///< started, but the graph does not compile yet: an edit may start it
     bool isOfOpenGraph() const noexcept { return run_of == document.identity(); }   ///< false while the run of the previous graph still fades out
-    bool lacksDevice() const noexcept { return lacks_device; }                      ///< a device could not be opened as the graph or the session describes it
+    bool lacksDevice() const noexcept { return ! lacking.empty(); }                 ///< a device could not be opened as the graph or the session describes it
     const Hand& hand() const noexcept { return moved_by; }
 
     /// True if the mouse, or a path that the user has chosen, moves the tool of the role.
@@ -310,8 +310,8 @@ private:
     std::string log_program;
     bool is_logged = false;      // this run writes a log
     double hand_damping = 0.0;   // damping of the hand role's device, as seen in the graph's workspace, in N s/m
-    bool lacks_device = false;
-    double hand_delay = 0.0;   // of that device, in ticks
+    Messages lacking;            // of the run: why devices could not be opened
+    double hand_delay = 0.0;     // of that device, in ticks
     std::vector<RoleNeeds> needed;
     std::optional<Fuser::Options> fuses;   // empty: runs by the plan
     std::optional<std::int64_t> delay_ticks;

@@ -187,7 +187,7 @@ SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
     const bool halting = status->phase == RunStatus::Phase::halting;
     if (has_errors && run.isRunning() && ! run.isOfOpenGraph())
         now.state = filled (TRANS ("this graph cannot run: %1; the one before is felt until it stops"), firstError (run));
-    else if (has_errors && run.isRunning() && run.lacksDevice())
+    else if (has_errors && run.isRunning() && ! halting && run.lacksDevice())
         now.state = filled (TRANS ("runs without a device: %1"), firstError (run));
     else if (has_errors)
         now.state = run.isRunning() && ! halting ? TRANS ("edit has errors; still running the last valid version") : whyNot (run);
