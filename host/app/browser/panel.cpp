@@ -24,10 +24,10 @@ struct PartChoice
 };
 
 constexpr std::array<PartChoice, 4> part_choices {
-    { { NEEDS_TRANS ("Add without its walls"), NEEDS_TRANS ("Add %1, without its walls"), nullptr },
-      { NEEDS_TRANS ("Add only its friction"), NEEDS_TRANS ("Add %1, only its friction"), &compose::Parts::friction },
-      { NEEDS_TRANS ("Add only its textures"), NEEDS_TRANS ("Add %1, only its textures"), &compose::Parts::textures },
-      { NEEDS_TRANS ("Add only its vibrations"), NEEDS_TRANS ("Add %1, only its vibrations"), &compose::Parts::vibrations } }
+    { { NEEDS_TRANS ("Add without its walls"), NEEDS_TRANS ("Add %1: all but its walls"), nullptr },
+      { NEEDS_TRANS ("Add only its friction"), NEEDS_TRANS ("Add %1: friction only"), &compose::Parts::friction },
+      { NEEDS_TRANS ("Add only its textures"), NEEDS_TRANS ("Add %1: textures only"), &compose::Parts::textures },
+      { NEEDS_TRANS ("Add only its vibrations"), NEEDS_TRANS ("Add %1: vibrations only"), &compose::Parts::vibrations } }
 };
 
 compose::Parts partsFor (const PartChoice& c)

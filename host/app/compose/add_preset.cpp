@@ -209,8 +209,8 @@ Result<AddedPreset> addPreset (const graph::Graph& open, graph::Graph added, con
     AddedPreset made { graph::Batch {}, block.name, block.id, called, {}, std::max (open.rate_hz, added.rate_hz) };
     const auto number = block.name.substr (std::min (block.name.size(), idFor (called).size()));   // "_2" for a second one
     if (number.starts_with ('_')) made.label += ' ' + number.substr (1);
-    made.label += partText (how.parts);
     moveControls (*after, added, block.name, made.label);
+    made.label += partText (how.parts);
     moveSources (*after, added, block.name);
     after->files.insert (added.files.begin(), added.files.end());
     after->rate_hz = made.rate_hz;

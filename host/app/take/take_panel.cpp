@@ -233,7 +233,8 @@ void TakePanel::openMenu()
         p.onOpen ([&p] (const std::filesystem::path& log) { p.open (log, false); });
     });
     const bool is_pinned = curve.hasPinned();
-    add (is_pinned ? TRANS ("Compare with no take") : TRANS ("Compare others with this take"), is_pinned || (has_take && curve.length() > 0.0), false,
+    const bool can_pin = has_take && recording.state() == Take::State::ready && curve.length() > 0.0;
+    add (is_pinned ? TRANS ("Stop comparing") : TRANS ("Compare others with this take"), is_pinned || can_pin, false,
          [] (TakePanel& panel) { panel.togglePinned(); });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (list));
 }

@@ -16,7 +16,7 @@ namespace tactus::host
 namespace
 {
 constexpr float edge_grip = 6.0f;   // pixels beside an edge
-constexpr double key_step = 0.01;   // s
+constexpr double key_step = 0.01;   // s, less in a zoomed view
 }   // namespace
 
 TakePlot::TakePlot()
@@ -47,13 +47,16 @@ void TakePlot::setView (double from, double until)
 void TakePlot::findRange()
 {
     low = high = 0.0;
-    for (const auto* stretch : { &shown, showsPinned() ? &pinned : &shown })
-        for (const double v : stretch->values)
+    const auto include = [this] (const Stretch& s) {
+        for (const double v : s.values)
             if (std::isfinite (v))
             {
                 low = std::min (low, v);
                 high = std::max (high, v);
             }
+    };
+    include (shown);
+    if (showsPinned()) include (pinned);
     if (high - low < 1e-12) high = low + 1.0;
 }
 
@@ -115,9 +118,9 @@ void TakePlot::columnsOf()
     for (std::size_t c = 0; c < columns.size(); ++c)
         for (std::size_t x = 0; x < width; ++x)
         {
-            const auto begin = std::min (ticks - 1, tickAt (x)), end = std::max (begin + 1, tickAt (x + 1));
+            const auto begin = std::min (ticks - 1, tickAt (x)), next = std::min (ticks - 1, tickAt (x + 1)), end = std::max (begin + 1, next);
             double least = shown.value (begin, c), most = least;
-            for (auto k = begin; k < std::min (end + 1, ticks); ++k)   // one more, so that the columns join
+            for (auto k = begin; k < (next > begin ? std::min (end + 1, ticks) : end); ++k)   // one more, so that columns of other ticks join
             {
                 least = std::min (least, shown.value (k, c));
                 most = std::max (most, shown.value (k, c));
@@ -171,8 +174,9 @@ void TakePlot::paintPinned (juce::Graphics& g) const
     for (std::size_t c = 0; c < pinned.names.size(); ++c)
         for (std::size_t x = 0; x < width; ++x)
         {
-            const double begin = std::max (0.0, tickAt (x));
-            const double end = std::min (static_cast<double> (pinned.ticks()), std::max (tickAt (x + 1), begin + 1.0) + 1.0);   // one more, as above
+            const double begin = std::floor (tickAt (x)), next = std::floor (tickAt (x + 1));
+            if (begin < 0.0) continue;                                                                                     // before what is kept of it
+            const double end = std::min (static_cast<double> (pinned.ticks()), next > begin ? next + 1.0 : begin + 1.0);   // one more, as above
             Extent all;
             for (auto k = static_cast<std::size_t> (begin); static_cast<double> (k) < end; ++k)
                 if (std::isfinite (pinned.value (k, c))) all.include (pinned.value (k, c));
@@ -208,14 +212,17 @@ void TakePlot::paintMark (juce::Graphics& g) const
     const auto box = area();
     const auto within = [&] (float x) { return std::clamp (x, box.getX(), box.getRight()); };
     const float a = within (xAt (from_s)), b = within (xAt (until_s));
+    const auto paintEdge = [&] (double s) {
+        if (s >= view_from && s <= view_until) g.fillRect (xAt (s) - 1.0f, box.getY(), 2.0f, box.getHeight());
+    };
     g.setColour (theme.canvas.withAlpha (0.45f));
     g.fillRect (box.withRight (a));
     g.fillRect (box.withLeft (b));
     g.setColour (theme.accent.withAlpha (0.10f));
     g.fillRect (box.withLeft (a).withRight (b));
     g.setColour (theme.accent);
-    g.fillRect (a - 1.0f, box.getY(), 2.0f, box.getHeight());
-    g.fillRect (b - 1.0f, box.getY(), 2.0f, box.getHeight());
+    paintEdge (from_s);
+    paintEdge (until_s);
     g.setColour (theme.dim);
     g.setFont (look.font (11.0f));
     const auto low_edge = getLocalBounds().removeFromBottom (15).reduced (2, 0);
@@ -309,7 +316,7 @@ bool TakePlot::keyPressed (const juce::KeyPress& key)
 {
     const bool left = key.getKeyCode() == juce::KeyPress::leftKey, right = key.getKeyCode() == juce::KeyPress::rightKey;
     if ((! left && ! right) || shown.ticks() == 0) return false;
-    const double by = left ? -key_step : key_step;
+    const double step = std::min (key_step, 0.02 * viewLength()), by = left ? -step : step;
     if (key.getModifiers().isShiftDown())
         mark (from_s, std::max (from_s, until_s + by));
     else if (from_s + by >= 0.0 && until_s + by <= length())

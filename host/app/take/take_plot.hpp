@@ -16,7 +16,7 @@ class TakePlot final : public juce::Component
 public:
     TakePlot();
 
-    void show (Stretch);   ///< shows the whole recording; if it has no ticks, shows the text
+    void show (Stretch);   ///< keeps the zoomed part, if the recording is as long; if it has no ticks, shows the text
     void setText (const juce::String&);
 
     /// Draws a copy of the curve that is shown now behind those that are shown later, if they have its unit. Both begin with their takes.

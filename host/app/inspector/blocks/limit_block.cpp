@@ -61,7 +61,7 @@ juce::String LimitBlock::textOf (const ContactLimit& c)
                + (c.passive_up_to < 1.0 ? filled (TRANS ("; passive up to %1 times this stiffness and damping"), factorText (c.passive_up_to))
                                         : juce::String());
     if (c.verdict == Verdict::stable)
-        return filled (TRANS ("Stable on %1 with usual hands. The linear loop (no bounces) rests up to %2 times this stiffness and damping; passive up to "
+        return filled (TRANS ("Stable on %1 with usual hands. The linear loop (no bounces) is stable up to %2 times this stiffness and damping; passive up to "
                               "%3 times"),
                        device, factorText (c.stable_up_to), factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable)

@@ -109,18 +109,18 @@ TEST_CASE ("the menu of a preset adds it or a part of it, and Ctrl+Return adds t
     CHECK (compose::bypassedBanks (w.graph(), catalogue()).empty());
 
     const auto actions = w.panel->actions();   // which Ctrl+K finds
-    const auto denim = std::ranges::find (actions, juce::String ("Add Denim, without its walls"), &Panel::Action::name);
+    const auto denim = std::ranges::find (actions, juce::String ("Add Denim: all but its walls"), &Panel::Action::name);
     REQUIRE (denim != actions.end());
     denim->act();
     REQUIRE (w.graph().find ("denim") != nullptr);
     CHECK (w.graph().root.find ("denim") != nullptr);
-    const auto grain = std::ranges::find (actions, juce::String ("Add Dry wood, only its textures"), &Panel::Action::name);
+    const auto grain = std::ranges::find (actions, juce::String ("Add Dry wood: textures only"), &Panel::Action::name);
     REQUIRE (grain != actions.end());
     grain->act();
     REQUIRE (w.graph().find ("dry_wood_3") != nullptr);
     CHECK (w.graph().find ("dry_wood_3")->find ("grain") != nullptr);
     CHECK (w.graph().find ("dry_wood_3")->find ("drag") == nullptr);
-    CHECK (std::ranges::find (actions, juce::String ("Add Dry wood, only its vibrations"), &Panel::Action::name) == actions.end());   // it has none
+    CHECK (std::ranges::find (actions, juce::String ("Add Dry wood: vibrations only"), &Panel::Action::name) == actions.end());   // it has none
 }
 
 TEST_CASE ("a file that is dropped on the canvas is added, and opens where nothing is open", "[app][compose]")

@@ -559,7 +559,7 @@ TEST_CASE ("the inspector says how steep the contact of the selected node may be
     const auto text = [] (Verdict verdict, double passive, double stable) { return LimitBlock::textOf ({ "wall", "A", verdict, passive, stable }); };
     CHECK (text (Verdict::passive, 2.0, 0.0).startsWith ("Passive on A, up to 2 times"));
     CHECK (text (Verdict::passive_here, 2.0, 0.0).startsWith ("Passive on A along this motion"));
-    CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands. The linear loop (no bounces) rests up to 2 times this stiffness"));
+    CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands. The linear loop (no bounces) is stable up to 2 times this stiffness"));
     CHECK (text (Verdict::stable, 0.5, 0.75).startsWith ("It comes to rest in a trial with A"));   // dry friction holds it
     CHECK (text (Verdict::unstable, 0.5, 0.75).startsWith ("It swings on A"));
     CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("It does not come to rest in a trial with A"));   // it bounces

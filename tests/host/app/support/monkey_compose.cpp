@@ -28,7 +28,7 @@ std::string Monkey::compose()
     case 0:
     case 1:
         if (is_large) return "enough";
-        return say ("ctrl + k", "Add " + preset() + (upTo (2) == 0 ? "" : ", without its walls"));
+        return say ("ctrl + k", "Add " + preset() + (upTo (2) == 0 ? "" : ": all but its walls"));
     case 2:
         if (is_large) return "enough";
         focusCanvas();

@@ -247,5 +247,24 @@ TEST_CASE ("the axis of a take that is longer than what is shown follows", "[tak
     CHECK ((says ("0 s") && says ("10.00 s")));
     plot.show (shown (1250));
     CHECK ((says ("12.50 s") && says ("22.50 s") && ! says ("0 s")));
+
+    // The wheel zooms around the pointer, Shift and the wheel move, and a double click shows all.
+    plot.show (shown (0));
+    const juce::Point<float> middle { 300.0f, 90.0f };
+    const auto event = [&] (int mods) {
+        const auto now = juce::Time::getCurrentTime();
+        return juce::MouseEvent (juce::Desktop::getInstance().getMainMouseSource(), middle, juce::ModifierKeys (mods), 1.0f, 0, 0, 0, 0, &plot, &plot, now,
+                                 middle, now, 1, false);
+    };
+    plot.mouseWheelMove (event (0), { 0.0f, 0.5f, false, false, false });
+    CHECK ((says ("2.50 s") && says ("7.50 s")));
+    plot.mouseWheelMove (event (juce::ModifierKeys::shiftModifier), { 0.0f, -10.0f, false, false, false });
+    CHECK ((says ("5.00 s") && says ("10.00 s")));
+    plot.mouseWheelMove (event (0), { 0.0f, -10.0f, false, false, false });
+    CHECK ((says ("0 s") && says ("10.00 s")));
+    plot.mouseWheelMove (event (0), { 0.0f, 20.0f, false, false, false });
+    CHECK_FALSE (says ("10.00 s"));
+    plot.mouseDoubleClick (event (0));
+    CHECK ((says ("0 s") && says ("10.00 s")));
     plot.setLookAndFeel (nullptr);
 }
