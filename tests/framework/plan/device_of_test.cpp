@@ -131,7 +131,7 @@ TEST_CASE ("the wall's warning of a rate too low uses the mass that the graph de
     const auto messages = s.compile().messages;
     REQUIRE (has (messages, "node/warning"));
     CHECK (messages[0].where == "/nodes/wall");
-    CHECK (messages[0].text.find ("2200 Hz") != std::string::npos);
+    CHECK (messages[0].text.find ("3800 Hz") != std::string::npos);
     s.graph.rate_hz = 4000.0;
     CHECK_FALSE (has (s.compile().messages, "node/warning"));
     s.graph.devices[1].second["mass"] = "no mass";   // the error is reported only when the device is made
