@@ -320,11 +320,9 @@ private:
         for (const auto& r : places.front()->responses)
             if (largestRadius (r, numbers, period_s).value_or (0.0) > largestRadius (*worst, numbers, period_s).value_or (0.0)) worst = &r;
         const auto best = strongestChange (*worst, at (*places.front()), period_s, isDragged (worst));
-        if (! best || best->room <= c.may_grow) return;
+        if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < 1.0 && ! (c.may_grow > 0.0))) return;
         if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
-        {
-            if (c.may_grow > 0.0) c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
-        }
+            c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
         else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
     }

@@ -18,10 +18,9 @@ Inside insideOf (const Graph& owner, const Node& node)
     return file == owner.files.end() ? Inside {} : Inside { file->second.get(), &file->second->root };
 }
 
-constexpr int deepest = 32;   // a broken graph may contain itself
-
 Endpoint innermost (const Graph& g, const Patch& p, Endpoint e, std::vector<std::pair<std::string, Endpoint>> Expose::*list)
 {
+    constexpr int deepest = 32;   // a broken graph may contain itself
     for (auto all = e.node.find ("[*]"); all != std::string::npos; all = e.node.find ("[*]"))
         e.node.erase (all, 3);
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 namespace tactus::host
 {
@@ -38,7 +37,6 @@ bool isWhole (const std::array<double, 3>& v) { return std::isfinite (v[0]) && s
 void EnergyMeter::restart()
 {
     now = {};
-    read.clear();
     shown.clear();
     is_reset = true;
 }
@@ -53,24 +51,15 @@ void EnergyMeter::begin (const Sources& s)
     shown = { work, stored, dissipated };
     has_last = was_gap = false;
     last_step = {};
-    const auto& reference = s.position.front();
-    begun = reference->beginnings();
-    next = 0;
-    std::uint64_t end = 0;
+    const auto& reference = *s.position.front();
+    const bool is_same_run = ! read.empty() && read.front().get() == &reference && begun == reference.beginnings();
+    begun = reference.beginnings();
+    first = is_same_run ? next : 0;
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
-        {
-            next = std::max (next, t->begin());
-            end = std::max (end, t->end());
-        }
-    if (std::exchange (is_reset, false))
-    {
-        reset_of = reference;
-        reset_begun = begun;
-        reset_tick = end;
-    }
-    if (reset_of.lock() == reference && reset_begun == begun) next = std::max (next, reset_tick);
-    first = next;
+            first = std::max (first, is_reset ? t->end() : t->begin());
+    next = first;
+    is_reset = false;
 }
 
 void EnergyMeter::follow (const Sources& s)
@@ -82,7 +71,7 @@ void EnergyMeter::follow (const Sources& s)
     auto end = all.front()->end();
     for (const auto& t : all)
         end = std::min (end, t->end());
-    if (all != read || all.front()->beginnings() != begun || all.front()->begin() > next)   // ticks that are no longer stored are lost
+    if (is_reset || all != read || all.front()->beginnings() != begun || all.front()->begin() > next)   // ticks that are no longer stored are lost
     {
         begin (s);
         read = std::move (all);

@@ -42,7 +42,8 @@ public:
         TraceList stored, dissipated;
     };
 
-    /// Processes the new ticks. Restarts if it gets different traces, or those of a new run.
+    /// Processes the new ticks. Begins again if it gets different traces, or those of a new run; in the same run, what it has read does not
+    /// count again.
     void follow (const Sources&);
     void restart();   ///< from zero; what the traces of this run hold already does not count
 
@@ -59,11 +60,9 @@ private:
     TraceList read;   // the traces that the last follow() read
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
-    std::uint64_t next = 0;
+    std::uint64_t first = 0, next = 0;   // the first tick that counts, and the one to read next
+    std::uint64_t begun = 0;             // beginnings of the first trace
     bool has_last = false, was_gap = false, is_reset = false;
-    std::weak_ptr<const Trace> reset_of;                        // the first trace at the reset
-    std::uint64_t begun = 0, reset_begun = 0, reset_tick = 0;   // beginnings of the first trace; at the reset; and the first tick after it
-    std::uint64_t first = 0;                                    // the first tick that counts
     std::array<double, 3> last {}, last_force {}, last_step {};
     double lost_first = 0.0;
 };

@@ -121,7 +121,7 @@ const std::vector<Mistake> mistakes {
     { "a unit that is misspelt", R"("0.4 mm")", R"("0.4 milimeter")", "unit/syntax", R"("d_max")", "text with a unit" },
     { "the unit of something else", R"("2 N/mm")", R"("2 N")", "param/unit", R"("stiffness": "2 N")", "N/m" },
     { "a number of mm without a unit", R"("d_max": "0.4 mm")", R"("d_max": 0.4)",
-      "param/unusual", R"("d_max")", "check the unit" },
+      "param/unusual", R"("d_max")", "check its unit" },
     { "a negative friction", R"("mu": 0.4)", R"("mu": -0.4)", "param/out_of_range", R"("mu")", "at least 0" },
     { "a vector of two numbers", R"("damping": 1.0 })", R"("damping": 1.0, "normal": [0, 1] })",
       "param/shape", R"("normal")", "[0, 0, 1]" },

@@ -114,7 +114,10 @@ TEST_CASE ("a contact that rests but is not passive is near a limit, and each sh
     c.may_grow = 1.9;
     CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of foot is not passive on stylus (simulated), but rests with usual hands");
 
-    const auto listed = [] (const char* preset) { return idsOf (checked (loadGraph (std::string (TACTUS_SOURCE_DIR "/graphs/") + preset).graph)); };
+    const auto listOf = [] (const char* preset) { return checked (loadGraph (std::string (TACTUS_SOURCE_DIR "/graphs/") + preset).graph); };
+    const auto listed = [&] (const char* preset) { return idsOf (listOf (preset)); };
+    for (const auto& l : listOf ("rubber_ball.json").limits)
+        CHECK (l.details.find (" left (") == std::string::npos);
     CHECK (listed ("rubber_ball.json").find ("stiffness") != std::string::npos);   // 1.01 of 0.5 N s/m
     CHECK (listed ("rubber_ball.json").find ("stiffness!") == std::string::npos);
     CHECK (listed ("dry_wood.json").find ("stiffness") == std::string::npos);   // its slopes are passive
