@@ -46,7 +46,7 @@ public:
         }
         if (! role.axis.empty()) return std::move (conditions);   // the other conditions are about the tool
         for (const auto& s : demand.stretches)
-            if (s.role == role.role) stretch (s);
+            if (s.role == role.role) stretch (s), teeth (s);
         for (const auto& wall : demand.deadbeats)
             if (wall.role == role.role) deadbeat (wall);
         for (const auto& t : demand.textures)
@@ -476,6 +476,12 @@ private:
         decide (c, delta, limit, Strict::yes, Factors::better,
                 (has_teeth ? "teeth " : "a stretch ") + above (1e7 * delta, "um") + (has_teeth ? " (d_max times static_ratio - 1)" : "")
                     + ", or a quantum " + below (1e5 * limit, "um"));
+    }
+
+    /// A hand that crosses a tooth in less than a tick feels teeth of another length.
+    void teeth (const Stretch& s)
+    {
+        if (s.teeth > 0.0) judgeTeeth (demand, s, numbers, options, add (s.node, "scanning", "alpha k v T < 1", "1", ""));
     }
 
     /// The node computes the speed from the last positions, and the forces that change it within two ticks. A position that is wrong by

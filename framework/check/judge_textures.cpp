@@ -12,6 +12,23 @@ namespace tactus::check::judging
 
 namespace
 {
+double betterThan (double factor) noexcept { return std::max (1.0, Factors::better / factor); }
+
+/// The factor that the remedy aims at: the recommended one if the condition already holds with `factor`.
+double wanted (double factor, double value, double limit) noexcept { return factor * value < limit ? std::max (factor, Factors::better) : factor; }
+
+std::string slower (double speed) { return "slower than " + text (threeDigits (speed, false), "m/s"); }
+
+/// Sets the condition `scanning` for ridges of the frequency k, in 1/m, that a hand crosses at v, in m/s. `other`: a further remedy.
+void judgeScanning (Condition& c, double k, double v, double period_s, const DeviceNumbers& numbers, double alpha, std::string other)
+{
+    const double aim = wanted (alpha, k * v * period_s, 1.0);
+    std::vector<std::string> ways { "strokes " + slower (1.0 / (aim * k * period_s)) };
+    if (reaches (numbers, aim * k * v)) ways.push_back ("a rate " + above (aim * k * v, "Hz"));
+    ways.push_back (std::move (other));
+    decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha), anyOf (ways));
+}
+
 /// The conditions of Table 1 for one texture.
 class TextureJudge
 {
@@ -47,22 +64,13 @@ private:
 
     double speed() const noexcept { return options.speed > 0.0 ? options.speed : t.speed; }
 
-    static double betterThan (double factor) noexcept { return std::max (1.0, Factors::better / factor); }
-
-    /// The factor that the remedy aims at: the recommended one if the condition already holds with `factor`.
-    static double wanted (double factor, double value, double limit) noexcept { return factor * value < limit ? std::max (factor, Factors::better) : factor; }
-
     std::string wave() const { return "k " + text (t.spatial_frequency, "1/m"); }
 
     void scanning()
     {
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speed();
         auto& c = add ("scanning", "alpha k v T < 1", "1", wave() + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
-        const double aim = wanted (alpha, k * v * period_s, 1.0);
-        std::vector<std::string> ways { "strokes " + slower (1.0 / (aim * k * period_s)) };
-        if (reaches (numbers, aim * k * v)) ways.push_back ("a rate " + above (aim * k * v, "Hz"));
-        ways.emplace_back ("a texture.antialias");
-        decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha), anyOf (ways));
+        judgeScanning (c, k, v, period_s, numbers, alpha, "a texture.antialias");
     }
 
     void lowSpeed()
@@ -86,8 +94,6 @@ private:
     }
 
     static std::string finerSensor (double factor, double k) { return "a quantum " + below (1e6 / (factor * k), "um") + ", or a coarser texture"; }
-
-    static std::string slower (double speed) { return "slower than " + text (threeDigits (speed, false), "m/s"); }
 
     void forceResolution()
     {
@@ -131,6 +137,15 @@ private:
     }
 };
 }   // namespace
+
+void judgeTeeth (const Demand& demand, const Stretch& s, const DeviceNumbers& numbers, const JudgeOptions& options, Condition& c)
+{
+    const double v = options.speed > 0.0 ? options.speed : s.speed;
+    c.text = "teeth of " + text (1e6 * s.teeth, "um") + ", v " + text (v, "m/s") + ", alpha " + text (options.factors.alpha);
+    const double period_s = periodOf (demand, numbers), aim = wanted (options.factors.alpha, v * period_s, s.teeth);
+    judgeScanning (c, 1.0 / s.teeth, v, period_s, numbers, options.factors.alpha,
+                   "teeth " + above (1e6 * aim * v * period_s, "um") + " (d_max times static_ratio - 1)");
+}
 
 void judgeTexture (const Demand& demand, const Texture& texture, const DeviceNumbers& numbers, const JudgeOptions& options, std::vector<Condition>& all)
 {

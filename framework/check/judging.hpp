@@ -143,6 +143,7 @@ inline void unknown (Condition& c, double value, std::string_view missing)
 {
     c.value = value;
     c.remedy = "the device's " + std::string (missing) + " is not known: add it to \"physics\" in its profile";
+    if (missing == "peak force") c.remedy += "; that of a simulated device is the max_force of its guard";
 }
 
 /// The tick period, in s. A device that is slower than the graph holds each force for longer.
@@ -184,6 +185,9 @@ void weigh (const Demand&, const Trials*, Condition&, std::span<const RoleDemand
 
 /// Sets the condition `deadbeat`.
 void judgeDeadbeat (const Demand&, const Deadbeat&, const DeviceNumbers&, Condition&);
+
+/// Sets the condition `scanning` for the teeth of stick-slip.
+void judgeTeeth (const Demand&, const Stretch&, const DeviceNumbers&, const JudgeOptions&, Condition&);
 
 /// Adds the conditions of Table 1 for a texture.
 void judgeTexture (const Demand&, const Texture&, const DeviceNumbers&, const JudgeOptions&, std::vector<Condition>&);

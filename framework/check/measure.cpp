@@ -176,24 +176,34 @@ private:
             for (auto& w : free)
                 w.poll (2 * ticks >= motion.ticks);
             for (auto& w : stretches)
-                w.poll (running);
+                w.poll (running, ticks);
             textures.poll (running, ticks);
             if (++ticks == motion.ticks)
                 for (const auto& w : free)
                     if (w.hasPlayed()) demand.players.push_back (w.node);
         });
-        for (const auto& role : motion.roles)
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
         {
+            const auto& role = motion.roles[r];
             const auto& its = between.emplace_back (nodesOf (*plan, role.role));
             for (const auto& w : stretches)
             {
                 if (! its[w.node()] || role.axis) continue;
                 if (w.shortest() < inf)
-                    demand.stretches.push_back ({ w.node(), role.role, w.shortest(), w.teeth() });
+                    demand.stretches.push_back ({ w.node(), role.role, w.shortest(), w.teeth(), fastestAt (r, w.feltTicks()) });
                 else if (! w.wasFelt())
                     demand.unreached.push_back ({ w.node(), role.role, false });
             }
         }
+    }
+
+    /// The largest speed of the tool at these ticks, in m/s.
+    double fastestAt (std::size_t r, const std::vector<std::size_t>& ticks) const
+    {
+        double most = 0.0;
+        for (const auto k : ticks)
+            most = std::max (most, velocityAt (motion, r, k).norm());
+        return most;
     }
 
     void addRole (std::size_t r)

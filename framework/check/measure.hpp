@@ -90,6 +90,7 @@ struct Stretch
     std::string role;
     double d_max = 0.0;   ///< the shortest stretch at which it slides while at least half of its largest drag is felt, in m
     double teeth = 0.0;   ///< length of the teeth of stick-slip, in m; 0 without stick-slip
+    double speed = 0.0;   ///< largest speed of the tool while at least half of the largest drag is felt, in m/s
 };
 
 /// A wall of hold.deadbeat. It computes its force two ticks ahead for a known mass, so it has no slope that a condition could judge.

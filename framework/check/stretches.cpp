@@ -57,8 +57,9 @@ StretchWatch::StretchWatch (const Plan& plan, std::size_t n, Kind k) : its_node 
     if (valueInFile (plan, n, "adhesion", 0.0) == 0.0) static_ratio = valueInFile (plan, n, "static_ratio", 1.0);   // only `stick` has teeth
 }
 
-void StretchWatch::poll (const Plan& plan)
+void StretchWatch::poll (const Plan& plan, std::size_t tick)
 {
+    now = tick;
     if (! (forces.largest() > 0.0)) return;
     kind == Kind::surface ? lookAtSurface (plan) : lookAtFriction (plan);
 }
@@ -66,11 +67,11 @@ void StretchWatch::poll (const Plan& plan)
 void StretchWatch::lookAtFriction (const Plan& plan)
 {
     const double drag = forces.largest(), d_max = param (plan, "d_max");
-    if (kind == Kind::fixed) return seen.emplace_back (drag, d_max), void();
+    if (kind == Kind::fixed) return seen.push_back ({ now, drag, d_max });
     const double stretch = vectorOutput (plan, "deflection").norm(), normal_force = input (plan, "normal_force");
     if (! (stretch > 0.0)) return;
     const double holds = param (plan, "mu") * normal_force;   // the drag while it slides
-    seen.emplace_back (holds, holds * stretch / drag * d_max / valueInFile (plan, its_node, "d_max", d_max));
+    seen.push_back ({ now, holds, holds * stretch / drag * d_max / valueInFile (plan, its_node, "d_max", d_max) });
 }
 
 void StretchWatch::lookAtSurface (const Plan& plan)
@@ -80,16 +81,32 @@ void StretchWatch::lookAtSurface (const Plan& plan)
     const double depth = output (plan, "depth");
     if (! (depth > 0.0)) return;
     if (output (plan, "state") == 2.0) ratio = std::max (ratio, (d - n.dot (d) * n).norm() / depth);
-    seen.emplace_back (forces.largest(), depth);
+    seen.push_back ({ now, forces.largest(), depth });
+}
+
+double StretchWatch::largestDrag() const noexcept
+{
+    double most = 0.0;
+    for (const auto& s : seen)
+        most = std::max (most, s.drag);
+    return most;
+}
+
+std::vector<std::size_t> StretchWatch::feltTicks() const
+{
+    std::vector<std::size_t> ticks;
+    const double most = largestDrag();
+    for (const auto& s : seen)
+        if (s.drag >= felt_drag * most) ticks.push_back (s.tick);
+    return ticks;
 }
 
 double StretchWatch::shortest() const noexcept
 {
-    double most = 0.0, least = std::numeric_limits<double>::infinity();
-    for (const auto& [drag, stretch] : seen)
-        most = std::max (most, drag);
-    for (const auto& [drag, stretch] : seen)
-        if (drag >= felt_drag * most) least = std::min (least, stretch);
+    double least = std::numeric_limits<double>::infinity();
+    const double most = largestDrag();
+    for (const auto& s : seen)
+        if (s.drag >= felt_drag * most) least = std::min (least, s.stretch);
     if (kind != Kind::surface) return least;
     constexpr double frictionless = 1e-3;   // a contact without friction stays within this ratio of the projection of the tool
     return ratio > frictionless ? ratio * least : std::numeric_limits<double>::infinity();

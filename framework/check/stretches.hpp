@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace tactus::check
@@ -31,12 +30,13 @@ public:
     /// Empty if the node does not stretch like this.
     static std::optional<StretchWatch> of (const Plan&, std::size_t node);
 
-    void poll (const Plan&);   ///< call after each tick
+    void poll (const Plan&, std::size_t tick);   ///< call after each tick
 
     std::size_t node() const noexcept { return its_node; }
     double shortest() const noexcept;                          ///< s, in m; infinite if the node gave no force
     bool wasFelt() const noexcept { return ! seen.empty(); }   ///< the node gave a force
     double teeth() const noexcept;                             ///< length of the teeth of stick-slip at this stretch, in m; 0 without stick-slip
+    std::vector<std::size_t> feltTicks() const;                ///< the ticks at which at least half of its largest drag is felt
 
 private:
     enum class Kind
@@ -58,9 +58,20 @@ private:
     std::size_t its_node;
     Kind kind;
     NodeForces forces;
-    std::vector<std::pair<double, double>> seen {};   // for each tick with a force: drag in N, stretch in m (of a surface: depth in m)
-    double ratio = 0.0;                               // of a surface: mu_c
-    double static_ratio = 1.0;                        // 1: no stick-slip
+    /// A tick with a force.
+    struct Seen
+    {
+        std::size_t tick;
+        double drag;      // N
+        double stretch;   // m; of a surface, its depth
+    };
+
+    double largestDrag() const noexcept;
+
+    std::vector<Seen> seen {};
+    std::size_t now = 0;         // the tick of the last poll
+    double ratio = 0.0;          // of a surface: mu_c
+    double static_ratio = 1.0;   // 1: no stick-slip
 };
 
 }   // namespace tactus::check

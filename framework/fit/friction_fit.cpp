@@ -269,6 +269,26 @@ void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFi
     if (search.offsets() > 0)
         values.push_back (detail::withInterval ("zero of the force", "N", result.offset, std::sqrt (covariance (3, 3)) * drag.reference_load, freedom, false));
 }
+
+/// Adds a lack if a force proportional to the speed would explain most of what the fit leaves. A constant speed is no different from dry friction, so
+/// only the part of the speed counts that does not look like the fitted force.
+void reportSpeed (const Drag& drag, const VectorXd& modelled, FitReport& report)
+{
+    constexpr double most_of_it = 0.5, noticeable = 0.03;   // shares of the squared residual, and of the recorded force
+    const auto n = static_cast<Index> (drag.size()), reach = std::max<Index> (1, n / 400);
+    VectorXd speed (n);   // a displacement per row
+    for (Index i = 0; i < n; ++i)
+    {
+        const auto before = std::max<Index> (0, i - reach), after = std::min (n - 1, i + reach);
+        speed[i] = (drag.position[static_cast<std::size_t> (after)] - drag.position[static_cast<std::size_t> (before)]) / static_cast<double> (after - before);
+    }
+    const VectorXd left = Eigen::Map<const VectorXd> (drag.force.data(), n) - modelled, dry = modelled.array() - modelled.mean();
+    const VectorXd other = speed - (speed.dot (dry) / std::max (1e-300, dry.squaredNorm())) * dry;
+    const double along = left.dot (other), share = along * along / std::max (1e-300, left.squaredNorm() * other.squaredNorm());
+    if (share < most_of_it || std::sqrt (share) * report.residual < noticeable * report.size) return;
+    report.lacking.push_back (std::string ("a force that ") + (along < 0.0 ? "grows" : "falls") + " with the speed would explain " + percentText (share)
+                              + " of what the model leaves, and the model has none");
+}
 }   // namespace
 
 std::vector<double> FrictionFit::forceAlong (const RecordedDrag& recorded) const
@@ -328,6 +348,7 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
                        "friction force",
                        "N",
                        { { "recorded", moved, drag.force, true }, { "fitted", moved, { modelled.begin(), modelled.end() } } } };
+    reportSpeed (drag, modelled, report);
     judge (report,
            "Record at least three slow strokes back and forth, each several times longer than the distance that the contact stretches "
            "before it slides.");

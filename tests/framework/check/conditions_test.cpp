@@ -20,7 +20,7 @@ struct Board
 {
     double rate_hz = 2000.0;
     double stiffness = 200.0, damping = 0.0;             // of the wall, N/m and N s/m
-    double d_max = 1e-3;                                 // m
+    double d_max = 1e-3, static_ratio = 1.0;             // m, and the length of teeth over d_max, plus 1
     double amplitude = 0.1, spatial_frequency = 100.0;   // of the grating, N and 1/m
     double knock = 0.0;                                  // amplitude of a square wave, N
     const char* path = "stroke";
@@ -34,7 +34,7 @@ struct Board
         for (auto& node : s.graph.root.nodes)
             node.role = "tip";
         s.node ("wall", "deform.plane", { { "stiffness", stiffness }, { "damping", damping } });
-        s.node ("drag", "friction.elasto_plastic", { { "d_max", d_max } });
+        s.node ("drag", "friction.elasto_plastic", { { "d_max", d_max }, { "static_ratio", static_ratio } });
         s.node ("ribs", "texture.grating", { { "amplitude", amplitude }, { "spatial_frequency", spatial_frequency } });
         s.node ("square", "signal.lfo", { { "amplitude", knock }, { "shape", "square" }, { "frequency", 20.0 } }).node ("knock", "vector.join");
         s.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("hand.position -> ribs.position");
@@ -111,6 +111,35 @@ const check::Condition& named (const std::vector<check::Condition>& all, std::st
 
 using Names = std::set<std::string>;
 }   // namespace
+
+TEST_CASE ("teeth of stick-slip are scanned like a texture of their length", "[check]")
+{
+    Trial t;
+    t.board.static_ratio = 1.5;   // teeth of 0.5 mm
+    const auto scanned = [&] {
+        const auto all = t.conditions();
+        const auto at = std::ranges::find_if (all, [] (const auto& c) { return c.id == "scanning" && c.node == "drag"; });
+        REQUIRE (at != all.end());
+        return *at;
+    };
+    CHECK (scanned().value > 0.0);   // at the speed of the motion
+    const auto demand = t.demand();
+    REQUIRE (demand.stretches.size() == 1);
+    CHECK (demand.stretches.front().teeth == Approx (0.5 * demand.stretches.front().d_max));
+    CHECK (demand.stretches.front().speed > 0.0);
+    CHECK (demand.stretches.front().speed <= demand.roles.front().speed);
+    const double two_ticks = demand.stretches.front().teeth * t.board.rate_hz / 2.0;   // the speed at which a tooth lasts so long
+    t.options.speed = 0.98 * two_ticks;
+    CHECK (scanned().value == Approx (0.98));
+    CHECK (scanned().verdict == check::Verdict::close);
+    t.options.speed = 1.02 * two_ticks;
+    CHECK (scanned().isBroken());
+    CHECK (scanned().text.find ("teeth of ") == 0);
+    CHECK (scanned().remedy.find ("strokes slower than ") == 0);
+    t.board.static_ratio = 1.0;
+    for (const auto& c : t.conditions())
+        CHECK_FALSE ((c.id == "scanning" && c.node == "drag"));
+}
 
 TEST_CASE ("a good device breaks no condition, and all of them are judged", "[check]")
 {

@@ -91,7 +91,11 @@ const std::vector<std::pair<std::string, Follow>>& remedies()
         { "a device whose first mode is above ", [] (Case& c, double v) { c.device.first_mode->value = v * beyond; } },
         { "a stretch above ", [] (Case& c, double v) { c.stretchBy (1e-6 * v * beyond / c.demand.stretches.front().d_max); } },
         { "teeth above ", [] (Case& c, double v) { c.stretchBy (1e-6 * v * beyond / c.demand.stretches.front().teeth); } },
-        { "strokes slower than ", [] (Case& c, double v) { c.texture().speed = v / beyond; } },
+        { "strokes slower than ",
+          [] (Case& c, double v) {
+              c.texture().speed = v / beyond;
+              if (! c.demand.stretches.empty()) c.demand.stretches.front().speed = v / beyond;
+          } },
         { "a texture more than ", [] (Case& c, double v) { c.texture().amplitude *= v * beyond; } },
         { "a texture at most ", [] (Case& c, double v) { c.texture().slope *= v; } },
         { "a force quantum below ", [] (Case& c, double v) { c.device.force_quantum->value = v / beyond; } },
@@ -152,16 +156,19 @@ Case drawnCase()
     c.device.delay = DeviceNumber { .value = double (*rc::gen::inRange (0, 4)), .source = "made up" };
     c.demand.rate_hz = drawn (500.0, 1e4);
     if (*rc::gen::arbitrary<bool>()) c.device.rate = DeviceNumber { .value = c.demand.rate_hz * drawn (1.0, 8.0), .source = "made up" };
-    c.demand.nodes = { { "node", "some.node" } };
+    c.demand.nodes = { { "node", "some.node" }, { "texture", "some.texture" } };
     check::Slope slope { .stiffness = drawn (10.0, 1e5), .by_node = { 1.0 } };
     if (*rc::gen::arbitrary<bool>()) slope.damping = drawn (1e-2, 50.0);
     if (*rc::gen::arbitrary<bool>()) slope.lag = slope.stiffness / c.demand.rate_hz * drawn (0.1, 3.0);
     const double peak = drawn (0.1, 20.0), fastest = drawn (10.0, 1e6), speed = drawn (0.01, 2.0);
     c.demand.roles = { { .role = "tip", .slopes = { slope }, .peak_force = peak, .fastest_force = fastest, .speed = speed } };
     const double frequency = drawn (10.0, 1e4), amplitude = drawn (1e-3, 5.0), steepness = drawn (1.0, 1e6), stroke = drawn (1e-3, 2.0);
-    c.demand.textures = { { .role = "tip", .spatial_frequency = frequency, .amplitude = amplitude, .slope = steepness, .speed = stroke } };
+    c.demand.textures = { { .node = 1, .role = "tip", .spatial_frequency = frequency, .amplitude = amplitude, .slope = steepness, .speed = stroke } };
     if (*rc::gen::arbitrary<bool>())
-        c.demand.stretches = { { .role = "tip", .d_max = drawn (1e-7, 1e-3), .teeth = *rc::gen::arbitrary<bool>() ? 0.0 : drawn (1e-8, 1e-3) } };
+    {
+        const double d_max = drawn (1e-7, 1e-3), teeth = *rc::gen::arbitrary<bool>() ? 0.0 : drawn (1e-8, 1e-3), slide = drawn (1e-3, 2.0);
+        c.demand.stretches = { { .role = "tip", .d_max = d_max, .teeth = teeth, .speed = slide } };
+    }
     if (*rc::gen::arbitrary<bool>()) c.demand.jumps = { { .role = "tip", .node = 0, .force = drawn (1e-3, 5.0) } };
     return c;
 }
@@ -188,7 +195,10 @@ void followAll (const Case& c, std::map<std::string, int>& followed)
             ++followed[known->first];
             const auto all = after.conditions();
             // A force that rises has a stiffness instead of a jump.
-            const auto now = std::ranges::find (all, condition.id == "jump" ? "stiffness" : condition.id, &check::Condition::id);
+            const auto isSame = [&] (const auto& c) {
+                return condition.id == "jump" ? c.id == "stiffness" : c.id == condition.id && (c.id != "scanning" || c.node == condition.node);
+            };
+            const auto now = std::ranges::find_if (all, isSame);
             if (condition.id == "blow" && now == all.end()) continue;   // a damper that is too weak for a row
             RC_ASSERT (now != all.end());
             const bool must_hold = condition.verdict == check::Verdict::close, is_contact = now->id == "stiffness";

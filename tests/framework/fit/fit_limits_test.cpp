@@ -299,6 +299,29 @@ TEST_CASE ("fit of friction: sliding alone does not say how the contact stretche
     CHECK_FALSE (fit->report.is_good);
 }
 
+TEST_CASE ("fit of friction: a force that depends on the speed is told, and one that does not is not", "[fit]")
+{
+    for (const double viscous : { -0.1, 0.0, 0.1 })   // N at the fastest; the dry friction is 0.5 N
+    {
+        constexpr int rows = 4000;
+        Random random { 7 };
+        FrictionFit truth { .adhesion = BristleAdhesion::stick, .mu = 0.5, .d_max = 1e-4 };
+        RecordedDrag drag;
+        for (int i = 0; i < rows; ++i)
+            drag.position.push_back (2e-3 * std::sin (full_circle * 3.0 * i / rows));
+        drag.force = truth.forceAlong (drag);
+        for (int i = 0; i < rows; ++i)
+            drag.force[static_cast<std::size_t> (i)] += 0.005 * random.normal() - viscous * std::cos (full_circle * 3.0 * i / rows);
+        const auto fit = fitFriction (drag);
+        REQUIRE (fit);
+        const auto& report = fit->report;
+        INFO (viscous << ": " << report.residual << " of " << report.size);
+        CHECK (report.is_good == (viscous == 0.0));
+        CHECK (lacks (report, "a force that grows with the speed") == (viscous > 0.0));
+        CHECK (lacks (report, "a force that falls with the speed") == (viscous < 0.0));
+    }
+}
+
 TEST_CASE ("fit of a grating: ridges without noise have the period of the ridges", "[fit]")
 {
     RecordedProfile profile;
