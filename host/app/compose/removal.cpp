@@ -7,9 +7,22 @@
 #include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace tactus::host::compose
 {
+
+namespace
+{
+/// The first wire into a layer, as it is without the gate that a contact opens.
+std::optional<graph::Wire> wireWithoutGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
+{
+    auto open = g;
+    const auto opening = setGate (g, at, catalogue, layer, false);
+    const auto* wire = opening && graph::apply (open, *opening) ? wireInto (open, at, layer) : nullptr;
+    return wire != nullptr ? std::optional (*wire) : std::nullopt;
+}
+}   // namespace
 
 graph::Command withLeftovers (const graph::Graph& g, graph::Batch removal, const Catalogue& catalogue)
 {
@@ -25,8 +38,9 @@ graph::Command withLeftovers (const graph::Graph& g, graph::Batch removal, const
     for (const auto& at : mixersOf (g))
         for (int i = layersOf (*findMixer (g, at), catalogue); i-- > 0 && findMixer (after, at) != nullptr;)
         {
-            const auto* wire = wireInto (g, at, i);
-            if (wire == nullptr || ! wasSubgraph (at.patch, graph::firstNameOf (wire->from.node)) || wireInto (after, at, i) != nullptr) continue;
+            const auto wire = wireWithoutGate (g, at, catalogue, i);
+            if (! wire || ! wasSubgraph (at.patch, graph::firstNameOf (wire->from.node)) || wireWithoutGate (after, at, catalogue, i)) continue;
+            if (const auto* gate = wireInto (after, at, i)) add (graph::RemoveNode { at.patch, graph::firstNameOf (gate->from.node) });
             if (auto layer = removeLayer (after, at, catalogue, i)) add (*std::move (layer));
         }
     for (const auto& c : g.controls)

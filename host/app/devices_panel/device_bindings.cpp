@@ -5,8 +5,11 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/devices/hid/physics.hpp>
 #include <host/devices/sessions/audio_settings.hpp>
+#include <tactus/run/device/guard_limits.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +132,7 @@ void DeviceBindings::bindTo (const std::string& role, const BindingChoice& choic
         else
             s.bind (role, rebound (now, profile ? simulationOf (*profile, now) : to));
     });
+    if (profile) tellKeptLimit (boundNow (role), *profile);
     if (boundNow (role) == before) return;
     const auto along = std::make_shared<std::function<void()>>();
     const auto exchange = [safe = juce::WeakReference<DeviceBindings> (this), role, along, other = std::make_shared<Json> (before)] {
@@ -138,6 +142,17 @@ void DeviceBindings::bindTo (const std::string& role, const BindingChoice& choic
     };
     document.addWindowStep (filled (TRANS ("device of %1"), role).toStdString(), exchange, exchange);
     if (onBind) *along = onBind (role);
+}
+
+/// A limit of the device before stays, also if that was the peak force of another simulation.
+void DeviceBindings::tellKeptLimit (const Json& binding, const hid::Profile& profile) const
+{
+    const auto peak = hid::numbersOf (profile).peak_force;
+    Messages told_elsewhere;
+    const double limit = readGuardLimits (binding.value ("guard", Json::object()), "", told_elsewhere).max_force;
+    if (onHint && peak && limit < peak->value)
+        onHint (filled (TRANS ("The limit of before, %1, stays: %2 could give %3. \"max force\" changes it"), withPrefix (limit, "N"), profile.name,
+                        withPrefix (peak->value, "N")));
 }
 
 /// Gives a role an earlier device; null: that of the graph. Returns the binding before. Its guard stays, unless one of the two is of another kind.

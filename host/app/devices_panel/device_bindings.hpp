@@ -27,7 +27,7 @@ public:
 
     std::function<void()> onUpdate;                     ///< called at the end of update()
     std::function<void()> onSoundCards;                 ///< called when sound cards have been listed
-    std::function<void (const juce::String&)> onHint;   ///< why an edit was refused
+    std::function<void (const juce::String&)> onHint;   ///< why an edit was refused, or what stays
     /// The user has chosen another device for a role. Returns what undo and redo of this do, besides changing the device; may be empty.
     std::function<std::function<void()> (const std::string& role)> onBind;
 
@@ -78,6 +78,7 @@ private:
     void bindTo (const std::string& role, const BindingChoice&);
     bool hasSoundCard() const;
     Json putDevice (const std::string& role, Json binding);
+    void tellKeptLimit (const Json& binding, const hid::Profile&) const;
     void putWorkspace (const std::string& role, const Json& workspace);
     void setSound (const std::function<void (Json&)>&);
     bool complain (const Messages&) const;   // shows the first error; returns true if there is one

@@ -303,6 +303,17 @@ TEST_CASE ("an added preset that is removed takes its layer and its controls alo
     REQUIRE (graph::apply (left, *back));
     CHECK (writeGraph (left) == writeGraph (all));
 
+    // So does a layer that is felt only in contact, with its gate.
+    auto gated = all;
+    const auto at = mixersOf (gated).front();
+    REQUIRE (graph::apply (gated, *setGate (gated, at, catalogue(), 3, true)));
+    REQUIRE (isGated (gated, at, 3));
+    const auto nodes = all.root.nodes.size(), with_gate = gated.root.nodes.size();
+    REQUIRE (with_gate > nodes);
+    REQUIRE (graph::apply (gated, withLeftovers (gated, { "delete", { graph::RemoveNode { "", zip.block } } }, catalogue())));
+    CHECK (layersOf (*gated.root.find ("desk"), catalogue()) == 4);
+    CHECK (gated.root.nodes.size() == with_gate - 2);   // without the block and the gate
+
     // A plain node leaves its layer, which has a name and values of its own; a mixer keeps its last layer.
     const auto plain = withLeftovers (all, { "delete", { graph::RemoveNode { "", "drag" } } }, catalogue());
     REQUIRE (graph::apply (left, plain));

@@ -238,11 +238,14 @@ TEST_CASE ("a device that is known only by its numbers can be simulated, keeps t
     CHECK (r.bound()["driver"] == "sim");
     CHECK (r.bound()["mass"].get<double>() == Approx (0.075));
     CHECK (r.bound()["guard"] == Json { { "max_force", "1 N" }, { "max_speed", "1 m/s" } });   // stricter than the device's own 8.5 N
+    CHECK (r.hint == "The limit of before, 1.00 N, stays: PHANTOM 1.0 could give 8.50 N. \"max force\" changes it");
+    r.hint.clear();
 
     r.panel.bindings().setPart ("stylus", "/guard/max_force", "");
     r.panel.bindings().bind ("stylus", "simulated tool");
     r.panel.bindings().bind ("stylus", "simulated PHANTOM 1.0");
     CHECK (r.bound()["guard"]["max_force"].get<double>() == Approx (8.5));
+    CHECK (r.hint.isEmpty());
     CHECK (bindingChoices (r.setup.session().session.binding ("stylus"), {}, r.profiles).size() == bindingChoices (nullptr, {}, r.profiles).size());
     r.run.start ({});
     CHECK (r.until ([&] { return r.run.isRunning() && r.run.mostForce() == 6.0; }));   // the graph allows no more
