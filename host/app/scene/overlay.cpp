@@ -232,8 +232,12 @@ void Overlay::drawScale (const Scene& scene, const SceneState& now)
         const float x = bar.getX() + bar.getWidth() * static_cast<float> (std::min (1.0, depth / full));
         graphics.fillRect (juce::Rectangle<float> (2.0f, 12.0f).withCentre ({ x, bar.getCentreY() }));
     }
-    graphics.setColour (is_touched ? theme.text : theme.dim);
-    drawNumber (graphics, is_touched ? filled (TRANS ("%1 deep"), lengthText (depth)) : TRANS ("no contact"), text);
+    const bool is_unfelt = ! is_touched && scene.hasUnfeltTool (now);
+    graphics.setColour (is_touched ? theme.text : is_unfelt ? theme.warning
+                                                            : theme.dim);
+    drawNumber (graphics, is_touched ? filled (TRANS ("%1 deep"), lengthText (depth)) : is_unfelt ? TRANS ("inside, unfelt")
+                                                                                                  : TRANS ("no contact"),
+                text);
 }
 
 /// The motion of the middle of a box in the picture, when it moves along an axis.

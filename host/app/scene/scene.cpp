@@ -173,6 +173,15 @@ std::vector<Touch> Scene::touches (const SceneState& now) const
     return found;
 }
 
+bool Scene::hasUnfeltTool (const SceneState& now) const
+{
+    return std::ranges::any_of (solids, [&] (const auto& s) {
+        const auto depth = now.of (s.first, &Appearance::depth);
+        const auto* tool = now.tool (all[s.first].role);
+        return depth && ! (depth->x() > 0.0) && tool != nullptr && s.second->contains (now.of (s.first, &Appearance::tool).value_or (tool->position));
+    });
+}
+
 std::vector<Crack> Scene::cracks (const SceneState& now) const
 {
     std::vector<Crack> found;

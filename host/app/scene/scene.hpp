@@ -83,6 +83,10 @@ public:
     void draw (Raster&, const Camera&, const Paint&, const SceneState&) const;
 
     std::vector<Touch> touches (const SceneState&) const;
+
+    /// True if a tool is inside a mesh that it does not feel: it began there, or the mesh was moved over it. It has to come out once.
+    bool hasUnfeltTool (const SceneState&) const;
+
     std::vector<Crack> cracks (const SceneState&) const;
     std::vector<RoundTool> roundTools (const SceneState&) const;
 

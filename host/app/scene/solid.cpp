@@ -4,6 +4,9 @@
 #include <tactus/kit/geometry/mesh_walk.hpp>
 #include <tactus/kit/geometry/rotation.hpp>
 
+#include <cmath>
+#include <numbers>
+
 namespace tactus::host::scene
 {
 
@@ -19,6 +22,32 @@ Solid::Solid (std::shared_ptr<const Surface> s, double sc, const Vec3& o, const 
     faces = surface->mesh->triangles;
     normals = normalsOf (Mesh { points, faces });
     findStiffness();
+}
+
+/// The winding number of the mesh around a point: 1 inside of a closed mesh, 0 outside. Each triangle adds its solid angle (Van Oosterom & Strackee 1983).
+double Solid::turnsAround (const Vec3& p) const noexcept
+{
+    double sum = 0.0;
+    for (const auto& f : faces)
+    {
+        const Vec3 a = points[at (f[0])] - p, b = points[at (f[1])] - p, c = points[at (f[2])] - p;
+        const double la = a.norm(), lb = b.norm(), lc = c.norm();
+        sum += std::atan2 (a.dot (b.cross (c)), la * lb * lc + a.dot (b) * lc + b.dot (c) * la + c.dot (a) * lb);
+    }
+    return sum / (2.0 * std::numbers::pi);
+}
+
+bool Solid::contains (const Vec3& p) const noexcept
+{
+    constexpr double closed = 0.9, well = 0.02;
+    const auto isIn = [this] (const Vec3& q) {
+        return (q.array() > box.low.array()).all() && (q.array() < box.high.array()).all() && turnsAround (q) > closed;
+    };
+    if (! isIn (p)) return false;
+    const double away = 2.0 * well * box.radius();
+    for (int axis = 0; axis < 3; ++axis)
+        if (! isIn (p + away * Vec3::Unit (axis)) || ! isIn (p - away * Vec3::Unit (axis))) return false;
+    return true;
 }
 
 void Solid::findStiffness()

@@ -22,6 +22,11 @@ public:
     void draw (Raster&, const Camera&, const Paint&, const std::vector<Dent>&) const;
 
     const Bounds& bounds() const noexcept { return box; }
+
+    /// True if a point is well inside the mesh: by more than a fiftieth of its size, since what is felt is smooth, and the mesh is not. A mesh that is
+    /// not closed has no inside.
+    bool contains (const Vec3&) const noexcept;
+
     int triangles() const noexcept { return static_cast<int> (faces.size()); }
     bool hasStiffnesses() const noexcept { return ! stiffness.empty(); }
 
@@ -29,6 +34,7 @@ public:
     static constexpr double full_colour_m = 5e-3;
 
 private:
+    double turnsAround (const Vec3&) const noexcept;
     void findStiffness();
 
     std::shared_ptr<const Surface> surface;

@@ -81,6 +81,54 @@ TEST_CASE ("a round tool has its radius and its middle, and a contact that stick
     CHECK (bounds[0].centre == Vec3::UnitZ());
 }
 
+TEST_CASE ("a tool inside a closed mesh that does not feel it is told from one outside, and from one that is felt", "[app][scene]")
+{
+    auto ball = std::make_shared<Mesh>();   // of 40 mm, from the triangles of an octahedron, each split twice
+    std::vector<std::array<Vec3, 3>> faces;
+    for (const double x : { -1.0, 1.0 })
+        for (const double y : { -1.0, 1.0 })
+            for (const double z : { -1.0, 1.0 })
+            {
+                const Vec3 a = x * Vec3::UnitX(), b = y * Vec3::UnitY(), c = z * Vec3::UnitZ();
+                faces.push_back (x * y * z > 0.0 ? std::array { a, b, c } : std::array { a, c, b });
+            }
+    for (int i = 0; i < 2; ++i)
+        for (const auto& [a, b, c] : std::exchange (faces, {}))
+        {
+            const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
+            for (const auto& f : { std::array { a, ab, ca }, std::array { ab, b, bc }, std::array { ca, bc, c }, std::array { ab, bc, ca } })
+                faces.push_back (f);
+        }
+    const auto add = [&] (const std::array<Vec3, 3>& f) {
+        const auto n = static_cast<int> (ball->points.size());
+        for (const Vec3& p : f)
+            ball->points.push_back (0.02 * p);
+        ball->triangles.push_back ({ n, n + 1, n + 2 });
+    };
+    for (const auto& f : faces)
+        add (f);
+    auto open = std::make_shared<Mesh> (*ball);
+    open->triangles.resize (open->triangles.size() / 2);
+
+    const auto isUnfelt = [] (const std::shared_ptr<const Mesh>& mesh, const Vec3& tool, std::optional<double> depth) {
+        auto surface = std::make_shared<Surface>();
+        surface->mesh = mesh;
+        scene::Scene scene;
+        scene.setBodies ({ Body { .kind = Kind::body, .role = "finger", .surface = surface } });
+        scene::SceneState state { .tools = { { .role = "finger", .position = tool } }, .live = { {} } };
+        if (depth) state.live.front()[scene::partNumber (&Appearance::depth)] = Vec3 (*depth, 0.0, 0.0);
+        return scene.hasUnfeltTool (state);
+    };
+    const Vec3 middle (1e-3, 2e-3, -3e-3);
+    CHECK (isUnfelt (ball, middle, 0.0));
+    CHECK_FALSE (isUnfelt (ball, middle, 2e-3));                   // felt
+    CHECK_FALSE (isUnfelt (ball, middle, {}));                     // nothing runs
+    CHECK_FALSE (isUnfelt (open, middle, 0.0));                    // a bowl has no inside
+    CHECK_FALSE (isUnfelt (ball, 6.0 * middle, 0.0));              // outside, but within the box around it
+    CHECK_FALSE (isUnfelt (ball, Vec3 (0.0, 0.0, 0.0199), 0.0));   // just below the surface, which may be rounder than the mesh
+    CHECK (isUnfelt (ball, Vec3 (0.0, 0.0, 0.017), 0.0));
+}
+
 TEST_CASE ("ridges have a place only if the position of a tool reaches them", "[app][scene]")
 {
     const auto wood = ofKind (bodiesIn ("notched_rail"), Kind::ridges);
