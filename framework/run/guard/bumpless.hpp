@@ -15,7 +15,8 @@ namespace tactus
 ///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / F)) / 2 for 0 <= t <= F, then 0
 ///
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
-/// |e0 - e1| pi T / (2 F) to the steps of e. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
+/// |e0 - e1| pi T / (2 F) to the steps of e. No force, torque, axis or signal is larger than both e0 and e: the fade into a vibration that
+/// begins at a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
 /// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
 /// If nodes begin with the plan, the device gets e0 for settle_s first: a wall that begins around the tool takes some ticks to push it out.
 class Bumpless
@@ -57,7 +58,7 @@ public:
 
     void serialize (auto& archive)
     {
-        archive (difference, last);
+        archive (difference, before, last);
         archive.index (length, static_cast<std::size_t> (rise) + 1);
         archive.index (now, static_cast<std::size_t> (length) + 1);
         archive.index (waits, static_cast<std::size_t> (settle) + 1);
@@ -70,6 +71,7 @@ private:
     {
         if (now == 0)
         {
+            before = last;
             difference = { last.force - wanted.force, last.torque - wanted.torque, sum (last.axes, -1.0, wanted.axes),
                            sum (last.signals, -1.0, wanted.signals), last.brake - wanted.brake };
             if (! isFinite (difference.force, difference.torque, difference.axes, difference.signals, difference.brake))
@@ -83,8 +85,10 @@ private:
         }
         const double w = 0.5 + 0.5 * math::cos (pi * now / length);
         ++now;
-        last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes),
-                 sum (wanted.signals, w, difference.signals), wanted.brake + w * difference.brake };
+        last = { within (wanted.force + w * difference.force, before.force, wanted.force),
+                 within (wanted.torque + w * difference.torque, before.torque, wanted.torque),
+                 within (sum (wanted.axes, w, difference.axes), before.axes, wanted.axes),
+                 within (sum (wanted.signals, w, difference.signals), before.signals, wanted.signals), wanted.brake + w * difference.brake };
         return last;
     }
 
@@ -96,6 +100,23 @@ private:
         for (int i = 0; i < std::max (from.axes.size(), to.axes.size()); ++i)
             if (! falls (from.axes[i], to.axes[i])) return false;
         return true;
+    }
+
+    /// The value, shortened to the longer one of two others.
+    static Vec3 within (const Vec3& v, const Vec3& a, const Vec3& b) noexcept
+    {
+        const double most = std::max (a.norm(), b.norm()), length = v.norm();
+        return length > most ? Vec3 (v * (most / length)) : v;
+    }
+
+    static Channels within (Channels v, const Channels& a, const Channels& b) noexcept
+    {
+        for (int i = 0; i < v.size(); ++i)
+        {
+            const double most = std::max (std::abs (a[i]), std::abs (b[i]));
+            v.set (i, std::clamp (v[i], -most, most));
+        }
+        return v;
     }
 
     /// a + w b
@@ -110,7 +131,7 @@ private:
     int fall = 1, rise = 1, settle = 1;   // in ticks
     int waits = 0;                        // ticks until the fade begins
     int length = 1, now = length;         // duration of the fade, and time since it began, in ticks; equal if there is no fade
-    Effort difference;                    // e0 - e1
+    Effort difference, before;            // e0 - e1, and e0
     Effort last;
 };
 

@@ -52,6 +52,39 @@ TEST_CASE ("with new nodes, the effort of before stays until they have settled, 
     CHECK (next (9.0) == 9.0);
 }
 
+TEST_CASE ("no effort of a fade is larger than that of before and that of the new plan", "[engine]")
+{
+    constexpr double rate_hz = 4000.0, frequency = 100.0;
+    for (const double force : { 0.0, 0.3, -0.8 })
+        for (int phase = 0; phase < 8; ++phase)
+        {
+            Bumpless bumpless;
+            bumpless.prepare (1.0 / rate_hz);
+            const auto next = [&] (const Vec3& f, double signal) {
+                Effort e { .force = f };
+                e.axes.set (0, signal);
+                e.signals.set (0, signal);
+                return bumpless (e);
+            };
+            const Vec3 first { 0.0, 0.0, force };
+            next (first, force);
+            bumpless.begin (false);
+            double last = force, steepest = 0.0;
+            for (int k = 0; k < 1000; ++k)
+            {
+                const double wave = std::sin (6.283185307 * (frequency * k / rate_hz + phase / 8.0));
+                const Vec3 wanted { 0.6 * wave, 0.0, 0.8 * wave };   // 1 N
+                const auto passed = next (wanted, wave);
+                CHECK (passed.force.norm() <= std::max (first.norm(), wanted.norm()) * (1.0 + 1e-12));
+                CHECK (std::abs (passed.axes[0]) <= std::max (std::abs (force), std::abs (wave)));
+                CHECK (std::abs (passed.signals[0]) <= std::max (std::abs (force), std::abs (wave)));
+                steepest = std::max (steepest, std::abs (passed.signals[0] - last));
+                last = passed.signals[0];
+            }
+            CHECK (steepest <= 6.2832 * frequency / rate_hz + 2.0 * 3.1416 / (2.0 * Bumpless::rise_s * rate_hz));   // of the wave and of the fade
+        }
+}
+
 TEST_CASE ("edits with new nodes that come all the time hold the effort for at most half of the time", "[engine]")
 {
     constexpr double rate_hz = 4000.0;
