@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "judging.hpp"
+#include "node_loops.hpp"
 #include "strongest_change.hpp"
+
+#include <tactus/text/list_text.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -11,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace tactus::check
@@ -316,15 +320,44 @@ private:
         };
         closeLoops (c, places, radius, rests, [&] (const Slope* s) { return falls (*s); });
         if (c.verdict == Verdict::broken) return;
-        const std::vector<double>* worst = &places.front()->responses.front();
-        for (const auto& r : places.front()->responses)
-            if (largestRadius (r, numbers, period_s).value_or (0.0) > largestRadius (*worst, numbers, period_s).value_or (0.0)) worst = &r;
-        const auto best = strongestChange (*worst, at (*places.front()), period_s, isDragged (worst));
+        const auto best = bestChange (c, places);
         if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < 1.0 && ! (c.may_grow > 0.0))) return;
         if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
             c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
         else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
+    }
+
+    /// The change that helps most where the loop is weakest. Sets the loops of the nodes there, if one of them explains how much the response may grow.
+    std::optional<Change> bestChange (Condition& c, const std::vector<const Slope*>& places) const
+    {
+        constexpr std::size_t closest = 4;
+        constexpr double explained = 1.05;
+        const Slope* weakest = nullptr;
+        std::vector<NodeLoop> loops;
+        for (const auto* s : std::span (places).first (std::min (closest, places.size())))
+            if (auto its = nodeLoops (*s, responseAt (*s), at (*s), period_s); ! its.empty() && (loops.empty() || its[0].may_grow < loops[0].may_grow))
+            {
+                loops = std::move (its);
+                weakest = s;
+            }
+        if (weakest == nullptr || loops.front().may_grow > explained * c.may_grow)
+        {
+            const std::vector<double>* worst = &places.front()->responses.front();
+            for (const auto& r : places.front()->responses)
+                if (largestRadius (r, numbers, period_s).value_or (0.0) > largestRadius (*worst, numbers, period_s).value_or (0.0)) worst = &r;
+            return strongestChange (*worst, at (*places.front()), period_s, isDragged (worst));
+        }
+        std::vector<std::vector<double>> others;
+        std::string rooms;
+        for (const auto& loop : loops)
+        {
+            c.loops.push_back ({ demand.nodes[loop.node].path, loop.may_grow, loop.passive_up_to });
+            addToList (rooms, text (loop.may_grow) + " times along the force of '" + demand.nodes[loop.node].path + "'");
+            if (&loop != &loops.front()) others.push_back (loop.response);
+        }
+        if (loops.size() > 1) c.text += ": " + rooms;
+        return strongestChange (loops.front().response, at (*weakest), period_s, drags (demand, loops.front().node), others);
     }
 
     bool areLike (const Slope& a, const Slope& b) const

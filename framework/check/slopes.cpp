@@ -136,7 +136,8 @@ private:
                       .position = pair.position (role),
                       .force = pair.force (role),
                       .brake = pair.brake (role),
-                      .by_node = std::vector<double> (pair.nodes(), 0.0) };
+                      .by_node = std::vector<double> (pair.nodes(), 0.0),
+                      .gradients = std::vector<Matrix> (pair.nodes(), Matrix::Zero()) };
         std::array<std::vector<double>, 3> own;
         own.fill (std::vector<double> (pair.numberOfForces(), 0.0));
         for (int axis = 0; axis < (motion.roles[role].axis ? 1 : 3); ++axis)
@@ -168,8 +169,10 @@ private:
         }
         pair.eachForce ([&] (std::size_t node, std::size_t component) {
             const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
-            found.directions[role][node] += gradient * gradient.transpose();
+            slope.gradients[node] += gradient * gradient.transpose();
         });
+        for (std::size_t n = 0; n < slope.gradients.size(); ++n)
+            found.directions[role][n] += slope.gradients[n];
         summarise (slope, role, all);
         return slope;
     }

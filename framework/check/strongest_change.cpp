@@ -39,10 +39,18 @@ std::vector<double> predicted (const std::vector<double>& response)
     return all;
 }
 
+/// The response at twice the rate: the same damper responds twice as strongly, for half as long.
+std::vector<double> faster (std::span<const double> response, double period_s)
+{
+    const auto contact = springAndDamper (response, period_s);
+    return contact.response (contact.stiffness, 2.0 * contact.damping);
+}
+
 std::string withUnit (double v) { return roundedText (v, 3) + " N*s/m"; }
 }   // namespace
 
-std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s, bool drags)
+std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s, bool drags,
+                                       std::span<const std::vector<double>> others)
 {
     if (measured.empty() || ! device.mass || ! device.damping) return std::nullopt;
     const auto response = shortened (measured);
@@ -50,13 +58,17 @@ std::optional<Change> strongestChange (std::span<const double> measured, const D
     const auto contact = springAndDamper (response, period_s);
     const double k = contact.stiffness, b = contact.damping;
 
+    const auto restsTimes = [] (double factor, std::vector<double> r, const DeviceNumbers& numbers, double period) {
+        for (double& v : r)
+            v *= factor;
+        return comesToRest (r, numbers, period);
+    };
     Change best;
     const auto attempt = [&] (std::string what, const std::vector<double>& changed, const DeviceNumbers& numbers, double period) {
         const double room = roomToGrow ([&] (double factor) {
-            auto larger = changed;
-            for (double& v : larger)
-                v *= factor;
-            return comesToRest (larger, numbers, period);
+            return restsTimes (factor, changed, numbers, period) && std::ranges::all_of (others, [&] (const auto& other) {
+                       return restsTimes (factor, period < period_s ? faster (other, period_s) : other, numbers, period);
+                   });
         });
         constexpr double clearly = 1.02;
         if (room > clearly * best.room) best = { std::move (what), room };
@@ -71,7 +83,7 @@ std::optional<Change> strongestChange (std::span<const double> measured, const D
     else
         attempt ("a virtual damping of " + withUnit (device.damping->value), contact.response (k, device.damping->value), device, period_s);
     if (const double twice = 2.0 / period_s; ! device.rate || ! (device.rate->value > 0.0) || device.rate->value >= twice)
-        attempt ("twice the rate", contact.response (k, 2.0 * b), device, 0.5 * period_s);   // the same damper responds twice as strongly, for half as long
+        attempt ("twice the rate", faster (response, period_s), device, 0.5 * period_s);
     if (! drags) attempt ("a hold.predictive", predicted (response), device, period_s);
     if (device.delay && device.delay->value > 0.0)
     {

@@ -83,6 +83,9 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
     std::cout << "  varied: " << (contact.stiffnessParam().empty() ? "the whole response" : printableName (contact.stiffnessParam())) << ", "
               << (contact.dampingParam().empty() ? "a damper along the steepest direction" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
+    if (const auto& w = contact.weakest())
+        std::cout << "  the weakest loop there is that of " << quote (w->node) << ": " << (w->may_grow < 1.0 ? "it swings, and would rest with " : "it rests up to ")
+                  << number (w->may_grow) << " times its response; what is varied may not change it\n";
     if (const auto& n = device.numbers; std::isfinite (here.stiffest_held))
         std::cout << "  sensor of " << number (1e6 * n.quantum->value) << " um and dry friction of " << number (n.coulomb->value)
                   << " N: rests where it is held up to " << number (here.stiffest_held) << " N/m (2 f_f/delta), without blows up to a damping of "

@@ -106,7 +106,8 @@ std::vector<std::string> nodesOf (const check::Condition& c, const check::Demand
     if (! c.node.empty()) return { c.node };
     auto nodes = sinksOf (plan, c.role);
     const bool is_slope = c.id == "stiffness" || c.id == "quantum";
-    if (auto steepest = is_slope ? steepestOf (demand, c.role) : std::string(); ! steepest.empty()) nodes.insert (nodes.begin(), std::move (steepest));
+    if (! c.loops.empty()) nodes.insert (nodes.begin(), c.loops.front().node);
+    if (auto steepest = is_slope && c.loops.empty() ? steepestOf (demand, c.role) : std::string(); ! steepest.empty()) nodes.insert (nodes.begin(), std::move (steepest));
     return nodes;
 }
 
@@ -141,7 +142,13 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     LimitList list;
     for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
     {
-        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0)
+        for (const auto& loop : c.loops)
+            list.contacts.push_back ({ .node = loop.node,
+                                       .device = nameOf (devices, c.role),
+                                       .verdict = c.verdict,
+                                       .passive_up_to = loop.passive_up_to,
+                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : loop.may_grow });
+        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())
             list.contacts.push_back ({ .node = steepestOf (demand, c.role),
                                        .device = nameOf (devices, c.role),
                                        .verdict = c.verdict,
@@ -164,8 +171,14 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             auto nodes = nodesOf (c, demand, plan);
             const bool is_slope = c.id == "stiffness" || c.id == "quantum" || c.id == "damping";
             auto about = c.node.empty() && is_slope && ! nodes.empty() ? nodes.front() : c.node;
-            list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c),
-                                     detailsOf (c, device, is_broken) });
+            const auto details = detailsOf (c, device, is_broken);
+            list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c), details });
+            for (std::size_t i = 1; i < c.loops.size() && is_broken && c.loops[i].may_grow < 1.0 && ! std::isnan (c.may_grow); ++i)
+            {
+                auto other = c;
+                other.may_grow = c.loops[i].may_grow;
+                list.limits.push_back ({ true, std::string (c.id), { c.loops[i].node }, limitSentence (other, c.loops[i].node, device), firstRemedy (c), details });
+            }
         }
     }
     list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0 || list.not_reached > 0;

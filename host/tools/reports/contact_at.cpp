@@ -4,6 +4,7 @@
 
 #include <tactus/check/factors.hpp>
 #include <tactus/check/measure.hpp>
+#include <tactus/check/node_loops.hpp>
 #include <tactus/check/sampled_loop.hpp>
 #include <tactus/check/stretches.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -98,6 +99,7 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     double most = 0.0, most_pressed = 0.0;
     bool is_known = false, is_felt = false;
     const check::Slope* heaviest = nullptr;
+    Response heaviest_response;
     for (std::size_t r = 0; r < demand.roles.size(); ++r)
     {
         if (! chosen.empty() && demand.roles[r].role != chosen) continue;
@@ -126,6 +128,7 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
             its_axis = demand.roles[r].axis;
             t_s = slope.t_s;
             heaviest = &slope;
+            heaviest_response = response;
         }
     }
     if (! is_felt)
@@ -156,6 +159,8 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     }
     way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
+    const auto loops = check::nodeLoops (*heaviest, heaviest_response, role.device.numbers, periodOf (role.device.numbers, motion.rate_hz));
+    if (! loops.empty() && demand.nodes[loops.front().node].path != steepest) its_weakest = { demand.nodes[loops.front().node].path, loops.front().may_grow };
 }
 
 /// Chooses the params to vary: those of the steepest node that has them, if they change the response.
@@ -164,7 +169,13 @@ void Contact::findParams (const check::Demand& demand, const check::Slope& slope
     std::vector<std::size_t> nodes (slope.by_node.size());
     std::iota (nodes.begin(), nodes.end(), std::size_t { 0 });
     std::ranges::stable_sort (nodes, std::ranges::greater {}, [&] (std::size_t n) { return slope.by_node[n]; });
-    if (! nodes.empty() && slope.by_node[nodes.front()] > 0.0) steepest = demand.nodes[nodes.front()].path;
+    if (nodes.empty() || ! (slope.by_node[nodes.front()] > 0.0)) return;
+    steepest = demand.nodes[nodes.front()].path;
+    const Eigen::Vector3d direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (slope.gradients[nodes.front()]).eigenvectors().col (2);
+    constexpr double along = 0.1;   // less acts across it
+    std::erase_if (nodes, [&, least = along * slope.by_node[nodes.front()]] (std::size_t n) {
+        return ! (direction.dot (slope.gradients[n] * direction) > least * least);
+    });
     const auto changes = [&] (const std::string& param, double value) {
         const auto base = asIs (motion.rate_hz, {}).response, other = measured (motion.rate_hz, {}, { { param, Json (value) } }).response;
         return ! other.empty() && sizeOf (sum (other, -1.0, base)) > 1e-4 * sizeOf (base);

@@ -170,6 +170,30 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     CHECK_FALSE (fixOf (read.graph, *told));
 }
 
+TEST_CASE ("each node whose loop swings is listed with its own factor, the weakest first", "[app][limits]")
+{
+    const auto read = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+      "devices": { "tip": { "driver": "sim", "mass": "100 g", "damping": 2, "delay": 1,
+          "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
+      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": 5000, "damping": 5 } },
+        "drag": { "type": "friction.elasto_plastic" } },
+      "wires": [ "hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
+        "wall.force -> motor.force", "drag.force -> motor.force" ] })");
+    REQUIRE (read.messages.empty());
+    const auto list = checked (read.graph);
+    std::vector<std::string> texts;
+    for (const auto& l : list.limits)
+        if (l.id == "stiffness") texts.push_back (l.text);
+    CHECK (texts
+           == std::vector<std::string> { "The stiffness of drag is 3 times what tip (simulated) allows",
+                                         "The stiffness of wall is 1.4 times what tip (simulated) allows" });
+    REQUIRE (list.contacts.size() == 2);
+    CHECK (list.contacts[0].node == "drag");
+    CHECK (list.contacts[1].node == "wall");
+    CHECK (list.contacts[1].stable_up_to == Approx (0.724).epsilon (0.01));   // as the wall alone: computed apart from Tactus
+}
+
 TEST_CASE ("the message of a limit is one short sentence with short numbers, and the first remedy", "[app][limits]")
 {
     for (const auto* device : { R"("damping": 0.4)", R"("damping": 0.4, "quantum": "3.21987 um", "coulomb": "1.2345 mN")",

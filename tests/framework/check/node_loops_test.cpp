@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "loops.hpp"
+
+#include "support/property.hpp"
+
+using namespace tactus;
+using test::Loops;
+
+namespace
+{
+/// A wall and a friction in its plane, each of which may be left out.
+struct WallAndDrag
+{
+    Simulation tool { .mass = 0.1, .damping = 2.0, .delay = 1 };
+    double stiffness = 5000.0, damping = 5.0, d_max = 1e-4;   // N/m, N s/m, m
+    bool has_wall = true, has_drag = true;
+    double rate_hz = 1000.0;
+
+    check::Condition judged() const
+    {
+        Loops loops { .rate_hz = rate_hz, .tools = { tool } };
+        const auto number = [] (double v) { return std::to_string (v); };
+        if (has_wall)
+            loops.feels (0, "deform.plane",
+                         R"("params": { "stiffness": )" + number (stiffness) + R"(, "damping": )" + number (damping) + R"(, "offset": 1 })");
+        if (has_drag) loops.feels (0, "friction.elasto_plastic", R"("params": { "mu": 0.4, "d_max": )" + std::to_string (1e6 * d_max) + R"(e-6 })");
+        const auto all = loops.conditions();
+        const auto at = std::ranges::find (all, "stiffness", &check::Condition::id);
+        REQUIRE (at != all.end());
+        return *at;
+    }
+};
+}   // namespace
+
+TEST_CASE ("each node of a contact has the loop that it has alone, and the weakest is that of the whole", "[check]")
+{
+    test::property ("a wall and a friction", [] {
+        const auto pick = [] (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); };
+        WallAndDrag both { .stiffness = pick (3000.0, 9000.0), .damping = pick (0.5, 20.0), .d_max = pick (4e-5, 1.2e-4) };
+        both.tool.delay = *rc::gen::inRange (0, 3);
+        auto wall = both, drag = both;
+        wall.has_drag = drag.has_wall = false;
+        const auto c = both.judged(), alone = wall.judged(), dragged = drag.judged();
+        for (const auto* one : { &c, &alone, &dragged })
+            RC_PRE (one->isKnown() && one->value > 1.01 * one->limit);
+        RC_ASSERT (c.loops.size() == 2);
+        for (const auto& loop : c.loops)
+        {
+            const auto& one = loop.node.starts_with ("deform") ? alone : dragged;
+            RC_ASSERT (std::abs (loop.may_grow - one.may_grow) <= 5e-3 * one.may_grow);
+            RC_ASSERT (std::abs (loop.passive_up_to - one.limit / one.value) <= 1e-3 * loop.passive_up_to);
+        }
+        RC_ASSERT (c.loops[0].may_grow <= c.loops[1].may_grow);
+        RC_ASSERT (std::abs (c.loops[0].may_grow - c.may_grow) <= 5e-3 * c.may_grow);
+    });
+}
+
+TEST_CASE ("the remedy of the weakest node holds with all nodes", "[check]")
+{
+    for (const double d_max : { 6e-5, 8e-5, 1e-4 })
+    {
+        WallAndDrag both { .d_max = d_max };
+        const auto c = both.judged();
+        INFO (c.text << "\n"
+                     << c.remedy);
+        CHECK (c.verdict == check::Verdict::unstable);
+        REQUIRE (c.loops.size() == 2);
+        CHECK (c.loops[0].node.starts_with ("friction"));
+        CHECK (c.loops[1].node.starts_with ("deform"));
+        const std::string no_delay = "no delay of the device, up to ";
+        const auto at = c.remedy.find (no_delay);
+        both.tool.delay = 0;
+        const auto now = both.judged();
+        if (at != c.remedy.npos)
+            CHECK (std::strtod (c.remedy.c_str() + at + no_delay.size(), nullptr) == Approx (std::isnan (now.may_grow) ? 0.0 : now.may_grow).epsilon (5e-3));
+        else
+            CHECK (now.may_grow < 1.0);   // no single change suffices
+    }
+}
