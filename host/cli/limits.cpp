@@ -48,10 +48,10 @@ std::string padded (std::string text, std::size_t width)
 std::string describe (const std::optional<Range>& r, bool is_least)
 {
     if (! r) return "nowhere";
-    if (is_least) return (r->is_low_known ? "at least " : "unknown below ") + number (r->low);
-    if (std::isinf (r->high)) return "any";
-    const auto most = (r->is_high_known ? "at most " : "unknown above ") + number (r->high);
-    return most + (r->low > 0.0 && r->low > 0.01 * r->high ? ", at least " + number (r->low) : "");
+    const auto least = (r->is_low_known ? "at least " : "unknown below ") + number (r->low);
+    if (is_least) return least;
+    if (std::isinf (r->high)) return r->is_lowest ? "any" : least;
+    return (r->is_high_known ? "at most " : "unknown above ") + number (r->high) + (r->is_lowest ? "" : ", " + least);
 }
 
 void print (const LimitsReport& report, const LimitsCommandOptions& options)

@@ -29,6 +29,7 @@ struct Range
 {
     double low = 0.0, high = 0.0;
     bool is_low_known = true, is_high_known = true;   // false: beyond it, the loop is not known
+    bool is_lowest = false;                           // true: no value below `low` was searched
 };
 
 /// The limits of the working point.
@@ -200,7 +201,7 @@ private:
                 ++i;
             const Range found { first == 0 ? values.front() : between (values[first], values[first - 1]),
                                 i + 1 == values.size() ? std::numeric_limits<double>::infinity() : between (values[i], values[i + 1]),
-                                first == 0 || isKnown (values[first - 1]), i + 1 == values.size() || isKnown (values[i + 1]) };
+                                first == 0 || isKnown (values[first - 1]), i + 1 == values.size() || isKnown (values[i + 1]), first == 0 };
             const double away = std::max ({ 0.0, found.low - now, now - found.high });
             if (best && away >= nearest) continue;
             nearest = away;

@@ -103,6 +103,10 @@ TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact 
     CHECK (ran.out.find ("2e+03       at most 4e+03 ") != std::string::npos);
     CHECK (ran.out.find ("0           at most 1 ") != std::string::npos);
     CHECK (ran.out.find ("1e+03       at least 500 ") != std::string::npos);   // sigma/(2B)
+    // A little damping makes a wall rest that swings without any, so the range of the damping does not begin at 0.
+    const auto stiff = runTactus ({ "limits", file, "--set", "wall.damping=0", "--set", "wall.stiffness=4600" });
+    INFO (stiff.out << stiff.err);
+    CHECK (stiff.out.find ("0           nowhere                           at most 198, at least 0.299\n") != std::string::npos);
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=50000" }).out.find ("N*s/m; it swings\n") != std::string::npos);
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=5000" }).out.find ("stable, but not passive") != std::string::npos);
 }
