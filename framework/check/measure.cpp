@@ -68,8 +68,45 @@ std::vector<StretchWatch> stretchesIn (const Plan& plan)
     return all;
 }
 
-/// A node without a path from a device. It plays by itself if its outputs still change in the second half of the motion, or are 0 again after a change.
-/// A node that only settles, such as a filter after a constant, does not play.
+/// True for a node that plays by itself or when it is hit, such as a clip: it has an input for hits, and no other input is wired.
+bool isStruck (const plan::Flat& flat, int n)
+{
+    const auto& inputs = flat.node (n).type->inputs;
+    const auto isFollowed = [&] (const plan::FlatWire& w) { return w.to.node == n && w.to.role == Role::input && ! plan::takesHits (inputs[at (w.to.port)]); };
+    return flat.node (n).runs() && std::ranges::any_of (inputs, plan::takesHits) && std::ranges::none_of (flat.wires, isFollowed);
+}
+
+/// By node: true if a device reaches it, by more than hits.
+std::vector<bool> followers (const plan::Flat& flat)
+{
+    std::vector<bool> follows (flat.nodes.size(), false), is_struck (flat.nodes.size(), false);
+    for (std::size_t n = 0; n < follows.size(); ++n)
+    {
+        follows[n] = flat.nodes[n].type->bind != nullptr;
+        is_struck[n] = isStruck (flat, static_cast<int> (n));
+    }
+    for (bool changes = true; changes;)
+    {
+        changes = false;
+        for (const auto& w : flat.wires)
+            if (w.from && follows[at (w.from->node)] && ! follows[at (w.to.node)] && (w.to.role == Role::param || ! is_struck[at (w.to.node)]))
+                follows[at (w.to.node)] = changes = true;
+    }
+    return follows;
+}
+
+/// The nodes that a device reaches and whose hits go to one that plays.
+std::vector<std::size_t> strikers (const plan::Flat& flat)
+{
+    const auto follows = followers (flat);
+    std::vector<std::size_t> all;
+    for (const auto& w : flat.wires)
+        if (w.from && follows[at (w.from->node)] && ! follows[at (w.to.node)]) all.push_back (at (w.from->node));
+    return all;
+}
+
+/// A node without a path from a device, other than by hits. It plays by itself if its outputs still change in the second half of the motion, or are 0
+/// again after a change. A node that only settles, such as a filter after a constant, does not play.
 struct PlayWatch
 {
     std::size_t node;
@@ -97,16 +134,7 @@ struct PlayWatch
 std::vector<PlayWatch> freeNodes (const Plan& plan)
 {
     const auto& flat = plan.flat();
-    std::vector<bool> follows (flat.nodes.size(), false);
-    for (std::size_t n = 0; n < follows.size(); ++n)
-        follows[n] = flat.nodes[n].type->bind != nullptr;
-    for (bool changes = true; changes;)
-    {
-        changes = false;
-        for (const auto& w : flat.wires)
-            if (w.from && follows[static_cast<std::size_t> (w.from->node)] && ! follows[static_cast<std::size_t> (w.to.node)])
-                follows[static_cast<std::size_t> (w.to.node)] = changes = true;
-    }
+    const auto follows = followers (flat);
     std::vector<PlayWatch> all;
     for (std::size_t n = 0; n < follows.size(); ++n)
     {
@@ -165,23 +193,22 @@ private:
     {
         std::vector<StretchWatch> stretches;
         std::vector<PlayWatch> free;
+        const auto striking = strikers (plan->flat());   // silent where players are looked for: a node that only rings after a hit is none
         std::size_t ticks = 0;
         forces = forcesAlong (subject, motion, {}, [&] (const Plan& running) {
             if (ticks == 0)
             {
                 stretches = stretchesIn (running);
                 textures.find (running);
-                free = freeNodes (running);
             }
-            for (auto& w : free)
-                w.poll (2 * ticks >= motion.ticks);
+            if (striking.empty()) watchPlayers (running, free, ticks);
             for (auto& w : stretches)
                 w.poll (running, ticks);
             textures.poll (running, ticks);
-            if (++ticks == motion.ticks)
-                for (const auto& w : free)
-                    if (w.hasPlayed()) demand.players.push_back (w.node);
+            ++ticks;
         });
+        ticks = 0;
+        if (! striking.empty()) forcesAlong (subject, motion, striking, [&] (const Plan& running) { watchPlayers (running, free, ticks++); });
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
         {
             const auto& role = motion.roles[r];
@@ -195,6 +222,16 @@ private:
                     demand.unreached.push_back ({ w.node(), role.role, false });
             }
         }
+    }
+
+    /// Lists the players after the last tick of the motion.
+    void watchPlayers (const Plan& running, std::vector<PlayWatch>& free, std::size_t tick)
+    {
+        if (tick == 0) free = freeNodes (running);
+        for (auto& w : free)
+            w.poll (2 * tick >= motion.ticks);
+        for (const auto& w : free)
+            if (tick + 1 == motion.ticks && w.hasPlayed()) demand.players.push_back (w.node);
     }
 
     /// The largest speed of the tool at these ticks, in m/s.
@@ -398,19 +435,11 @@ private:
         return std::min (how.places, std::max (least_places, how.ticks / 2 / (ticks_per_place * surveys * motion.roles.size())));
     }
 
-    /// The nodes that play by themselves or when they are hit, such as a clip: they have an input for hits, and no other input is wired.
     std::vector<std::size_t> struckNodes() const
     {
         std::vector<std::size_t> all;
-        const auto& nodes = plan->flat().nodes;
-        for (std::size_t n = 0; n < nodes.size(); ++n)
-        {
-            const auto& inputs = nodes[n].type->inputs;
-            const auto isFollowed = [&] (const plan::FlatWire& w) {
-                return w.to.node == static_cast<int> (n) && w.to.role == Role::input && ! plan::takesHits (inputs[at (w.to.port)]);
-            };
-            if (nodes[n].runs() && std::ranges::any_of (inputs, plan::takesHits) && std::ranges::none_of (plan->flat().wires, isFollowed)) all.push_back (n);
-        }
+        for (int n = 0; n < plan->flat().nodeCount(); ++n)
+            if (isStruck (plan->flat(), n)) all.push_back (at (n));
         return all;
     }
 

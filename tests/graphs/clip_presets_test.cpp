@@ -5,7 +5,9 @@
 
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
 #include <tactus/check/measure.hpp>
+#include <tactus/check/trials/trials.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
@@ -45,6 +47,36 @@ std::pair<double, double> slopesOf (const graph::Graph& g)
     }
     return { stiffness, damping };
 }
+
+/// The row `stiffness` of the check of Soft pad, with changes and trials.
+check::Condition contactOf (const graph::Graph& pad)
+{
+    host::FileAssets assets;
+    const check::Subject subject { pad, catalogue(), { .assets = &assets } };
+    const auto motion = check::recordMotion (subject, {}, clip_presets).motion;
+    const auto& description = *pad.device ("finger");
+    const std::vector<check::RoleDevice> devices { { .role = "finger",
+                                                     .numbers = check::numbersOf (description, clip_presets).value(),
+                                                     .name = "sim",
+                                                     .simulated = check::simulationOf (description, clip_presets) } };
+    const auto demand = check::measure (subject, motion);
+    const auto trials = check::tryLoops (subject, motion, demand, devices);
+    const auto conditions = check::judge (demand, devices, { .trials = &trials });
+    const auto row = std::ranges::find (conditions, "stiffness", &check::Condition::id);
+    REQUIRE (row != conditions.end());
+    return *row;
+}
+
+/// Soft pad with a clip that its contact hits.
+test::Sketch padWithClip (const char* drive)
+{
+    const auto clip = (clip_presets / "assets" / "heartbeat.haptic").string();
+    test::Sketch s { loadGraph (clip_presets / "soft_pad.json").graph };
+    s.node ("board", "contact.impact").node ("up", "vector.join");
+    s.node ("clip", "signal.clip", { { "drive", drive }, { "repeat", "loop" }, { "gain", "0.3 N" } }, { { "clip", clip } });
+    s.wire ("pad.depth -> board.depth").wire ("board.hit -> clip.hit").wire ("clip.value -> up.z").wire ("up.out -> motor.force");
+    return s;
+}
 }   // namespace
 
 TEST_CASE ("a clip that plays over time and that the contact fades in counts neither as stiffness nor as damping", "[graphs][check]")
@@ -61,4 +93,18 @@ TEST_CASE ("a clip along the path counts as a texture: its slope is found", "[gr
     const auto g = loadGraph (clip_presets / "zip.json").graph;
     const auto with = slopesOf (withGain (g, "teeth", 2.0)), without = slopesOf (withGain (g, "teeth", 0.0));
     CHECK (with.first > 1.2 * without.first);
+}
+
+TEST_CASE ("a clip that plays by itself, or when the contact hits it, does not change the verdict on a pad", "[graphs][check]")
+{
+    const auto without = contactOf (loadGraph (clip_presets / "soft_pad.json").graph);
+    INFO (without.text);
+    CHECK (without.verdict == check::Verdict::passive_here);
+    for (const auto* drive : { "start", "run" })
+    {
+        const auto with = contactOf (padWithClip (drive).graph);
+        INFO (drive << ": " << with.text);
+        CHECK (with.verdict == without.verdict);
+        CHECK (with.value == Approx (without.value).epsilon (0.02));   // the hand that the clip moves goes a little deeper
+    }
 }
