@@ -22,7 +22,8 @@ constexpr double lasts_s = 3.0, longest_s = 24.0;   // doubled, up to the longes
 constexpr double least_swing = 1e-6;                // m, or rad
 constexpr double doubtful = 0.6;                    // of the least swing; from another start, the tool may swing
 constexpr double little = 0.2;                      // of the least swing; less is none, unless it grows
-constexpr double steady = 0.9;                      // of the swing in the stretch before: a smaller swing dies, and one larger by the inverse grows
+constexpr double least_decay = 0.005;               // per second; near the limit of a contact, a swing dies hardly faster than this
+constexpr double steady = 0.9;                      // of the swing: one that was smaller in the stretch before grows
 constexpr double window_s = 0.125;
 constexpr double far_m = 1.0;
 constexpr double beside = 5e-3;        // m outside the motion: too far to count for it
@@ -54,7 +55,7 @@ struct Coordinate
     double of_graph = 0.0, of_hand = 0.0;   // work in the stretch, in J
 
     bool isQuiet() const noexcept { return std::max (window.range(), window_before.range()) <= little * threshold; }
-    bool dies() const noexcept { return stretch.swing() < steady * stretch_before.swing(); }
+    bool dies (double stretch_s) const noexcept { return stretch.swing() < (1.0 - least_decay * stretch_s) * stretch_before.swing(); }
     bool grows() const noexcept { return stretch.swing() > little * threshold && steady * stretch.swing() > stretch_before.swing(); }
 };
 
@@ -343,6 +344,7 @@ private:
             for (; k < end && ! is_away; ++k)
                 if (step (k)) return;
             seen.clear();
+            const double stretch_s = static_cast<double> (end - late) / motion.rate_hz;
             const auto lost = lostTools (all, is_away, [&] (std::size_t r) { return all_of_graph[r].most > all_of_hand[r].most; });
             eachCoordinate ([&] (std::size_t c, std::size_t r, int axis, double x, double, double) {
                 const auto& one = all[c];
@@ -355,7 +357,7 @@ private:
                 const bool swings = may_swing && one.stretch.swing() > one.threshold;
                 const bool is_near = may_swing && (one.grows() || one.stretch.swing() > doubtful * one.threshold);
                 if (left || swings || goes_on || is_near)
-                    seen.push_back ({ r, axis, left ? far_m : one.stretch.range(), swings, one.dies(), one.grows(), ! swings && (left || goes_on) });
+                    seen.push_back ({ r, axis, left ? far_m : one.stretch.range(), swings, one.dies (stretch_s), one.grows(), ! swings && (left || goes_on) });
             });
             // A tool that only moves on may come to rest later, for example if it falls from a crest into a valley.
             const bool is_clear = std::ranges::none_of (seen, [] (const Seen& s) { return s.goes_on || s.dies || (s.grows && ! s.swings); });

@@ -183,7 +183,8 @@ public:
                 found.range = std::max (found.range, range);
                 found.swing = std::max (found.swing, swing);
                 if (range >= 0.5 * (second[i].high - second[i].low) && work[i] > std::max (0.0, push_work[i])) found.gone = std::max (found.gone, range);
-                changes = changes || (swing > 0.5 * least && (swing < 0.9 * swing_before || swing > 1.1 * swing_before));
+                const double decay = 0.005 * period * ticks / 3.0;   // in a third; a swing may die as slowly as this
+                changes = changes || (swing > 0.5 * least && (swing < (1.0 - decay) * swing_before || swing > 1.1 * swing_before));
             }
             if (! (found.work > std::max (0.0, found.push_work))) found.gone = 0.0;
             return ! changes && (found.gone <= least || found.swing > least);

@@ -357,3 +357,21 @@ TEST_CASE ("what a device must dissipate with a delay is exact", "[check]")
     }
     CHECK (needs (700.0, 3.0, 3) == Approx (most).epsilon (1e-3));
 }
+
+TEST_CASE ("a swing that dies slowly is followed until it is clear, and not called unstable", "[check]")
+{
+    // The load of 1 N makes a friction of 3960 N/m, which is passive up to 4000 N/m: its swing dies by a tenth per second.
+    const auto light = bothOf (made (plane ("floor", R"("stiffness": 1000)")
+                                         + R"(, "drag": { "type": "friction.elasto_plastic", "params": { "mu": 0.4, "d_max": 101e-6 } })",
+                                     felt_floor + felt_drag, 1e-3));
+    INFO (light.row.text);
+    CHECK_FALSE (light.swings);
+    CHECK ((light.row.verdict == check::Verdict::passive_here || light.row.verdict == check::Verdict::unknown));
+
+    // The loop of this wall comes to rest up to 1.02 times its response: its swing dies by 2 % per second.
+    auto wall = made (plane ("floor", R"("stiffness": 2000, "damping": 0.51)"), felt_floor, 1e-3);
+    wall.device = { .mass = 0.2, .damping = 0.5 };
+    const auto heavy = bothOf (wall);
+    INFO (heavy.row.text);
+    CHECK (heavy.row.verdict == check::Verdict::unknown);
+}
