@@ -51,9 +51,8 @@ LayerStrip::LayerStrip (std::shared_ptr<const MixerContext> c, int i)
     };
     close.onClick = [this] { remove(); };
     mute.setColour ([] (const Theme& t) { return t.warning; });
-    const auto flip = [this] (const char* param, const ToolButton& b) { setValue (param, b.getToggleState() ? std::nullopt : std::optional<Json> (1), false); };
-    mute.onClick = [this, flip] { flip ("mute", mute); };
-    solo.onClick = [this, flip] { flip ("solo", solo); };
+    mute.onClick = [this] { flip ("mute", mute.getToggleState()); };
+    solo.onClick = [this] { flip ("solo", solo.getToggleState()); };
     gate.onClick = [this] { setGate (! gate.getToggleState()); };
     send.onClick = [this] { openSends(); };
     connectFields();
@@ -84,12 +83,11 @@ void LayerStrip::connectFields()
     send_gain.setTooltip (TRANS ("Gain of the send, before the gain, mute and solo of this layer"));
 }
 
-double LayerStrip::numberOf (const graph::Node& node, const std::string& param) const
+double LayerStrip::numberNow (const graph::Node& node, const std::string& param, int of_layer) const
 {
-    return siOf (layerValue (node, context->catalogue, param, layer), mixerSheet (context->catalogue, param));
+    if (const auto held = controlOf (context->document.graph(), pathOf (param, of_layer))) return held->value;
+    return siOf (layerValue (node, context->catalogue, param, of_layer), mixerSheet (context->catalogue, param));
 }
-
-bool LayerStrip::isOn (const graph::Node& node, const std::string& param) const { return numberOf (node, param) > 0.5; }
 
 void LayerStrip::show()
 {
@@ -103,11 +101,10 @@ void LayerStrip::show()
     if (! name.isBeingEdited()) name.setText (label, juce::dontSendNotification);
     nameControls (label);
 
-    const auto held = controlOf (graph, pathOf ("gain"));
+    const auto held = controlOf (graph, pathOf ("gain", layer));
     held_by = held ? juce::String (held->name) : juce::String();
-    const double now = held ? held->value : numberOf (*node, "gain");
-    gain = now;
-    driver = driverAt (graph, pathOf ("gain"));
+    gain = numberNow (*node, "gain", layer);
+    driver = driverAt (graph, pathOf ("gain", layer));
     gain_field.setDriver (driver);
     gain_field.show (Json (decibelsOf (gain)));
     fader.show (gain);
@@ -118,7 +115,9 @@ void LayerStrip::show()
     fader.setTooltip (TRANS ("Gain. Drag to change, with Shift for fine steps; double-click for 0 dB; Alt+click for the default") + note);
     gain_field.setTooltip (TRANS ("Gain. Type -6 dB, x0.5, 50 %, off, or the level you want, such as 0.3 N") + note);
     gain_field.setBold (held || gain != 1.0);
-    priority.show (layerValue (*node, context->catalogue, "priority", layer));
+    const auto ranked = controlOf (graph, pathOf ("priority", layer));
+    priority.setDriver (driverAt (graph, pathOf ("priority", layer)));
+    priority.show (ranked ? valueOf (*ranked, mixerSheet (context->catalogue, "priority")) : layerValue (*node, context->catalogue, "priority", layer));
     showSwitches (*node);
     showSource();
     showSends();
@@ -127,12 +126,14 @@ void LayerStrip::show()
 
 void LayerStrip::showSwitches (const graph::Node& node)
 {
-    mute.setToggleState (isOn (node, "mute"), juce::dontSendNotification);
-    solo.setToggleState (isOn (node, "solo"), juce::dontSendNotification);
+    const auto isOn = [&] (const char* param, int i) { return numberNow (node, param, i) > 0.5; };   // as the mixer does
+    mute.setToggleState (isOn ("mute", layer), juce::dontSendNotification);
+    solo.setToggleState (isOn ("solo", layer), juce::dontSendNotification);
     gate.setToggleState (isGated (context->document.graph(), context->place, layer), juce::dontSendNotification);
-    heard = ! mute.getToggleState();
-    if (const auto solos = node.params.find ("solo"); heard && solos != node.params.end() && solos->is_array())
-        heard = solo.getToggleState() || std::ranges::none_of (*solos, [] (const Json& v) { return v.is_number() && v.get<double>() > 0.5; });
+    bool any_solo = false;
+    for (int i = 0; i < layersOf (node, context->catalogue); ++i)
+        any_solo = any_solo || isOn ("solo", i);
+    heard = ! mute.getToggleState() && (! any_solo || solo.getToggleState());
 }
 
 void LayerStrip::showSource()
@@ -234,30 +235,37 @@ void LayerStrip::openSends()
     });
 }
 
-void LayerStrip::setGain (const std::optional<Json>& to, bool goes_on)
-{
-    if (! driver.empty())
-    {
-        if (context->hint) context->hint (drivenText (driver));
-        return show();
-    }
-    if (const auto held = controlOf (context->document.graph(), pathOf ("gain")))
-    {
-        // The range of the control limits the fader.
-        const auto [low, high] = std::minmax (held->low, held->high);
-        const double wanted = std::clamp (siOf (to.value_or (Json (1.0)), mixerSheet (context->catalogue, "gain"), 1.0), low, high);
-        if (auto command = moveControlFor (context->document.graph(), *held, wanted))
-            context->perform (std::move (*command), goes_on);
-        else
-            show();
-        return;
-    }
-    setValue ("gain", to, goes_on);
-}
+void LayerStrip::setGain (const std::optional<Json>& to, bool goes_on) { setValue ("gain", to, goes_on); }
 
 void LayerStrip::setValue (const std::string& param, const std::optional<Json>& to, bool goes_on)
 {
-    if (const auto* node = context->node()) context->perform (setLayerValue (*node, context->place, context->catalogue, param, layer, to), goes_on);
+    const auto* node = context->node();
+    if (node == nullptr) return;
+    const auto& graph = context->document.graph();
+    const auto path = pathOf (param, layer);
+    if (const auto output = driverAt (graph, path); ! output.empty())
+    {
+        if (context->hint) context->hint (drivenText (output));
+        return show();
+    }
+    const auto held = controlOf (graph, path);
+    if (! held) return context->perform (setLayerValue (*node, context->place, context->catalogue, param, layer, to), goes_on);
+    // The range of the control limits the value.
+    const auto [low, high] = std::minmax (held->low, held->high);
+    const auto& sheet = mixerSheet (context->catalogue, param);
+    const double wanted = std::clamp (siOf (to.value_or (Json (sheet.initial[0])), sheet, sheet.initial[0]), low, high);
+    if (auto command = moveControlFor (graph, *held, wanted))
+        context->perform (std::move (*command), goes_on);
+    else
+        show();
+}
+
+void LayerStrip::flip (const std::string& param, bool is_on)
+{
+    const auto held = controlOf (context->document.graph(), pathOf (param, layer));
+    const bool can = ! held || (is_on ? std::min (held->low, held->high) <= 0.5 : std::max (held->low, held->high) > 0.5);
+    if (can) return setValue (param, is_on ? std::nullopt : std::optional<Json> (1), false);
+    if (context->hint) context->hint (filled (TRANS ("the new value of %1 is outside the range of the control %2"), param, held->name));
 }
 
 void LayerStrip::rename (const juce::String& to)

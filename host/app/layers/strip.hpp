@@ -79,9 +79,9 @@ public:
     void mouseUp (const juce::MouseEvent&) override;
 
 private:
-    std::string pathOf (const std::string& param) const { return context->place.path + '.' + param + '[' + std::to_string (layer) + ']'; }
-    bool isOn (const graph::Node&, const std::string& param) const;
-    double numberOf (const graph::Node&, const std::string& param) const;
+    std::string pathOf (const std::string& param, int i) const { return context->place.path + '.' + param + '[' + std::to_string (i) + ']'; }
+    double numberNow (const graph::Node&, const std::string& param, int of_layer) const;   // what a control sets, or else as written
+    void flip (const std::string& param, bool is_on);
     void connectFields();
     void placeGains (juce::Rectangle<int>&);
     void showSwitches (const graph::Node&);

@@ -108,6 +108,49 @@ TEST_CASE ("a fader that is set by a control moves the control, in one undo step
     CHECK (rig.mixer().params["gain"].dump() == "[1,1,0.5]");
 }
 
+TEST_CASE ("M and S show what a control sets, on above 0.5 as in the mixer, and a click moves the control", "[layers]")
+{
+    const std::string param = GENERATE ("mute", "solo");
+    const double at = GENERATE (0.3, 0.55, 1.0), widest = GENERATE (1.0, 0.4);
+    INFO (param << " " << at << " of " << widest);
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
+    std::ranges::find (g.root.nodes, "desk", &graph::Node::name)->params[param] = Json::array ({ 0, 1, 0 });
+    graph::Control control;
+    control.id = control.name = "hush";
+    control.value = at;
+    control.to = { { "desk." + param + "[1]", 0.0, widest } };
+    g.controls.push_back (control);
+    Rig rig (g);
+    juce::String hint;
+    rig.panel->onHint = [&] (const juce::String& text) { hint = text; };
+    juce::Button* button = nullptr;
+    for (auto* child : rig.panel->layer (1).getChildren())
+        if (auto* b = dynamic_cast<juce::Button*> (child); b != nullptr && b->getButtonText() == (param == "mute" ? "M" : "S")) button = b;
+    REQUIRE (button != nullptr);
+    const bool was_on = at * widest > 0.5;
+    CHECK (button->getToggleState() == was_on);
+    button->onClick();
+    const bool can = was_on || widest > 0.5;   // some ranges do not reach "on"
+    CHECK (button->getToggleState() == (can && ! was_on));
+    CHECK (rig.document->graph().controls.back().value == (can ? (was_on ? 0.0 : 1.0) : at));
+    CHECK (hint.contains ("hush") == ! can);
+    CHECK (rig.mixer().params[param].dump() == "[0,1,0]");
+    CHECK (rig.document->history().position() == (can ? 1u : 0u));
+}
+
+TEST_CASE ("a priority that is set by a control moves the control", "[layers]")
+{
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
+    graph::Control control;
+    control.id = control.name = "rank";
+    control.to = { { "desk.priority[1]", 0.0, 10.0 } };
+    g.controls.push_back (control);
+    Rig rig (g);
+    rig.panel->layer (1).setValue ("priority", Json (3), false);
+    CHECK (rig.document->graph().controls.back().value == Approx (0.3));
+    CHECK (rig.mixer().params["priority"].dump() == "[1,0,0]");
+}
+
 TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and Alt-click resets it", "[layers]")
 {
     Rig rig ("bronze_bell.json");
