@@ -347,12 +347,25 @@ void TopBar::store (int number)
     note (number);
 }
 
+/// The snapshot before the last one, or else one of the first two that are stored. 0 if there are no two.
+int TopBar::otherSnapshot() const
+{
+    const auto& g = document.graph();
+    const auto [before, last] = compared_in == document.identity() ? compared : std::array<int, 2> {};
+    if (before != 0 && hasSnapshot (g, before)) return before;
+    std::vector<int> stored;
+    for (int n = 1; n <= snapshot_count; ++n)
+        if (hasSnapshot (g, n)) stored.push_back (n);
+    if (stored.size() < 2) return 0;
+    const bool is_at_first = last == 0 ? isAtSnapshot (g, stored[0]) : last == stored[0];
+    return stored[is_at_first ? 1 : 0];
+}
+
 void TopBar::compare()
 {
-    if (compared_in != document.identity()) compared = {};
-    if (compared[0] == 0 || ! hasSnapshot (document.graph(), compared[0]))
-        return desk.notify (TRANS ("V switches between the last two snapshots: store one with Ctrl+1 and another with Ctrl+2 first."));
-    recall (compared[0]);
+    const int other = otherSnapshot();
+    if (other == 0) return desk.notify (TRANS ("V switches between the last two snapshots: store one with Ctrl+1 and another with Ctrl+2 first."));
+    recall (other);
 }
 
 void TopBar::morph (int from, int to)

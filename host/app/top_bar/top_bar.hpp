@@ -52,6 +52,7 @@ private:
 
     void recall (int snapshot);   // from 1
     void store (int snapshot);
+    int otherSnapshot() const;
     void compare();   // recalls the snapshot before the last one
     void morph (int from, int to);
     void note (int snapshot);

@@ -89,6 +89,36 @@ TEST_CASE ("the snapshot whose values the graph has is lit", "[app][snapshots]")
     CHECK (lit() == "1");
 }
 
+TEST_CASE ("V switches between the first two snapshots of a file as long as none was recalled", "[app][snapshots]")
+{
+    BarStage w;
+    const auto mu = [&] { return w.graph().root.find ("drag")->params.at ("mu").get<double>(); };
+    const auto setMu = [&] (double to) { REQUIRE (w.document.perform (graph::SetParam { "", "drag", "mu", Json (to) })); };
+    const auto compare = [&] {
+        w.key ("v");
+        OnStage::settle();
+    };
+    REQUIRE (w.document.perform (storeSnapshot (w.graph(), 2)));   // not by a key, as if it was in the file
+    const double first = mu();
+    compare();
+    CHECK (w.status.text().contains ("Ctrl+1"));
+    for (const auto& [number, value] : { std::pair { 4, 0.8 }, std::pair { 5, 0.7 } })
+    {
+        setMu (value);
+        REQUIRE (w.document.perform (storeSnapshot (w.graph(), number)));
+    }
+    REQUIRE (first == 0.4);
+    const double start = GENERATE (0.4, 0.8, 0.9);
+    setMu (start);
+    compare();
+    CHECK (mu() == (start == first ? 0.8 : first));
+    const double once = mu();
+    compare();
+    CHECK (mu() == (once == first ? 0.8 : first));
+    compare();
+    CHECK (mu() == once);
+}
+
 TEST_CASE ("a right click on a snapshot moves no value, and offers to recall, to overwrite and to clear it", "[app][snapshots]")
 {
     BarStage w;
