@@ -42,6 +42,13 @@ graph::Graph at (graph::Graph g, int snapshot)
     return g;
 }
 
+/// The graph with the controls of another one, and with what they set stored in the nodes. What differs in such graphs is not set by a control.
+graph::Graph withControls (graph::Graph g, const std::vector<graph::Control>& controls, const Catalogue& catalogue)
+{
+    g.controls = controls;
+    return withValuesInEffect (g, {}, catalogue);
+}
+
 /// Removes controls, whose parameters keep their values.
 graph::Command withoutControls (graph::Graph g, const std::vector<std::string>& ids, const Catalogue& catalogue)
 {
@@ -114,17 +121,18 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
         if (! hasSnapshot (g, n))
             return Message::error ("morph/empty", {}, filled (TRANS ("snapshot %1 is empty"), n).toStdString(), TRANS ("store a snapshot there").toStdString());
     const auto first = at (g, from), last = at (g, to);
+    const auto held_first = withControls (first, g.controls, catalogue), held_last = withControls (last, g.controls, catalogue);
     graph::Control control;
     int left_out = 0;
     for (const auto& node : g.root.nodes)
     {
-        const auto *a = first.root.find (node.name), *b = last.root.find (node.name);
+        const auto *a = held_first.root.find (node.name), *b = held_last.root.find (node.name);
         if (a == nullptr || b == nullptr || (a->params == b->params && a->overrides == b->overrides)) continue;
         if (a->overrides != b->overrides) ++left_out;
-        const auto face = faceOf (first, first.root, *a, catalogue);
+        const auto face = faceOf (held_first, held_first.root, *a, catalogue);
         for (const auto& p : face.params)
         {
-            const auto low = valueOf (first, *a, p), high = valueOf (last, *b, p);
+            const auto low = valueOf (held_first, *a, p), high = valueOf (held_last, *b, p);
             if (low == high) continue;
             const auto path = node.name + '.' + p.id;
             if (isNumber (p) && ! isSetElsewhere (g, path))
@@ -133,8 +141,8 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
                 ++left_out;
         }
     }
-    for (const auto& [name, patch] : first.graphs)
-        if (const auto* other = last.find (name))
+    for (const auto& [name, patch] : held_first.graphs)
+        if (const auto* other = held_last.find (name))
             left_out += static_cast<int> (std::ranges::count_if (patch.nodes, [&] (const graph::Node& n) {
                 const auto* m = other->find (n.name);
                 return m != nullptr && (m->params != n.params || m->overrides != n.overrides);

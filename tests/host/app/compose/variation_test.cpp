@@ -166,6 +166,35 @@ TEST_CASE ("a morph moves what knobs have set, takes their place, and follows th
     CHECK (writeGraph (h.graph()) == before);
 }
 
+TEST_CASE ("what a control sets counts as no difference of its own", "[snapshots]")
+{
+    graph::History h (loadGraph (TACTUS_SOURCE_DIR "/graphs/velvet.json").graph);
+    const auto turn = [&] (double to) {
+        const auto controls = h.graph().controls;
+        for (auto c : controls)
+        {
+            c.value = to;
+            mustPerform (h, graph::ChangeControl { c.id, c });
+        }
+    };
+    for (const auto& [number, value] : { std::pair { 1, 0.25 }, std::pair { 2, 0.75 } })
+    {
+        turn (value);
+        mustPerform (h, storeSnapshot (h.graph(), number));
+    }
+    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE (made);
+    CHECK (made->replaced.size() == 2);
+    CHECK (made->left_out == 0);
+    mustPerform (h, made->command);
+    turn (0.5);
+    mustPerform (h, storeSnapshot (h.graph(), 3));
+    const auto next = morphBetween (h.graph(), 2, 3, catalogue());
+    REQUIRE (next);
+    CHECK (next->params == made->params);
+    CHECK (next->left_out == 0);
+}
+
 TEST_CASE ("a control that is removed leaves each snapshot with the values that it held by it", "[snapshots]")
 {
     auto g = loud (1.0);
