@@ -36,6 +36,7 @@ struct NodeRequest
     graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
     bool modulates = false;           ///< what the new node gives to `start`, a param, moves it around its value, and does not set it
     bool is_joined = false;           ///< it belongs to the last step of the history
+    double depth = 0.0;               ///< how far it moves the param, in SI; 0: in proportion to its value
 };
 
 /// The commands for the selection of a canvas and for its patch. Each edit is one undo step.
@@ -121,10 +122,11 @@ public:
 
 private:
     /// Calls `act` with each param of the patch through which a control sets something, exposed if it is inside of a subgraph: that is an edit with this step,
-    /// and what follows is joined to it. Returns what `act` said last, or why there is no such param; empty if neither.
-    juce::String eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&)>& act);
+    /// and what follows is joined to it. `depth` is the same part of the range of each target, with its sign. Returns what `act` said last, or why there is
+    /// no such param; empty if neither.
+    juce::String eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&, double depth)>& act);
 
-    void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step);
+    void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step, double depth = 0.0);
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
 
     /// The node that was added last, its place, and where the pointer was.
@@ -138,8 +140,8 @@ private:
 
     void moveClear (graph::Id made, const NodeRequest&);
     void placeAddedNode();
-    void modulate (const Plug& from, const Plug& to, graph::Command& joined) const;
-    void connectNew (const Plug& from, const Plug& to, graph::Step);
+    void modulate (const Plug& from, const Plug& to, graph::Command& joined, double depth = 0.0) const;
+    void connectNew (const Plug& from, const Plug& to, graph::Step, double depth = 0.0);
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     void addValues (const SceneNode& driven, const FacePort& param, const SceneNode& source, graph::Command& joined) const;
     const graph::Patch& patchShown() const;

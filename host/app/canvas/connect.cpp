@@ -283,11 +283,11 @@ void CanvasCommands::addModulator (const std::string& node, const std::string& p
     if (const auto to = canvas.scene().findPort ({ driven->id, Role::param, param })) addModulatorAt (to, type, graph::Step::own);
 }
 
-void CanvasCommands::addModulatorAt (const ScenePort& to, const std::string& type, graph::Step step)
+void CanvasCommands::addModulatorAt (const ScenePort& to, const std::string& type, graph::Step step, double depth)
 {
     constexpr float gap = 3 * Box::grid;
     const PortId param { to.node->id, Role::param, to.port->id };
-    const NodeRequest request { to.node->bounds().getTopLeft().translated (-gap, 0.0f), param, 0, true, step == graph::Step::joined };
+    const NodeRequest request { to.node->bounds().getTopLeft().translated (-gap, 0.0f), param, 0, true, step == graph::Step::joined, depth };
     type.empty() ? requestNode (request) : addNodeAt (type, request);
 }
 
@@ -322,7 +322,7 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         const auto name = node->name;
         auto joined = connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port });
         if (request.modulates)
-            modulate ({ *from.node, *from.port }, { *to.node, *to.port }, joined);
+            modulate ({ *from.node, *from.port }, { *to.node, *to.port }, joined, request.depth);
         else if (to.port->role == Role::param)
             addValues (*to.node, *to.port, *from.node, joined);
         perform (std::move (joined), graph::Step::joined);
@@ -341,7 +341,7 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
 
 /// A modulator that is wired to a param adds to its value and to what other modulators add. Its depth is the gain of the wire. A param that a wire sets
 /// already has no such value.
-void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command& joined) const
+void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command& joined, double wanted) const
 {
     auto& commands = std::get<graph::Batch> (joined.edit).commands;
     const auto *source = patchShown().find (from.node.name), *driven = patchShown().find (to.node.name);
@@ -355,7 +355,7 @@ void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command&
     };
     if (std::ranges::any_of (commands, [&] (const auto& c) { return replaced (c) != nullptr && ! replaced (c)->add; })) return;
     const auto now = paramNow (document.graph(), canvas.seen(), *driven, to.port).value;
-    const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet);
+    const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet, wanted);
     if (! depth) return;
     auto& wire = std::get<graph::AddWire> (commands.back().edit).wire;
     wire.add = true;
@@ -366,10 +366,10 @@ void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command&
                          gainText (*depth)));
 }
 
-void CanvasCommands::connectNew (const Plug& from, const Plug& to, graph::Step step)
+void CanvasCommands::connectNew (const Plug& from, const Plug& to, graph::Step step, double depth)
 {
     auto command = connect (document.graph(), canvas.patch(), from, to);
-    modulate (from, to, command);
+    modulate (from, to, command, depth);
     perform (std::move (command), step);
 }
 
@@ -400,8 +400,10 @@ Result<> CanvasCommands::mayJoin (const ScenePort& from, const ScenePort& to, gr
     return {};
 }
 
-juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&)>& act)
+juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step& step,
+                                         const std::function<juce::String (const PortId&, double depth)>& act)
 {
+    constexpr double part_of_range = 0.1;
     const auto* found = findControl (document.graph(), control);
     if (found == nullptr) return {};
     const auto set = *found;
@@ -418,7 +420,8 @@ juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step
         if (node == nodes.end()) continue;
         const PortId port { node->id, Role::param, through->param };
         if (! exposed.commands.empty() && ! perform (std::move (exposed), std::exchange (step, graph::Step::joined))) continue;
-        const auto said = act (port);
+        const auto param = controlOf (document.graph(), t.path);
+        const auto said = act (port, param ? part_of_range * (param->high - param->low) : 0.0);
         if (! why || said.isNotEmpty()) why = said;
     }
     return why.value_or (filled (TRANS ("%1 sets nothing in this patch"), set.name.empty() ? control : set.name));
@@ -427,12 +430,12 @@ juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step
 void CanvasCommands::joinControl (const PortId& start, const std::string& control)
 {
     auto step = graph::Step::own;
-    const auto why = eachTarget (control, step, [&] (const PortId& target) -> juce::String {
+    const auto why = eachTarget (control, step, [&] (const PortId& target, double depth) -> juce::String {
         const auto from = canvas.scene().findPort (start), to = canvas.scene().findPort (target);
         if (! from || ! to) return {};
         if (const auto may = mayJoin (from, to); ! may || from.port->width != to.port->width)
             return fromUtf8 (to.node->name + '.' + to.port->id) + ": " + (may ? TRANS ("A vector cannot drive a number") : fromUtf8 (may.error().text));
-        connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, std::exchange (step, graph::Step::joined));
+        connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, std::exchange (step, graph::Step::joined), depth);
         return {};
     });
     if (why.isNotEmpty()) canvas.notice (why);
@@ -442,12 +445,12 @@ void CanvasCommands::addModulatorOf (const std::string& control, const std::stri
 {
     auto step = graph::Step::own;
     std::optional<PortId> source;   // the output of the new node
-    const auto why = eachTarget (control, step, [&] (const PortId& target) -> juce::String {
+    const auto why = eachTarget (control, step, [&] (const PortId& target, double depth) -> juce::String {
         const auto from = source ? canvas.scene().findPort (*source) : ScenePort {};
         const auto to = canvas.scene().findPort (target);
-        if (from && to) connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, graph::Step::joined);
+        if (from && to) connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, graph::Step::joined, depth);
         if (source || ! to) return {};
-        addModulatorAt (to, type, std::exchange (step, graph::Step::joined));
+        addModulatorAt (to, type, std::exchange (step, graph::Step::joined), depth);
         for (const auto& w : patchShown().wires)
             if (const auto* made = canvas.scene().find (added.node); made != nullptr && w.from.node == made->name)
                 if (const auto* output = made->face->startOf (w.from)) source = PortId { made->id, Role::output, output->id };

@@ -102,7 +102,7 @@ public:
     void mouseDown (const juce::MouseEvent& e) override
     {
         holds_ring = isOnRing (e.position) && ! e.mods.isPopupMenu();
-        depth_grabbed = holds_ring ? depths.front().modulation.depth : 0.0;
+        part_grabbed = holds_ring ? depths.front().part : 0.0;
         if (e.mods.isPopupMenu()) return showMenu();
         if (! holds_ring) refusesHand();
         grabbed = getValue();
@@ -319,12 +319,12 @@ private:
     {
         if (depths.empty()) return;
         const auto& first = depths.front();
-        const double to = draggedDepth (depth_grabbed, std::abs (first.range), pixels);
-        if (to == first.modulation.depth) return;
+        const double to = draggedDepth (part_grabbed, 1.0, pixels);
+        if (to == first.part) return;
         graph::Batch turned { filled (NEEDS_TRANS ("change the depth of %1"), first.modulation.from).toStdString(), {} };
         for (const auto& d : depths)
             if (isTurned (d))
-                if (auto command = changeDepth (document.graph(), d.modulation, to * d.range / first.range)) turned.commands.push_back (std::move (*command));
+                if (auto command = changeDepth (document.graph(), d.modulation, to * d.range)) turned.commands.push_back (std::move (*command));
         if (turned.commands.empty() || ! document.perform (std::move (turned), continues ? graph::Step::joined : graph::Step::own) || depths.empty()) return;
         continues = true;
         if (! strip.onHint) return;
@@ -339,7 +339,7 @@ private:
     Document& document;
     std::string id;
     std::vector<Depth> depths;
-    double depth_grabbed = 0.0;
+    double part_grabbed = 0.0;
     bool holds_ring = false;
     juce::String name, overridden;
     bool has_no_effect = false;         // wires set all its targets

@@ -152,7 +152,7 @@ std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, co
     return values;
 }
 
-std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet& sheet)
+std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet& sheet, double depth)
 {
     constexpr std::array<std::string_view, 4> modulators { "signal.lfo", "signal.envelope", "signal.noise", "signal.sample_hold" };
     constexpr double part_of_value = 0.1, part_of_range = 0.05, slow = 0.1;   // m/s
@@ -160,7 +160,7 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
     if (! is_speed && std::ranges::count (modulators, source.type) == 0) return std::nullopt;
     const auto [value, low, high] = usualSweep (now, sheet);
     const double si = value.si();
-    double depth = si == 0.0 ? part_of_range * (high - low) : part_of_value * std::abs (si);
+    if (depth == 0.0) depth = si == 0.0 ? part_of_range * (high - low) : part_of_value * std::abs (si);
     if (is_speed) depth /= slow;
     bool has_unit = carried != Quantity::any && carried != Quantity::gain;
     if (const auto* amplitude = face.find (Role::param, "amplitude"); amplitude != nullptr && amplitude->sheet != nullptr)

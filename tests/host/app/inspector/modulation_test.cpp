@@ -338,6 +338,40 @@ TEST_CASE ("a cable that is dropped on a knob moves what the knob sets, in one u
     CHECK_FALSE (asks);
 }
 
+TEST_CASE ("a modulator of a knob moves what it sets as a turn of the knob does, also where the parameters run in opposite directions", "[app][modulation]")
+{
+    DeskStage w ("velvet.json", 1280, 1000);
+    REQUIRE (w.graph().controls[0].name == "Comb");
+    w.select ("cloth");
+    w.canvas.commands().addModulatorOf ("comb", "signal.lfo");
+    OnStage::settle();
+    const auto share = [&] {   // of the way of the knob
+        const auto along = first (w.graph(), "pile.mu_along").depth / (0.2 - 0.5), against = first (w.graph(), "pile.mu_against").depth / (1.0 - 0.5);
+        CHECK (along == Approx (against).epsilon (0.02).margin (1e-9));
+        return along;
+    };
+    CHECK (share() == Approx (0.1));
+    auto& knob = w.inspector.knobs().knob (0);
+    const auto middle = w.stage->getLocalPoint (&knob, knob.getLocalBounds().withTrimmedBottom (16).getCentre()).toFloat();
+    const auto on_ring = middle.translated (-21.0f, 0.0f);
+    w.stage->drag (on_ring, on_ring.translated (0.0f, -30.0f));
+    OnStage::settle();
+    const double more = share();
+    CHECK (more > 0.15);
+
+    // Down to 0 and up again, in one drag.
+    w.stage->move (on_ring);
+    w.stage->press();
+    float y = 0.0f;
+    while (first (w.graph(), "pile.mu_along").depth != 0.0 && y < 400.0f)
+        w.stage->move (on_ring.translated (0.0f, y += 1.0f));
+    CHECK (share() == 0.0);
+    w.stage->move (on_ring);
+    w.stage->release();
+    OnStage::settle();
+    CHECK (share() == Approx (more).epsilon (0.02));
+}
+
 TEST_CASE ("a second modulator of a parameter adds to the first one, which keeps its depth", "[app][modulation]")
 {
     Sketch s { wavy ("0.02") };
