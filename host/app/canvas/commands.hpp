@@ -102,7 +102,8 @@ public:
     /// Adds a node of this type that moves a param of a node of the patch around its value; "": asks for it.
     void addModulator (const std::string& node, const std::string& param, const std::string& type);
 
-    /// Checks whether join() would connect two ports. Any speed may modulate a param that no wire sets: the depth of the wire has the unit for it.
+    /// Checks whether join() would connect two ports. Any speed or envelope may modulate a param that no wire sets: the depth of the wire
+    /// has the unit for it.
     Result<> mayJoin (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0) const;
 
     /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.

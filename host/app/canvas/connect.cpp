@@ -393,8 +393,9 @@ void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, con
 Result<> CanvasCommands::mayJoin (const ScenePort& from, const ScenePort& to, graph::Id replaced) const
 {
     auto checked = checkWireByComponent (from.end(), to.end());
-    const bool is_speed = from.port->role == Role::output && from.end().quantity == Quantity::speed && from.port->width == 1;
-    if (checked || ! is_speed || replaced != 0 || to.port->role != Role::param || to.port->width != 1 || to.port->isChoice()) return checked;
+    const bool is_envelope = from.node->type == "signal.envelope" && to.port->unit.kind == UnitRule::Kind::fixed;
+    const bool is_modulator = from.port->role == Role::output && (from.end().quantity == Quantity::speed || is_envelope) && from.port->width == 1;
+    if (checked || ! is_modulator || replaced != 0 || to.port->role != Role::param || to.port->width != 1 || to.port->isChoice()) return checked;
     for (const auto& w : patchShown().wires)
         if (! w.add && w.to.node == to.node->name && to.node->face->endOf (w.to) == to.port) return checked;
     return {};

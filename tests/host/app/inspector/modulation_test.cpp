@@ -372,6 +372,18 @@ TEST_CASE ("a modulator of a knob moves what it sets as a turn of the knob does,
     CHECK (share() == Approx (more).epsilon (0.02));
 }
 
+TEST_CASE ("an envelope that modulates a knob moves all that it sets, whatever the units", "[app][modulation]")
+{
+    DeskStage w ("dry_wood.json", 1280, 1000);
+    w.canvas.commands().addModulatorOf ("roughness", "signal.envelope");
+    OnStage::settle();
+    CHECK (std::ranges::count (w.graph().root.nodes, "signal.envelope", &graph::Node::type) == 1);
+    CHECK (first (w.graph(), "drag.mu").depth == Approx (0.04));
+    CHECK (first (w.graph(), "grain.amplitude").depth == Approx (0.012));
+    CHECK (compile (w.graph(), catalogue()).plan != nullptr);
+    CHECK (w.document.history().position() == 1);
+}
+
 TEST_CASE ("a second modulator of a parameter adds to the first one, which keeps its depth", "[app][modulation]")
 {
     Sketch s { wavy ("0.02") };
