@@ -31,6 +31,7 @@ Question::Question()
 {
     setVisible (false);
     setWantsKeyboardFocus (true);
+    addMouseListener (this, true);
 }
 
 void Question::ask (const juce::String& title, const juce::String& text, std::vector<Choice> all)
@@ -40,6 +41,7 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
         waiting.push_back ({ title, text, std::move (all) });
         return;
     }
+    is_begun = is_late = is_key_held = false;
     heading = title;
     body = inQuotes (text);
     choices = std::move (all);
@@ -49,7 +51,9 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
     for (std::size_t i = 0; i < choices.size(); ++i)
     {
         auto& b = *buttons.emplace_back (std::make_unique<PlainButton> (choices[i].label));
-        b.onClick = [this, i] { answer (i); };
+        b.onClick = [this, i] {
+            if (! is_late) answer (i);
+        };
         addAndMakeVisible (b);
     }
     mark (0);
@@ -139,7 +143,11 @@ void Question::paint (juce::Graphics& g)
 bool Question::keyPressed (const juce::KeyPress& key)
 {
     if (key == juce::KeyPress::returnKey || key == juce::KeyPress::spaceKey)
+    {
+        if (is_key_held) return true;
         answer (marked);
+        is_key_held = isOpen();
+    }
     else if (key == juce::KeyPress::rightKey || key == juce::KeyPress::downKey || key == juce::KeyPress::tabKey)
         mark ((marked + 1) % choices.size());
     else if (key == juce::KeyPress::leftKey || key == juce::KeyPress::upKey)
@@ -148,5 +156,19 @@ bool Question::keyPressed (const juce::KeyPress& key)
         return false;
     return true;
 }
+
+bool Question::keyStateChanged (bool is_down)
+{
+    is_key_held = is_key_held && is_down;
+    return false;
+}
+
+void Question::mouseDown (const juce::MouseEvent& e)
+{
+    is_begun = is_begun || e.getNumberOfClicks() == 1;
+    is_late = ! is_begun;
+}
+
+void Question::mouseUp (const juce::MouseEvent&) { is_late = false; }
 
 }   // namespace tactus::host

@@ -14,7 +14,7 @@ namespace tactus::host
 
 /// A modal question over the window. A question that is asked while another one is open waits until that is answered. Return picks the marked
 /// choice: the first one, or the one the arrow keys moved to. Esc, which
-/// the window passes on, picks the last one.
+/// the window passes on, picks the last one. A double click, or a key that is held, answers only one question: the next one has to be seen.
 class Question final : public juce::Component
 {
 public:
@@ -43,6 +43,9 @@ public:
     void paint (juce::Graphics&) override;
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
+    bool keyStateChanged (bool is_down) override;
+    void mouseDown (const juce::MouseEvent&) override;   ///< of its buttons, too
+    void mouseUp (const juce::MouseEvent&) override;
 
 private:
     struct PendingQuestion
@@ -59,6 +62,9 @@ private:
     std::vector<Choice> choices;
     std::vector<std::unique_ptr<PlainButton>> buttons;
     std::size_t marked = 0;
+    bool is_begun = false;      // a click has begun since the question was asked
+    bool is_late = false;       // the press is the second of a click that had begun before
+    bool is_key_held = false;   // the key that has answered the question before
     std::deque<PendingQuestion> waiting;
     juce::Rectangle<int> box;
 };

@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <vector>
 
 using namespace tactus::host;
@@ -45,4 +47,43 @@ TEST_CASE ("the answers of a question are readable, in a row or, if they are lon
     w.key ("cursor down");
     w.key ("return");
     CHECK (answered == 1);
+}
+
+TEST_CASE ("a double click, or a key that is held, does not answer the next question, which appears at the same place", "[app][question]")
+{
+    DeskStage w;
+    int first = 0, second = 0;
+    const auto ask = [&] (const juce::String& title, std::function<void()> act) {
+        w.question.ask (title, "It holds unsaved work.", { { "Discard", std::move (act) }, { "Later", {} } });
+    };
+    ask ("Discard the first?", [&] {
+        ++first;
+        ask ("Discard the second?", [&] { ++second; });
+    });
+    SECTION ("a double click")
+    {
+        auto* button = DeskStage::buttonIn (w.question, "Discard");
+        REQUIRE (button != nullptr);
+        const auto at = w.middleOf (*button);
+        w.stage->doubleClick (at);
+        CHECK (first == 1);
+        CHECK (second == 0);
+        CHECK (w.question.title() == "Discard the second?");
+        CHECK (w.question.isOpen());
+        w.stage->click (at);
+    }
+    SECTION ("a key")
+    {
+        const auto key = GENERATE (as<std::string> {}, "return", "spacebar");
+        w.key (key);
+        w.key (key);
+        w.key (key);
+        CHECK (first == 1);
+        CHECK (second == 0);
+        CHECK (w.question.isOpen());
+        w.stage->keyUp();
+        w.key (key);
+    }
+    CHECK (second == 1);
+    CHECK_FALSE (w.question.isOpen());
 }
