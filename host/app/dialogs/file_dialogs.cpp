@@ -8,6 +8,7 @@
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/clip_io.hpp>
+#include <host/tools/stems/stems.hpp>
 #include <tactus/text/quote.hpp>
 
 namespace tactus::host
@@ -18,6 +19,7 @@ namespace
 constexpr const char* graphs_and_clips = "*.json;*.tactus;*.haptic;*.ahap;*.hjif;*.wav";
 constexpr int opens = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles;
 constexpr int saves_as = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles;
+constexpr int saves_in = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectDirectories;
 
 /// One Return on the path of a file chooses the file. JUCE only goes to its folder, and wants a second one.
 class PathKeys final : public juce::KeyListener
@@ -57,12 +59,21 @@ public:
 
 /// A path may be relative, which juce::File does not take.
 juce::File fileAt (const std::filesystem::path& path) { return juce::File::getCurrentWorkingDirectory().getChildFile (fromUtf8 (path.string())); }
+
+/// Makes a dialog choose the named folder, which may exist. JUCE would begin in it, and enter it at Return.
+void nameFolder (juce::FileChooserDialogBox& dialog, juce::FileBrowserComponent& browser, juce::TextEditor& name, const juce::File& folder)
+{
+    browser.setRoot (folder.getParentDirectory());
+    name.setText (folder.getFileName());
+    name.onReturnKey = [&dialog] { dialog.exitModalState (1); };
+}
 }   // namespace
 
-/// The title of a dialog in which a file is saved, and the files that it shows.
+/// The title of a dialog in which a file is saved, the files that it shows, and what it chooses.
 struct FileDialogs::SaveWords
 {
     juce::String title, patterns;
+    int how = saves_as;
 
     /// The words for a dialog, by the file name that it proposes.
     static SaveWords of (const std::filesystem::path& begin)
@@ -74,7 +85,7 @@ struct FileDialogs::SaveWords
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
         if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };
         if (extensionOf (begin) == ".tactus") return { TRANS ("Share the graph as one file, with the files that it names"), "*.tactus" };
-        if (begin.extension().empty()) return { TRANS ("Name a folder for the stems"), "*" };
+        if (begin.extension().empty()) return { TRANS ("Name a folder for the stems"), "*", saves_in };
         return { TRANS ("Save graph"), "*.json" };
     }
 };
@@ -99,13 +110,14 @@ void FileDialogs::save (const SaveWords& words, const Path& begin, TakePath chos
     const auto ask = [this, words, begin, chosen = std::move (chosen)] (std::filesystem::path file) {
         if (! juce::WildcardFileFilter (words.patterns, "*", {}).isFileSuitable (fileAt (file))) file += begin.extension();
         std::error_code failed;
-        if (! std::filesystem::exists (file, failed)) return chosen (file);
+        // Of what is in a folder, only stems are replaced; a folder without them is refused, or empty.
+        if (! std::filesystem::exists (words.how == saves_in ? file / list_of_stems : file, failed)) return chosen (file);
         question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
                       { { TRANS ("Choose another name ..."), [this, words, file, chosen] { save (words, file, chosen); } },   // the default
                         { TRANS ("Replace"), [chosen, file] { chosen (file); } },
                         { TRANS ("Cancel"), {} } });
     };
-    launch (words.title, words.patterns, begin, saves_as, ask);
+    launch (words.title, words.patterns, begin, words.how, ask);
 }
 
 void FileDialogs::open (const juce::String& title, const juce::String& patterns, const Path& begin, TakePath chosen)
@@ -154,6 +166,7 @@ void FileDialogs::launch (const juce::String& title, const juce::String& pattern
             if (auto* places = dynamic_cast<juce::ComboBox*> (child)) places->setEditableText (false);
         path_keys = std::make_unique<PathKeys> (*browser);
         name->addKeyListener (path_keys.get());
+        if (how == saves_in) nameFolder (*dialog, *browser, *name, fileAt (begin));
     }
     name->onEscapeKey = [dialog] { dialog->exitModalState (0); };   // the field would keep the key
     takeFocus (*name);

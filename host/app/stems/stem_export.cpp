@@ -25,7 +25,7 @@ namespace tactus::host
 
 namespace
 {
-/// "Dry wood stems 2" if there is a folder "Dry wood stems" among the own files. The dialog would open in it.
+/// "Dry wood stems 2" if there is a folder "Dry wood stems" among the own files: only a name that the user gives replaces stems.
 std::string freeFolder (const std::string& name)
 {
     std::error_code failed;

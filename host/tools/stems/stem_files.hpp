@@ -15,9 +15,6 @@
 namespace tactus::host
 {
 
-/// The file in a folder that lists the stems that were written into it.
-inline constexpr const char* list_of_stems = "tactus_stems.txt";
-
 /// Recorded samples, each channel with as many frames.
 struct RecordedStems
 {

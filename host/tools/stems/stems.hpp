@@ -71,6 +71,9 @@ struct WrittenStems
     Messages losses {};   ///< what clips cannot hold, each kind once
 };
 
+/// The file in a folder that lists the stems that were written into it.
+inline constexpr const char* list_of_stems = "tactus_stems.txt";
+
 /// Records the parts of a run: the signals of all actuators of each role, each of these signals, each layer of the mixers before them, and the
 /// signals that reach them without a mixer. A layer is recorded as its mixer adds it: after gain, mute, solo, ducking and ceiling.
 class Stems

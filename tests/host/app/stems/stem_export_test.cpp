@@ -93,7 +93,7 @@ TEST_CASE ("the stems of the open graph are exported, and they add up to its mix
     CHECK (worst < 1e-5 * (1.0 + peak));
 }
 
-TEST_CASE ("a second export proposes another folder, because the dialog would open in the first one", "[app][stems]")
+TEST_CASE ("a second export proposes another folder, so that no stems are replaced unless the user says so", "[app][stems]")
 {
     const TemporaryFolder own;
     const char* before = std::getenv ("TACTUS_GRAPHS");

@@ -285,3 +285,63 @@ TEST_CASE ("a recording to fit is chosen in the folder of the last one, or else 
     w.key ("escape");
     CHECK (std::filesystem::equivalent (begin(), w.home.path()));
 }
+
+TEST_CASE ("an existing folder of stems is chosen by its name, after a question, and not entered", "[app][files][stems]")
+{
+    const TemporaryFolder mine;
+    std::filesystem::create_directories (mine / "bell");
+    mine.write ("bell/tactus_stems.txt", "mix.wav\n");
+    std::filesystem::create_directories (mine / "empty");
+    WindowRig w ("dry_wood.json");
+    std::filesystem::path chosen;
+    const auto ask = [&] (const juce::String& name) {
+        chosen.clear();
+        w.view->chooseFile (true, mine / "Dry wood stems", [&] (const std::filesystem::path& folder) { chosen = folder; });
+        REQUIRE (isDialogOpen());
+        const auto* field = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+        REQUIRE (field != nullptr);
+        CHECK (field->getText() == "Dry wood stems");
+        w.stage->type (name);
+    };
+    const auto isAsked = [&] { return w.view->asked().isOpen(); };
+    SECTION ("by Return, and by its path")
+    {
+        ask (GENERATE (false, true) ? juce::String ((mine / "bell").string()) : juce::String ("bell"));
+        w.key ("return");
+        REQUIRE (waitFor (isAsked));
+        CHECK_FALSE (isDialogOpen());
+        CHECK (w.view->asked().title() == "Replace bell?");
+        CHECK (chosen.empty());
+        SECTION ("replaced")
+        {
+            w.click ("Replace");
+            CHECK (chosen == mine / "bell");
+        }
+        SECTION ("named again, beside it")
+        {
+            w.click ("Choose another name ...");
+            REQUIRE (isDialogOpen());
+            auto* dialog = juce::Component::getCurrentlyModalComponent();
+            CHECK (nameField (*dialog)->getText() == "bell");
+            CHECK (browserIn (*dialog)->getRoot() == juce::File (mine.path().string()));
+            w.stage->type ("gong");
+            w.key ("return");
+            CHECK (waitFor ([&] { return chosen == mine / "gong"; }));
+        }
+    }
+    SECTION ("by the button")
+    {
+        ask ("bell");
+        w.click ("Choose");
+        REQUIRE (waitFor (isAsked));
+        w.click ("Replace");
+        CHECK (chosen == mine / "bell");
+    }
+    SECTION ("a folder without stems needs no question")
+    {
+        ask ("empty");
+        w.key ("return");
+        CHECK (waitFor ([&] { return chosen == mine / "empty"; }));
+        CHECK_FALSE (isAsked());
+    }
+}
