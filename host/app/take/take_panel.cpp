@@ -5,6 +5,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/base/files/stretch_files.hpp>
+#include <host/tools/stems/stem_clips.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
@@ -330,8 +331,9 @@ void TakePanel::makeClip()
     recording.read (std::move (options), [this] (Result<Stretch> read) {
         if (! read) return refuse (read.error());
         Messages notes;
-        const auto made = clipOfStretch (*read, notes);
-        const auto gain = read->unit == "N" ? std::optional (gainOf (*read)) : std::nullopt;
+        const auto played = playableStretch (std::move (*read), notes);
+        const auto made = clipOfStretch (played, notes);
+        const auto gain = played.unit == "N" ? std::optional (gainOf (played)) : std::nullopt;
         if (! onChoose || ! onClip) return;
         onChoose ("take.wav", [this, made, notes, gain, of = recording.recorded()] (const std::filesystem::path& to) {
             if (onClip (made, notes, gain, to)) of->is_used = true;

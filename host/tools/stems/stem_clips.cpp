@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -22,41 +23,52 @@ const std::vector<std::string>& stemClipFormats()
 
 namespace
 {
-double rmsOf (const std::vector<float>& samples)
+double squaresOf (const std::vector<std::vector<float>>& channels)
 {
     double sum = 0.0;
-    for (const float v : samples)
-        sum += double { v } * double { v };
-    return samples.empty() ? 0.0 : std::sqrt (sum / static_cast<double> (samples.size()));
+    for (const auto& c : channels)
+        for (const float v : c)
+            sum += double { v } * double { v };
+    return sum;
 }
 
-/// Leaves out what an actuator that vibrates cannot play. The signal begins as if its first sample had been held before, a loop as if it had gone on. Samples
-/// that are not finite become 0.
-void removeHeld (OneSignal& signal, double rate_hz, bool loops)
+/// Leaves out what an actuator that vibrates cannot play. The signal begins as if its first sample had been held before, a loop as if it had gone on.
+void removeHeld (std::vector<float>& samples, double rate_hz, bool loops)
 {
-    constexpr double noticed = 0.95;
-    auto& samples = signal.samples;
-    for (auto& v : samples)
-        if (! std::isfinite (v)) v = 0.0f;
     if (samples.empty()) return;
-    const double before = rmsOf (samples), first = double { samples.front() };
+    const double first = double { samples.front() };
     audio::HighPass high_pass (OneSignal::cutoff_hz, rate_hz);
     for (std::size_t k = 0; loops && k < samples.size(); ++k)
         (void)high_pass (double { samples[k] } - first);
     for (auto& v : samples)
         v = static_cast<float> (high_pass (double { v } - first));
-    signal.lacks_held = rmsOf (samples) < noticed * before;
+}
+
+void tellHeld (const OneSignal& signal, Messages& losses)
+{
+    if (signal.lacks_held)
+        losses.push_back (Message::warning ("clip/held", {},
+                                            "a force that is held is left out, and what changes more slowly than 8 times a second is weaker: a clip vibrates"));
 }
 }   // namespace
 
-OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const std::vector<std::string>& names, double rate_hz, bool loops)
+OneSignal oneSignalOf (std::vector<std::vector<float>> channels, const std::vector<std::string>& names, double rate_hz, bool loops)
 {
+    constexpr double noticed = 0.95;
+    if (channels.size() != 3) channels.resize (1);
+    for (auto& c : channels)
+        for (auto& v : c)
+            if (! std::isfinite (v)) v = 0.0f;
+    const double before = squaresOf (channels);
+    for (auto& c : channels)
+        removeHeld (c, rate_hz, loops);
     OneSignal one;
+    one.lacks_held = squaresOf (channels) < noticed * noticed * before;
     if (channels.size() == 3)
     {
         const std::vector<const std::vector<float>*> parts { &channels[0], &channels[1], &channels[2] };
         auto along = mainDirection (parts);
-        if (along.empty()) along = { 0.0, 0.0, 1.0 };   // what is not finite becomes 0 by removeHeld()
+        if (along.empty()) along = { 0.0, 0.0, 1.0 };   // samples too large to square
         for (std::size_t k = 0; k < channels[0].size(); ++k)
         {
             double sum = 0.0;
@@ -68,13 +80,28 @@ OneSignal oneSignalOf (const std::vector<std::vector<float>>& channels, const st
     }
     else
     {
-        one.samples = channels.front();
+        one.samples = std::move (channels.front());
         one.channel = names.front();
     }
-    removeHeld (one, rate_hz, loops);
     for (const float v : one.samples)
         one.peak = std::max (one.peak, std::abs (double { v }));
     return one;
+}
+
+Stretch playableStretch (Stretch stretch, Messages& losses)
+{
+    const auto width = stretch.names.size();
+    if (stretch.unit != "N" || (width != 1 && width != 3)) return stretch;
+    std::vector<std::vector<float>> channels (width);
+    for (std::size_t c = 0; c < width; ++c)
+        for (std::size_t k = 0; k < stretch.ticks(); ++k)
+            channels[c].push_back (static_cast<float> (stretch.value (k, c)));
+    const auto one = oneSignalOf (std::move (channels), stretch.names, stretch.rate_hz, false);
+    tellHeld (one, losses);
+    const auto& first = stretch.names.front();
+    stretch.names = { width == 1 ? first : first.substr (0, first.rfind ('.')) + ' ' + one.channel };   // "motor.force along 0 0 1"
+    stretch.values.assign (one.samples.begin(), one.samples.end());
+    return stretch;
 }
 
 Result<std::string> clipTextOf (const OneSignal& signal, double rate_hz, double full_scale, const std::string& description, const std::string& format,
@@ -84,9 +111,7 @@ Result<std::string> clipTextOf (const OneSignal& signal, double rate_hz, double 
     samples.reserve (signal.samples.size());
     for (const float v : signal.samples)
         samples.push_back (std::clamp (double { v } / full_scale, -1.0, 1.0));
-    if (signal.lacks_held)
-        losses.push_back (Message::warning ("clip/held", {},
-                                            "a force that is held is left out, and what changes more slowly than 8 times a second is weaker: a clip vibrates"));
+    tellHeld (signal, losses);
     auto clip = readers::clipOfSignal ({ .rate_hz = rate_hz, .channels = { std::move (samples) } }, losses);
     clip.notes = { { "description", description } };
     auto made = readers::writeClip (clip, "stem." + format);
