@@ -15,8 +15,8 @@ namespace tactus
 ///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / F)) / 2 for 0 <= t <= F, then 0
 ///
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
-/// |e0 - e1| pi T / (2 F) to the steps of e. No force, torque, axis or signal is larger than both e0 and e: the fade into a vibration that
-/// begins at a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
+/// |e0 - e1| pi T / (2 F) to the steps of e. No component becomes larger than in both e0 and e: the fade into a vibration that begins at
+/// a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only falls: no component
 /// of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
 /// If nodes begin with the plan, the device gets e0 for settle_s first: a wall that begins around the tool takes some ticks to push it out.
 class Bumpless
@@ -102,20 +102,22 @@ private:
         return true;
     }
 
-    /// The value, shortened to the longer one of two others.
+    /// The value, limited to the larger one of two others.
+    static double within (double v, double a, double b) noexcept
+    {
+        const double most = std::max (std::abs (a), std::abs (b));
+        return std::clamp (v, -most, most);
+    }
+
     static Vec3 within (const Vec3& v, const Vec3& a, const Vec3& b) noexcept
     {
-        const double most = std::max (a.norm(), b.norm()), length = v.norm();
-        return length > most ? Vec3 (v * (most / length)) : v;
+        return { within (v.x(), a.x(), b.x()), within (v.y(), a.y(), b.y()), within (v.z(), a.z(), b.z()) };
     }
 
     static Channels within (Channels v, const Channels& a, const Channels& b) noexcept
     {
         for (int i = 0; i < v.size(); ++i)
-        {
-            const double most = std::max (std::abs (a[i]), std::abs (b[i]));
-            v.set (i, std::clamp (v[i], -most, most));
-        }
+            v.set (i, within (v[i], a[i], b[i]));
         return v;
     }
 
