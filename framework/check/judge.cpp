@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "judging.hpp"
-#include "node_loops.hpp"
+#include "sampled_loop.hpp"
 #include "strongest_change.hpp"
 
 #include <tactus/text/list_text.hpp>

@@ -84,7 +84,8 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
               << (contact.dampingParam().empty() ? "a damper along the steepest direction" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
     if (const auto& w = contact.weakest())
-        std::cout << "  the weakest loop there is that of " << quote (w->node) << ": " << (w->may_grow < 1.0 ? "it swings, and would rest with " : "it rests up to ")
+        std::cout << "  the weakest loop there is that of " << quote (w->node) << ": "
+                  << (w->may_grow < 1.0 ? "it swings, and would rest with " : "it rests up to ")
                   << number (w->may_grow) << " times its response; what is varied may not change it\n";
     if (const auto& n = device.numbers; std::isfinite (here.stiffest_held))
         std::cout << "  sensor of " << number (1e6 * n.quantum->value) << " um and dry friction of " << number (n.coulomb->value)

@@ -106,8 +106,9 @@ std::vector<std::string> nodesOf (const check::Condition& c, const check::Demand
     if (! c.node.empty()) return { c.node };
     auto nodes = sinksOf (plan, c.role);
     const bool is_slope = c.id == "stiffness" || c.id == "quantum";
-    if (! c.loops.empty()) nodes.insert (nodes.begin(), c.loops.front().node);
-    if (auto steepest = is_slope && c.loops.empty() ? steepestOf (demand, c.role) : std::string(); ! steepest.empty()) nodes.insert (nodes.begin(), std::move (steepest));
+    auto first = ! c.loops.empty() ? c.loops.front().node : is_slope ? steepestOf (demand, c.role)
+                                                                     : std::string();
+    if (! first.empty()) nodes.insert (nodes.begin(), std::move (first));
     return nodes;
 }
 
@@ -175,9 +176,10 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c), details });
             for (std::size_t i = 1; i < c.loops.size() && is_broken && c.loops[i].may_grow < 1.0 && ! std::isnan (c.may_grow); ++i)
             {
+                const auto& node = c.loops[i].node;
                 auto other = c;
                 other.may_grow = c.loops[i].may_grow;
-                list.limits.push_back ({ true, std::string (c.id), { c.loops[i].node }, limitSentence (other, c.loops[i].node, device), firstRemedy (c), details });
+                list.limits.push_back ({ true, std::string (c.id), { node }, limitSentence (other, node, device), firstRemedy (c), details });
             }
         }
     }

@@ -121,7 +121,8 @@ void StemExport::ask()
         return Question::Choice { label, [this, graph, name, options] {
                                      // A point would begin the ending of another kind of file.
                                      const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();
-                                     desk.chooseOwnFile (freeFolder (legal + " stems"), [this, graph, options] (const auto& into) { render (*graph, options, into); });
+                                     const auto write = [this, graph, options] (const auto& into) { render (*graph, options, into); };
+                                     desk.chooseOwnFile (freeFolder (legal + " stems"), write);
                                  } };
     };
     constexpr double rate_hz = 48000.0;

@@ -4,7 +4,6 @@
 
 #include <tactus/check/factors.hpp>
 #include <tactus/check/measure.hpp>
-#include <tactus/check/node_loops.hpp>
 #include <tactus/check/sampled_loop.hpp>
 #include <tactus/check/stretches.hpp>
 #include <tactus/text/closest_match.hpp>
