@@ -109,7 +109,7 @@ void align (std::vector<LoopMatrix>& pulses, std::span<const DeviceNumbers* cons
         most = std::max (most, p.norm());
     }
     const Eigen::SelfAdjointEigenSolver<LoopMatrix> parts (mixed);
-    const LoopMatrix turn = parts.eigenvectors();
+    const LoopMatrix& turn = parts.eigenvectors();
     std::vector<LoopMatrix> turned;
     for (const auto& p : pulses)
     {
