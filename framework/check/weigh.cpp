@@ -113,11 +113,9 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     }
     if (trials == nullptr) return;
     auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
+    const Trial* slowest = nullptr;                                          // a passive contact near its limit takes long to settle
     if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable)   // only the trial says that it swings, and the swing dies there
-    {
-        if (c.verdict != Verdict::passive) doubtful = worst;   // a passive contact near its limit takes long to settle
-        worst = nullptr;
-    }
+        (c.verdict == Verdict::passive ? slowest : doubtful) = std::exchange (worst, nullptr);
     const auto letGo = [] (const Trial& t) {
         const auto from = t.off > 0.0 ? text (1e3 * t.off, "mm") + " off its rest" : std::string ("at the speed of the motion");
         return "let go " + from + " at " + text (t.t_s, "s") + " " + handText (t.hand) + ", the tool ";
@@ -150,7 +148,8 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         }
         return;
     }
-    const auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
+    auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
+    if (slowest != nullptr) tried += ", or its swing dies slowly: " + letGo (*slowest) + "still moves to and fro " + moves (*slowest);
     if (c.verdict == Verdict::unstable && c.falls)
     {
         c.verdict = Verdict::stable;
