@@ -53,6 +53,13 @@ juce::Path bars()
 }
 
 juce::String captionText() { return TRANS ("Snapshots"); }
+
+/// True if a wire moves a parameter around its value.
+bool isModulated (const graph::Graph& g)
+{
+    const auto has = [] (const graph::Patch& p) { return std::ranges::any_of (p.wires, &graph::Wire::add); };
+    return has (g.root) || std::ranges::any_of (g.graphs, [&] (const auto& inner) { return has (inner.second); });
+}
 }   // namespace
 
 /// A snapshot button, filled if the snapshot has been stored, and brightly if all values are those of the snapshot.
@@ -343,7 +350,9 @@ void TopBar::store (int number)
 {
     const juce::String n (number);
     if (! document.perform (storeSnapshot (document.graph(), number))) return;
-    desk.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
+    auto said = filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n);
+    if (isModulated (document.graph())) said << ' ' << TRANS ("It does not hold the depths of modulation.");
+    desk.notify (said);
     note (number);
 }
 

@@ -204,3 +204,18 @@ TEST_CASE ("a morph says before which knobs it takes the place of, and the keys 
     CHECK (w.graph().controls[0].value == 1.0);
     CHECK (w.status.text() == "Recalled snapshot 2.");
 }
+
+TEST_CASE ("a stored snapshot says that it holds no depths of modulation, if there are any", "[app][snapshots]")
+{
+    BarStage w;
+    w.key ("ctrl + 1");
+    CHECK (w.status.text() == "Stored snapshot 1. Press 1 to recall it.");
+    REQUIRE (w.document.perform (graph::AddNode { "", { .name = "wave", .type = "signal.lfo" } }));
+    graph::Wire depth;
+    depth.from = { .node = "wave", .port = "out" };
+    depth.to = { .node = "drag", .port = "mu" };
+    depth.add = true;
+    REQUIRE (w.document.perform (graph::AddWire { "", depth }));
+    w.key ("ctrl + 2");
+    CHECK (w.status.text() == "Stored snapshot 2. Press 2 to recall it. It does not hold the depths of modulation.");
+}
