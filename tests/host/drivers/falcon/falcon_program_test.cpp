@@ -76,7 +76,8 @@ TEST_CASE ("a program that is killed, frozen or ended leaves a Falcon without a 
         const auto pushes = falcon.pushes.load(), packets = falcon.packets.load();
         program.signal (SIGCONT);
         CHECK (eventually ([&] { return falcon.packets > packets + 5; }));
-        CHECK (falcon.pushes == pushes);   // the force from before does not come back as a step
+        // The force from before does not come back. The program may have been frozen between its last look at the clock and its write, so one packet may.
+        CHECK (falcon.pushes <= pushes + 1);
         static_cast<void> (program.stop());
     }
     else
