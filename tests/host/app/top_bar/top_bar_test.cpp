@@ -210,7 +210,10 @@ TEST_CASE ("a stored snapshot says that it holds no depths of modulation, if the
     BarStage w;
     w.key ("ctrl + 1");
     CHECK (w.status.text() == "Stored snapshot 1. Press 1 to recall it.");
-    REQUIRE (w.document.perform (graph::AddNode { "", { .name = "wave", .type = "signal.lfo" } }));
+    graph::Node wave;
+    wave.name = "wave";
+    wave.type = "signal.lfo";
+    REQUIRE (w.document.perform (graph::AddNode { "", wave }));
     graph::Wire depth;
     depth.from = { .node = "wave", .port = "out" };
     depth.to = { .node = "drag", .port = "mu" };
