@@ -352,7 +352,7 @@ private:
         std::string rooms;
         for (const auto& loop : loops)
         {
-            c.loops.push_back ({ demand.nodes[loop.node].path, loop.may_grow, loop.passive_up_to });
+            c.loops.push_back ({ demand.nodes[loop.node].path, loop.may_grow });
             addToList (rooms, text (loop.may_grow) + " times along the force of '" + demand.nodes[loop.node].path + "'");
             if (&loop != &loops.front()) others.push_back (loop.response);
         }

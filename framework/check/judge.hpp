@@ -55,11 +55,11 @@ struct Condition
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
     double may_grow = 0.0;   ///< for the verdicts `stable` and `unstable`: how many times the response could be as large before the loop swings
-    /// A node and how many times the response along its own force could be as large before the loop swings, and with which it would be passive.
+    /// A node, and how many times the response along its own force could be as large before the loop swings.
     struct Loop
     {
         std::string node;
-        double may_grow = 0.0, passive_up_to = 0.0;
+        double may_grow = 0.0;
     };
     std::vector<Loop> loops {};   ///< for `stable` and `unstable`: of the nodes at the place that is nearest to swinging, the weakest first; else empty
     bool falls = false;           ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place

@@ -381,20 +381,9 @@ std::vector<double> along (const Eigen::Vector3d& d, std::span<const Jacobian> r
     return all;
 }
 
-double passiveUpTo (const std::vector<double>& response, const DeviceNumbers& device, double period_s)
-{
-    std::vector<Jacobian> one;
-    for (const double v : response)
-        one.push_back (Jacobian::Constant (1, 1, v));
-    const std::array<const DeviceNumbers*, 1> axis { &device };
-    const double load = passivityLoad (one, axis, std::array { 1.0 }, period_s).value_or (0.0);
-    return load > 0.0 ? device.damping->value / load : std::numeric_limits<double>::infinity();
-}
-
 NodeLoop loopOf (std::size_t node, std::vector<double> response, const DeviceNumbers& device, double period_s)
 {
     NodeLoop loop { .node = node, .response = std::move (response) };
-    loop.passive_up_to = passiveUpTo (loop.response, device, period_s);
     loop.may_grow = roomToGrow ([&] (double factor) {
         auto larger = loop.response;
         for (double& v : larger)

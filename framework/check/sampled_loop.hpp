@@ -98,7 +98,6 @@ struct NodeLoop
     std::size_t node = 0;
     std::vector<double> response {};   ///< of the whole graph along this direction, as for loopRadius()
     double may_grow = 0.0;             ///< roomToGrow()
-    double passive_up_to = 0.0;        ///< how many times the response could be as large and still be passive
 };
 
 /// The loops at a place, the weakest first. A node whose direction another one has, such as a mixer, is left out: the steeper one stands for both, or the

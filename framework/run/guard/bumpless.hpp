@@ -17,7 +17,8 @@ namespace tactus
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
 /// |e0 - e1| pi T / (2 F) to the steps of e. No component becomes larger than in both e0 and e: the fade into a vibration that begins at
 /// a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only
-/// falls: no component of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
+/// falls: no component of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added
+/// under a pressed tool kicks.
 /// If nodes begin with the plan, the device gets e0 for settle_s first: a wall that begins around the tool takes some ticks to push it out.
 class Bumpless
 {

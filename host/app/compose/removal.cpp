@@ -17,6 +17,8 @@ namespace
 /// The first wire into a layer, as it is without the gate that a contact opens.
 std::optional<graph::Wire> wireWithoutGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
 {
+    const auto* gated = wireInto (g, at, layer);
+    if (! isGated (g, at, layer)) return gated != nullptr ? std::optional (*gated) : std::nullopt;
     auto open = g;
     const auto opening = setGate (g, at, catalogue, layer, false);
     const auto* wire = opening && graph::apply (open, *opening) ? wireInto (open, at, layer) : nullptr;

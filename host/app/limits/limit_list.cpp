@@ -106,8 +106,11 @@ std::vector<std::string> nodesOf (const check::Condition& c, const check::Demand
     if (! c.node.empty()) return { c.node };
     auto nodes = sinksOf (plan, c.role);
     const bool is_slope = c.id == "stiffness" || c.id == "quantum";
-    auto first = ! c.loops.empty() ? c.loops.front().node : is_slope ? steepestOf (demand, c.role)
-                                                                     : std::string();
+    std::string first;
+    if (! c.loops.empty())
+        first = c.loops.front().node;
+    else if (is_slope)
+        first = steepestOf (demand, c.role);
     if (! first.empty()) nodes.insert (nodes.begin(), std::move (first));
     return nodes;
 }
@@ -143,18 +146,17 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     LimitList list;
     for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
     {
-        for (const auto& loop : c.loops)
-            list.contacts.push_back ({ .node = loop.node,
-                                       .device = nameOf (devices, c.role),
-                                       .verdict = c.verdict,
-                                       .passive_up_to = loop.passive_up_to,
-                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : loop.may_grow });
-        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())
-            list.contacts.push_back ({ .node = steepestOf (demand, c.role),
+        // All together are passive up to the same factor; the steepest node stands for them where the loops of the nodes are not known.
+        const auto addContact = [&] (const std::string& node, double stable_up_to) {
+            list.contacts.push_back ({ .node = node,
                                        .device = nameOf (devices, c.role),
                                        .verdict = c.verdict,
                                        .passive_up_to = c.limit / c.value,
-                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : c.may_grow });
+                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : stable_up_to });
+        };
+        for (const auto& loop : c.loops)
+            addContact (loop.node, loop.may_grow);
+        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty()) addContact (steepestOf (demand, c.role), c.may_grow);
         const bool is_broken = c.isBroken();
         if (! c.isKnown())
         {

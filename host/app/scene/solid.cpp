@@ -40,6 +40,8 @@ double Solid::turnsAround (const Vec3& p) const noexcept
 bool Solid::contains (const Vec3& p) const noexcept
 {
     constexpr double closed = 0.9, well = 0.02;
+    constexpr std::size_t most_triangles = 50'000;
+    if (faces.size() > most_triangles) return false;
     const auto isIn = [this] (const Vec3& q) {
         return (q.array() > box.low.array()).all() && (q.array() < box.high.array()).all() && turnsAround (q) > closed;
     };

@@ -24,7 +24,7 @@ public:
     const Bounds& bounds() const noexcept { return box; }
 
     /// True if a point is well inside the mesh: by more than a fiftieth of its size, since what is felt is smooth, and the mesh is not. A mesh that is
-    /// not closed has no inside.
+    /// not closed has no inside, and one of more than 50 000 triangles is not looked at, because that would slow each picture.
     bool contains (const Vec3&) const noexcept;
 
     int triangles() const noexcept { return static_cast<int> (faces.size()); }
