@@ -374,4 +374,12 @@ TEST_CASE ("a swing that dies slowly is followed until it is clear, and not call
     const auto heavy = bothOf (wall);
     INFO (heavy.row.text);
     CHECK (heavy.row.verdict == check::Verdict::unknown);
+
+    // This one is passive by 0.14 % of the damping: its swing dies by 0.3 % per second, so it is not said to come to rest.
+    auto edge = made (plane ("floor", R"("stiffness": 53.44, "damping": 0.023)"), felt_floor, 1e-3);
+    edge.device = { .mass = 0.0345, .damping = 0.164273, .delay = 3 };
+    const auto slow = bothOf (edge);
+    INFO (slow.row.text);
+    CHECK (slow.row.verdict == check::Verdict::passive);
+    CHECK (slow.row.text.find ("the tool comes to rest, or its swing dies slowly: let go ") != std::string::npos);
 }

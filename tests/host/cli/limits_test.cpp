@@ -111,6 +111,40 @@ TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact 
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=5000" }).out.find ("stable, but not passive") != std::string::npos);
 }
 
+TEST_CASE ("`tactus limits` names a weaker loop beside the contact that it varies, and varies no param that acts across this", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto limits = [&] (const char* wall) {
+        const auto file = scratch.write (
+            "rubbed.json", std::string (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+            "devices": { "tip": { "driver": "sim", "mass": 0.1, "damping": 2, "delay": 1, "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
+            "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+                "wall": { "type": "deform.plane", "params": )")
+                               + wall + R"( }, "drag": { "type": "friction.elasto_plastic" } },
+            "wires": ["hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
+                "wall.force -> motor.force", "drag.force -> motor.force"] })");
+        const auto ran = runTactus ({ "limits", file, "--json" });
+        INFO (ran.out << ran.err);
+        REQUIRE (ran.status == 0);
+        return std::pair (Json::parse (ran.out), runTactus ({ "limits", file }).out);
+    };
+    const auto [stiff, text] = limits (R"({ "stiffness": 5000, "damping": 5 })");
+    CHECK (stiff.at ("node") == Json ("wall"));
+    CHECK (stiff.at ("weakest").at ("node") == Json ("drag"));
+    const double room = stiff.at ("weakest").at ("may_grow").get<double>(), steepest = 0.4 / 1e-4;   // mu over d_max, of 1 N
+    const std::array<double, 1> response { room * steepest };
+    DeviceNumbers late = arm;
+    late.delay = DeviceNumber { .value = 1.0, .source = "made up" };
+    CHECK (check::comesToRest (response, late, 1e-3));
+    CHECK_FALSE (check::comesToRest (std::array { 1.01 * response[0] }, late, 1e-3));
+    CHECK (text.find ("the weakest loop there is that of 'drag': it swings, and would rest with 0.33") != std::string::npos);
+
+    const auto soft = limits (R"({ "stiffness": 1000, "damping": 1 })").first;
+    CHECK (soft.at ("node") == Json ("drag"));
+    CHECK (soft.at ("stiffness_param") == Json (""));   // not the wall's
+    CHECK_FALSE (soft.contains ("weakest"));
+}
+
 TEST_CASE ("the limits of a wall behind a predictor are where a tool begins to swing, within 5 %", "[check][cli]")
 {
     const Scratch scratch;
