@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What holds for every control of the window.
 #include "host/app/support/window_rig.hpp"
+
+#include <tactus/file/graph_file.hpp>
+
+#include <functional>
+#include <vector>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -39,6 +45,13 @@ void checkNames (juce::Component& c)
     if (dynamic_cast<juce::Slider*> (&c) != nullptr || dynamic_cast<juce::ComboBox*> (&c) != nullptr) return;   // their parts
     for (auto* child : c.getChildren())
         checkNames (*child);
+}
+
+void forButtons (juce::Component& in, const std::function<void (juce::Button&)>& f)
+{
+    if (auto* b = dynamic_cast<juce::Button*> (&in); b != nullptr && b->isShowing()) f (*b);
+    for (auto* child : in.getChildren())
+        forButtons (*child, f);
 }
 }   // namespace
 
@@ -82,5 +95,32 @@ TEST_CASE ("every control of the window has a name for screen readers", "[app][n
         w.view->canvas().grabKeyboardFocus();
         w.key ("spacebar");
         checkNames (*w.view);
+    }
+}
+
+TEST_CASE ("a right or middle click on any button changes nothing, except that any click on STOP stops", "[app][click]")
+{
+    for (const int button : { juce::ModifierKeys::rightButtonModifier, juce::ModifierKeys::middleButtonModifier })
+    {
+        WindowRig w ("dry_wood.json");
+        w.key ("ctrl + 1");
+        REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+        WindowRig::settle();
+        const auto text = [&] { return writeGraph (w.graph()); };
+        const auto before = text();
+        const auto running = w.view->run().isRunning();
+        std::vector<juce::Component::SafePointer<juce::Button>> all;
+        forButtons (*w.view, [&] (juce::Button& b) { all.emplace_back (&b); });
+        REQUIRE (all.size() > 20);
+        for (const auto& b : all)
+        {
+            if (b == nullptr || ! b->isShowing() || b->getButtonText() == "STOP") continue;
+            INFO (b->getButtonText() << " " << b->getTitle());
+            w.stage->click (w.middleOf (*b), button);
+            juce::PopupMenu::dismissAllActiveMenus();
+            WindowRig::settle();
+            CHECK (text() == before);
+            CHECK (w.view->run().isRunning() == running);
+        }
     }
 }

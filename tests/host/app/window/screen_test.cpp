@@ -232,42 +232,6 @@ TEST_CASE ("a new graph shows no curve of the graph before, even for a port with
     CHECK_FALSE (hasTrace());
 }
 
-TEST_CASE ("a tool that H holds is let go at a stop, so that the next start does not press, and when another graph opens", "[app][window]")
-{
-    WindowRig w ("dry_wood.json", 1280, 720, false);
-    auto& run = w.view->run();
-    auto* surface = w.titled ("Surface");
-    REQUIRE (surface != nullptr);
-    w.stage->move (w.middleOf (*surface));
-    w.stage->press();
-    REQUIRE (waitFor ([&] { return run.tool() && run.tool()->position.z() < 0.0; }));
-    w.key ("h");
-    w.stage->release();
-    WindowRig::settle();
-    REQUIRE (w.view->part<HandPanel>().view().isHeld());
-
-    w.key ("escape");
-    REQUIRE (waitFor ([&] { return ! run.isRunning(); }));
-    REQUIRE (waitFor ([&] { return ! w.view->part<HandPanel>().view().isHeld(); }));
-    w.key ("F5");
-    REQUIRE (waitFor ([&] { return run.isRunning() && run.tool(); }));
-    for (int i = 0; i < 20; ++i)
-    {
-        WindowRig::settle (10);
-        REQUIRE (run.tool());
-        CHECK (run.tool()->position.z() > 0.0);
-    }
-    w.stage->press();
-    REQUIRE (waitFor ([&] { return run.tool() && run.tool()->position.z() < 0.0; }));
-    w.key ("h");
-    w.stage->release();
-    WindowRig::settle();
-    REQUIRE (w.view->part<HandPanel>().view().isHeld());
-    w.view->document().open (loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph, {}, "open Bronze bell");
-    CHECK (waitFor ([&] { return ! w.view->part<HandPanel>().view().isHeld(); }));
-    run.letGo();
-}
-
 TEST_CASE ("a new graph shows no values of the run before", "[app][scopes]")
 {
     WindowRig w ("dry_wood.json", 1920, 1080, false);
