@@ -82,8 +82,8 @@ void CommandSearch::addEdits (std::vector<Action>& all)
         }
 }
 
-/// Adds the knobs and their actions.
-void CommandSearch::addKnobs (std::vector<Action>& all)
+/// Adds the knobs and their actions, what the menu of each snapshot offers, and the choices for what moves the tool.
+void CommandSearch::addChoices (std::vector<Action>& all)
 {
     if (parts.welcome.isVisible()) return;
     auto& knobs = parts.inspector.knobs();
@@ -99,18 +99,14 @@ void CommandSearch::addKnobs (std::vector<Action>& all)
         knobs.fillMenu (menu, i);
         addItems (menu, knobs.knob (i).getTitle() + ": ", all);
     }
-}
-
-/// Adds what the menu of each snapshot offers.
-void CommandSearch::addSnapshots (std::vector<Action>& all)
-{
-    if (parts.welcome.isVisible()) return;
     for (int n = 1; n <= snapshot_count; ++n)
     {
         juce::PopupMenu menu;
         parts.top.fillSnapshotMenu (menu, n, n);
         addItems (menu, {}, all);
     }
+    for (auto& [name, choose] : parts.hand.choices())
+        all.push_back ({ name, TRANS ("What moves the tool"), std::move (choose) });
 }
 
 void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
@@ -130,14 +126,6 @@ void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
         };
         all.push_back ({ nameOf (b), b.getTooltip(), act });
     });
-}
-
-/// Adds the choices for what moves the tool.
-void CommandSearch::addHands (std::vector<Action>& all)
-{
-    if (parts.welcome.isVisible()) return;
-    for (auto& [name, choose] : parts.hand.choices())
-        all.push_back ({ name, TRANS ("What moves the tool"), std::move (choose) });
 }
 
 /// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
@@ -196,9 +184,7 @@ void CommandSearch::open()
 {
     std::vector<Action> all;
     addEdits (all);
-    addKnobs (all);
-    addSnapshots (all);
-    addHands (all);
+    addChoices (all);
     addTabsAndButtons (all);
     addItems (menu.items(), {}, all);
     addNodes (all);

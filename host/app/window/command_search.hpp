@@ -19,11 +19,9 @@ public:
 private:
     struct Action;   ///< what a click would do, or the way to a node
     void addEdits (std::vector<Action>&);
-    void addKnobs (std::vector<Action>&);
-    void addSnapshots (std::vector<Action>&);
+    void addChoices (std::vector<Action>&);
     void addTabsAndButtons (std::vector<Action>&);
     void addNodes (std::vector<Action>&);
-    void addHands (std::vector<Action>&);
     void addTypes (std::vector<Action>&);
 
     WindowParts& parts;

@@ -41,11 +41,8 @@ public:
         }
         there_since.reset();
         if (asked_at && now - *asked_at < patience) return {};
-        if (++requests > most_requests)
-        {
-            is_done = true;
-            return {};
-        }
+        is_done = ++requests > most_requests;
+        if (is_done) return {};
         asked_at = now;
         return place;
     }

@@ -4,6 +4,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -64,20 +65,13 @@ bool Keyboard::press (const juce::KeyPress& key)
 
 bool Keyboard::act (const juce::KeyPress& key)
 {
-    for (const auto& p : parts.panels)
-        for (const auto& k : p.panel.keys)
-            if (k.act && isKey (key, k.key))
-            {
-                k.act();
-                return true;
-            }
-    for (const auto& k : keys)
-        if (isKey (key, k.key))
-        {
-            k.act();
-            return true;
-        }
-    return false;
+    const auto isDoneBy = [&key] (const auto& by) {
+        const auto taker = std::ranges::find_if (by, [&key] (const auto& k) { return k.act && isKey (key, k.key); });
+        const bool found = taker != by.end();
+        if (found) taker->act();
+        return found;
+    };
+    return std::ranges::any_of (parts.panels, [&] (const AttachedPanel& p) { return isDoneBy (p.panel.keys); }) || isDoneBy (keys);
 }
 
 /// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed; or if it would
@@ -177,11 +171,6 @@ juce::Component& Keyboard::home()
 void Keyboard::poll()
 {
     pollClutch();
-    keepFocus();
-}
-
-void Keyboard::keepFocus()
-{
     parts.dialogs.attendNewFolder();
     const auto* peer = parts.window.getPeer();
     if (peer == nullptr || ! peer->isFocused()) return;

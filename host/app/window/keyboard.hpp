@@ -54,7 +54,6 @@ private:
     bool isForClutch() const;
     bool pressClutch (const juce::KeyPress&);
     void pollClutch();
-    void keepFocus();
     void endDrag();
 
     WindowParts& parts;

@@ -64,11 +64,17 @@ void MainMenu::addFiles (juce::PopupMenu& menu)
 
 void MainMenu::addGraph (juce::PopupMenu& menu)
 {
+    const auto askForRecording = [this] {
+        std::error_code failed;
+        const auto& last = parts.settings.recordings;
+        parts.dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", std::filesystem::is_directory (last, failed) ? last : ownFolder(),
+                            parts.desk.fitRecording);
+    };
     const bool is_empty = parts.edited.graph().root.nodes.empty();
     menu.addItem (item (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs (parts.desk); }));
     if (! is_empty) menu.addItem (item (TRANS ("Export stems ..."), {}, [this] { parts.stems.ask(); }));
     if (! is_empty) menu.addItem (item (TRANS ("Randomise the numbers of the selection, or of all nodes"), {}, [this] { randomise (parts.desk); }));
-    menu.addItem (item (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
+    menu.addItem (item (TRANS ("Fit a recording ..."), {}, askForRecording));
 }
 
 void MainMenu::addLook (juce::PopupMenu& menu)
@@ -152,14 +158,6 @@ juce::PopupMenu MainMenu::languages() const
     for (const auto& [code, name] : translationsIn (parts.saver.home()))
         add (name, code);
     return menu;
-}
-
-void MainMenu::askForRecording()
-{
-    std::error_code failed;
-    const auto& last = parts.settings.recordings;
-    parts.dialogs.open (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", std::filesystem::is_directory (last, failed) ? last : ownFolder(),
-                        parts.desk.fitRecording);
 }
 
 }   // namespace tactus::host

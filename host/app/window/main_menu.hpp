@@ -31,7 +31,6 @@ private:
     void addGraph (juce::PopupMenu&);
     void addLook (juce::PopupMenu&);
     void addHelp (juce::PopupMenu&);
-    void askForRecording();
 
     WindowParts& parts;
 };

@@ -221,9 +221,7 @@ void MainView::refreshPanels()
     for (const auto& [panel, component, covers] : parts.panels)
     {
         if (panel.refresh) panel.refresh();
-        if (! panel.title || covers) continue;
-        const auto title = panel.title();
-        parts.layout.rename (component, title.text, title.alarms);
+        if (panel.title && ! covers) parts.layout.rename (component, panel.title());
     }
 }
 

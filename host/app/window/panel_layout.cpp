@@ -62,18 +62,15 @@ void PanelLayout::readSettings()
     shares_before = shares();
 }
 
-void PanelLayout::remember()
-{
-    if (is_canvas_alone) return;   // the next start shows the panels
-    desk.settings.panels.clear();
-    for (const auto& [name, edge] : edges())
-        if (const auto share = edge->share()) desk.settings.panels[name] = *share;
-    desk.settingsChanged();
-}
-
 void PanelLayout::edgeMoved()
 {
-    remember();
+    if (! is_canvas_alone)   // the next start shows the panels
+    {
+        desk.settings.panels.clear();
+        for (const auto& [name, edge] : edges())
+            if (const auto share = edge->share()) desk.settings.panels[name] = *share;
+        desk.settingsChanged();
+    }
     window.resized();
 }
 
@@ -139,10 +136,10 @@ void PanelLayout::toFront (const juce::Component& panel)
         if (tabs->isParentOf (&panel)) tabs->show (panel);
 }
 
-void PanelLayout::rename (const juce::Component& panel, const juce::String& title, bool alarms)
+void PanelLayout::rename (const juce::Component& panel, const Panel::Title& title)
 {
     for (auto* tabs : { &left, &bottom })
-        if (tabs->isParentOf (&panel)) tabs->rename (panel, title, alarms);
+        if (tabs->isParentOf (&panel)) tabs->rename (panel, title.text, title.alarms);
 }
 
 void PanelLayout::reveal (const juce::Component& panel)

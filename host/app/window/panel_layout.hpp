@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/desk/desk.hpp>
+#include <host/app/desk/panel.hpp>
 #include <host/app/look/splitter.hpp>
 #include <host/app/look/tabs.hpp>
 #include <host/app/run/views/hand_panel.hpp>
@@ -37,7 +37,7 @@ public:
 
     void toFront (const juce::Component& panel);   ///< of its tabs
     void reveal (const juce::Component& panel);    ///< like toFront(), even if the tabs are folded
-    void rename (const juce::Component& panel, const juce::String& title, bool alarms);
+    void rename (const juce::Component& panel, const Panel::Title&);
 
     /// Leaves the window to the canvas, or brings back the panels that were open before.
     void foldPanels();
@@ -49,7 +49,6 @@ public:
 private:
     using Shares = std::array<std::optional<double>, 5>;
     Shares shares();
-    void remember();
     void edgeMoved();
     void noteMoves();   ///< makes a step of the history of what has changed since the last call
     void restore (const Shares&);
