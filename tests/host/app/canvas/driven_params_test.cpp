@@ -16,7 +16,7 @@ using host::test::CanvasRig;
 using host::test::DeskStage;
 using host::test::Hand;
 using host::test::OnStage;
-using host::test::readTexts;
+using host::test::showsText;
 using host::test::waitFor;
 
 using tactus::test::Sketch;
@@ -59,12 +59,6 @@ std::string messagesOf (const LiveRun& run)
     for (const auto& m : run.messages())
         all += m.id + ' ' + m.text + '\n';
     return all;
-}
-
-bool reads (juce::Component& c, const juce::String& text)
-{
-    const auto texts = readTexts (c);
-    return std::ranges::any_of (texts, [&] (const auto& t) { return t.text == text; });
 }
 }   // namespace
 
@@ -123,7 +117,7 @@ TEST_CASE ("what a wire sets is named on the node, follows the run, and is not s
     REQUIRE (row != nullptr);
     CHECK (row->driver == "level.out");
     CHECK (row->value.empty());
-    CHECK (reads (*rig.canvas, "level.out"));
+    CHECK (showsText (*rig.canvas, "level.out"));
 
     const auto before = rig.text();
     const auto at = rig.value ("drag", "mu");
@@ -141,10 +135,10 @@ TEST_CASE ("what a wire sets is named on the node, follows the run, and is not s
     live.runs = true;
     live.driven[{ rig.node ("drag").id, "mu" }] = "0.123";
     rig.canvas->showLive (live);
-    CHECK (reads (*rig.canvas, "0.123"));
-    CHECK_FALSE (reads (*rig.canvas, "level.out"));
+    CHECK (showsText (*rig.canvas, "0.123"));
+    CHECK_FALSE (showsText (*rig.canvas, "level.out"));
     rig.canvas->showLive ({});
-    CHECK (reads (*rig.canvas, "level.out"));
+    CHECK (showsText (*rig.canvas, "level.out"));
 
     auto adds = rig.graph();   // a wire that adds leaves the value to the user
     adds.root.wires[0].add = true;
@@ -167,7 +161,7 @@ TEST_CASE ("while the graph runs, the node and the inspector show what a wire se
     REQUIRE (field != nullptr);
     CHECK (field->isDriven());
     CHECK (field->spokenValue() == "level.out");
-    CHECK (reads (w.inspector, "from level.out"));
+    CHECK (showsText (w.inspector, "from level.out"));
 
     const auto before = w.document.version();
     const auto middle = w.middleOf (*field);
@@ -181,13 +175,13 @@ TEST_CASE ("while the graph runs, the node and the inspector show what a wire se
     const auto shown = [] (int um) { return juce::String (um) + juce::String::fromUTF8 (" \xc2\xb5m"); };
     INFO (messagesOf (w.playback.run()));
     REQUIRE (waitFor ([&] { return field->spokenValue() == shown (500); }));
-    REQUIRE (waitFor ([&] { return reads (canvas, shown (500)); }));
+    REQUIRE (waitFor ([&] { return showsText (canvas, shown (500)); }));
     w.document.perform (graph::SetParam { {}, "level", "value", Json ("0.6 mm") });
     CHECK (waitFor ([&] { return field->spokenValue() == shown (600); }));
-    CHECK (reads (canvas, shown (600)));
+    CHECK (showsText (canvas, shown (600)));
     w.playback.run().stop();
     CHECK (waitFor ([&] { return field->spokenValue() == "level.out"; }));
-    CHECK (reads (canvas, "level.out"));
+    CHECK (showsText (canvas, "level.out"));
 
     w.document.perform (graph::RemoveWire { {}, w.graph().root.wires.back().id });
     OnStage::settle();
@@ -211,7 +205,7 @@ TEST_CASE ("a param that is driven from outside of its subgraph is marked inside
     w.stage->doubleClick (w.stage->getLocalPoint (&canvas, canvas.view().toPixels (part.at + juce::Point<float> (40.0f, 14.0f))));
     OnStage::settle();
     REQUIRE (canvas.seen().path == "part/");
-    CHECK (reads (canvas, "level.out"));
+    CHECK (showsText (canvas, "level.out"));
     canvas.select ({ canvas.scene().nodes().front().id });
     OnStage::settle();
     auto* field = dynamic_cast<NumberField*> (w.titled (juce::String::fromUTF8 ("Parameter \xce\xbc, friction coefficient")));
@@ -222,7 +216,7 @@ TEST_CASE ("a param that is driven from outside of its subgraph is marked inside
     w.playback.start ({});
     INFO (messagesOf (w.playback.run()));
     CHECK (waitFor ([&] { return field->spokenValue() == "0.4"; }));
-    CHECK (waitFor ([&] { return reads (canvas, "0.4"); }));
+    CHECK (waitFor ([&] { return showsText (canvas, "0.4"); }));
     w.playback.run().letGo();
 }
 

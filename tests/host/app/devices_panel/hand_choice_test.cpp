@@ -5,21 +5,14 @@
 
 #include <host/app/devices_panel/devices_panel.hpp>
 
-#include <algorithm>
-
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskStage;
+using tactus::host::test::mentions;
 using tactus::host::test::waitFor;
 
 namespace
 {
-bool reads (DeskStage& w, const char* text)
-{
-    const auto texts = tactus::host::test::readTexts (*w.stage);
-    return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
-}
-
 juce::ComboBox& listTitled (DeskStage& w, const char* title)
 {
     auto* list = dynamic_cast<juce::ComboBox*> (w.titled (title));
@@ -35,21 +28,21 @@ TEST_CASE ("a card of the devices panel says that the mouse moves the tool, and 
     auto& hand = w.showHand();
     auto& run = w.playback.run();
     REQUIRE (w.start());
-    CHECK (waitFor ([&] { return reads (w, "The device described in the graph is used"); }));
-    CHECK_FALSE (reads (w, "Not in use"));
+    CHECK (waitFor ([&] { return mentions (*w.stage, "The device described in the graph is used"); }));
+    CHECK_FALSE (mentions (*w.stage, "Not in use"));
 
     listTitled (w, "What moves the tool").grabKeyboardFocus();
     w.key ("cursor down");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand::pointer(); }));
-    CHECK (waitFor ([&] { return reads (w, "Not in use: the mouse or pen"); }));
-    CHECK_FALSE (reads (w, "The device described in the graph is used"));
-    CHECK (reads (w, "Hand."));   // the card has grown with its text
+    CHECK (waitFor ([&] { return mentions (*w.stage, "Not in use: the mouse or pen"); }));
+    CHECK_FALSE (mentions (*w.stage, "The device described in the graph is used"));
+    CHECK (mentions (*w.stage, "Hand."));   // the card has grown with its text
 
     listTitled (w, "device").grabKeyboardFocus();
     w.key ("cursor down");
     CHECK (listTitled (w, "device").getText() == "simulated tool");
     REQUIRE (waitFor ([&] { return run.isRunning() && run.hand() == LiveRun::Hand {}; }));
-    CHECK (waitFor ([&] { return ! reads (w, "Not in use"); }));
+    CHECK (waitFor ([&] { return ! mentions (*w.stage, "Not in use"); }));
     CHECK (waitFor ([&] { return listTitled (w, "What moves the tool").getText() == "Its own device"; }));
     CHECK (w.status.text().contains ("The device of stylus moves its tool from now on"));
     CHECK (hand.chosen() == LiveRun::Hand {});   // also in the next graph

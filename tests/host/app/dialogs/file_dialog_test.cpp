@@ -16,16 +16,12 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::contrast;
 using tactus::host::test::onScreen;
+using tactus::host::test::showsText;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
 namespace
 {
-bool isSeen (WindowRig& w, const juce::String& text)
-{
-    return std::ranges::any_of (tactus::host::test::readTexts (*w.view), [&] (const auto& t) { return t.text == text; });
-}
-
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
 }   // namespace
 
@@ -58,7 +54,7 @@ TEST_CASE ("Ctrl+S, a name and Return save, and the graph, the header and the ti
         CHECK (w.graph().name == "My board");
         CHECK (loadGraph (mine / "my board.json").graph.name == "My board");
         CHECK (title == "My board (my board.json)");
-        CHECK (isSeen (w, "my board.json"));
+        CHECK (showsText (*w.view, "my board.json"));
 
         SECTION ("the name of its file is proposed while it is that of the graph")
         {
@@ -219,10 +215,7 @@ TEST_CASE ("the dialog for the clip of a node waits for a name, and lists clips 
     REQUIRE (isDialogOpen());
     CHECK (dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr);
     auto* dialog = juce::Component::getCurrentlyModalComponent();
-    const auto lists = [&] (const juce::String& file) {
-        return std::ranges::any_of (tactus::host::test::readTexts (*dialog), [&] (const auto& t) { return t.text == file; });
-    };
-    CHECK (waitFor ([&] { return lists ("zip.json") && lists ("heartbeat.haptic") && ! lists ("board.json"); }));
+    CHECK (waitFor ([&] { return showsText (*dialog, "zip.json") && showsText (*dialog, "heartbeat.haptic") && ! showsText (*dialog, "board.json"); }));
     w.stage->type ("zip.json");
     w.key ("return");
     CHECK (waitFor ([&] { return w.graph().root.nodes[0].settings.at ("clip") == Json ("zip.json"); }));

@@ -414,9 +414,6 @@ TEST_CASE ("what is selected counts the wires between the nodes", "[app][inspect
     auto& canvas = w.canvas;
     w.key ("ctrl + a");
     OnStage::settle();
-    const auto showsText = [] (juce::Component& in, const juce::String& text) {
-        return std::ranges::any_of (readTexts (in), [&] (const auto& t) { return t.text == text; });
-    };
     const auto& root = w.graph().root;
     CHECK (showsText (w.inspector, juce::String (root.nodes.size()) + " nodes, " + juce::String (root.wires.size()) + " wires"));
     const auto from = root.find (root.wires.front().from.node)->id, to = root.find (root.wires.front().to.node)->id;

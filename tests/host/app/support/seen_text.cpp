@@ -94,6 +94,16 @@ std::vector<SeenText> readTexts (juce::Component& c)
     return reader.all;
 }
 
+bool showsText (juce::Component& c, const juce::String& text)
+{
+    return std::ranges::any_of (readTexts (c), [&] (const SeenText& t) { return t.text == text; });
+}
+
+bool mentions (juce::Component& c, const juce::String& words)
+{
+    return std::ranges::any_of (readTexts (c), [&] (const SeenText& t) { return t.text.contains (words); });
+}
+
 juce::StringArray overlaps (const std::vector<SeenText>& texts, juce::Rectangle<float> area)
 {
     juce::StringArray all;

@@ -19,6 +19,9 @@ struct SeenText
 /// Paints a component with all that is in it, and reads the texts from what it paints.
 std::vector<SeenText> readTexts (juce::Component&);
 
+bool showsText (juce::Component&, const juce::String& text);   ///< true if a piece that is read is this text
+bool mentions (juce::Component&, const juce::String& words);   ///< true if a piece that is read contains these words
+
 /// The pairs of texts that overlap in an area, each as "A | B".
 juce::StringArray overlaps (const std::vector<SeenText>&, juce::Rectangle<float> area);
 

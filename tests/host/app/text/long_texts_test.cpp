@@ -44,11 +44,6 @@ private:
     TemporaryFolder folder;
 };
 
-bool sees (juce::Component& c, const juce::String& text)
-{
-    return std::ranges::any_of (app_test::readTexts (c), [&] (const auto& t) { return t.text.contains (text); });
-}
-
 /// Checks that no texts overlap in a component, and that none is cut off.
 void checkLayout (juce::Component& c)
 {
@@ -75,7 +70,7 @@ TEST_CASE ("the bars are in the language of a user's file, and longer texts neit
         const auto comesToSee = [&] (const char* text) {
             return waitFor ([&] {
                 strip.refresh();
-                return sees (strip, text);
+                return app_test::mentions (strip, text);
             });
         };
         const auto checkBars = [&] {

@@ -10,6 +10,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::mentions;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -306,15 +307,13 @@ TEST_CASE ("a search for commands says nothing about nodes", "[app][small][palet
 {
     WindowRig w ("dry_wood.json", 640, 360);
     w.key ("ctrl + k");
-    const auto isSaid = [&] (const juce::String& text) {
-        return std::ranges::any_of (host::test::readTexts (*w.titled ("Palette")), [&] (const auto& t) { return t.text.contains (text); });
-    };
-    CHECK (isSaid ("Search by name"));
-    CHECK_FALSE (isSaid ("unit"));
+    auto& palette = *w.titled ("Palette");
+    CHECK (mentions (palette, "Search by name"));
+    CHECK_FALSE (mentions (palette, "unit"));
     w.stage->type ("zzqq");
     WindowRig::settle();
-    CHECK (isSaid ("No match"));
-    CHECK_FALSE (isSaid ("friction"));
+    CHECK (mentions (palette, "No match"));
+    CHECK_FALSE (mentions (palette, "friction"));
 }
 
 TEST_CASE ("in an empty graph, Ctrl+K and Space find the presets, and open them", "[app][keyboard]")

@@ -302,12 +302,7 @@ TEST_CASE ("presets are in view in a low window, whatever the user has opened an
             p.w.view->open (mine / file);
         const auto rows = [&] { return p.w.view->part<PresetBrowser>().rows(); };
         CHECK (rows()[1].preset->file == mine / "pad_3.json");   // the latest
-        const auto isInView = [&] {
-            for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
-                if (t.text == "Aluminium bar") return true;
-            return false;
-        };
-        CHECK (isInView());
+        CHECK (tactus::host::test::showsText (p.w.view->part<PresetBrowser>(), "Aluminium bar"));
         int factory = 0;   // presets that can be read besides the own graphs
         for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
             factory += static_cast<int> (std::ranges::count (p.w.view->part<PresetBrowser>().shipped(), t.text.toStdString(), &Preset::name));

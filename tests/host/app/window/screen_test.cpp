@@ -11,7 +11,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using tactus::host::test::readTexts;
+using tactus::host::test::mentions;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 
@@ -235,14 +235,11 @@ TEST_CASE ("a new graph shows no curve of the graph before, even for a port with
 TEST_CASE ("a new graph shows no values of the run before", "[app][scopes]")
 {
     WindowRig w ("dry_wood.json", 1920, 1080, false);
-    const auto isSeen = [&] (const juce::String& text) {
-        return std::ranges::any_of (readTexts (*w.view), [&] (const auto& t) { return t.text.contains (text); });
-    };
-    REQUIRE (waitFor ([&] { return isSeen ("peak"); }));
+    REQUIRE (waitFor ([&] { return mentions (*w.view, "peak"); }));
     w.key ("ctrl + n");
     if (w.view->asked().isOpen()) w.click ("Don't save");
     REQUIRE (w.graph().root.nodes.empty());
-    CHECK (waitFor ([&] { return ! isSeen ("peak") && ! isSeen ("late ticks"); }));
+    CHECK (waitFor ([&] { return ! mentions (*w.view, "peak") && ! mentions (*w.view, "late ticks"); }));
     w.key ("ctrl + z");   // the graph of that run
-    CHECK (waitFor ([&] { return isSeen ("peak"); }));
+    CHECK (waitFor ([&] { return mentions (*w.view, "peak"); }));
 }

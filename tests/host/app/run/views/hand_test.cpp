@@ -16,6 +16,8 @@ using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::BoardBench;
 using tactus::host::test::followsMouse;
+using tactus::host::test::mentions;
+using tactus::host::test::showsText;
 using tactus::host::test::stepsChecked;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
@@ -25,17 +27,6 @@ namespace
 constexpr const char* with_simulated_stylus = R"({ "format": "tactus-session", "version": 1,
     "roles": { "stylus": { "driver": "gesture", "path": "tap" } } })";
 constexpr const char* with_sound_card = R"({ "format": "tactus-session", "version": 1, "roles": { "stylus": { "driver": "audio" } } })";
-
-bool reads (WindowRig& w, const char* text)
-{
-    const auto texts = tactus::host::test::readTexts (*w.view);
-    return std::ranges::any_of (texts, [&] (const auto& t) { return t.text.contains (text); });
-}
-
-bool showsText (juce::Component& in, const juce::String& text)
-{
-    return std::ranges::any_of (tactus::host::test::readTexts (in), [&] (const auto& t) { return t.text == text; });
-}
 
 template <typename T>
 T* partIn (juce::Component& c)
@@ -134,7 +125,7 @@ TEST_CASE ("after a person has stopped a device of the session, a preset that is
     open ("Granite wall");
     WindowRig::settle();
     CHECK_FALSE (run.isWanted());
-    CHECK (waitFor ([&] { return reads (w, "Not running. Press START"); }));
+    CHECK (waitFor ([&] { return mentions (*w.view, "Not running. Press START"); }));
     w.key ("F5");
     CHECK (waitFor ([&] { return run.isRunning() && run.isOfOpenGraph(); }));
     open ("Oak board");
@@ -148,8 +139,8 @@ TEST_CASE ("the welcome page promises the mouse only if no device of the user mo
     {
         WindowRig w ({}, 1280, 720, false, session);
         REQUIRE (w.view->part<WelcomePage>().isVisible());
-        CHECK (waitFor ([&, device = has_device] { return reads (w, "moved by the device that you chose for it") == device; }));
-        CHECK (reads (w, "with the mouse as your hand") != has_device);
+        CHECK (waitFor ([&, device = has_device] { return mentions (*w.view, "moved by the device that you chose for it") == device; }));
+        CHECK (mentions (*w.view, "with the mouse as your hand") != has_device);
         REQUIRE (w.view->part<WelcomePage>().cards().front().name == "Dry wood");
         auto& welcome = w.view->part<WelcomePage>();
         w.stage->click (w.middleOf (*welcome.getChildComponent (3)));
@@ -413,8 +404,5 @@ TEST_CASE ("the help lists the key of the clutch", "[app][sessions]")
     w.view->canvas().grabKeyboardFocus();
     w.key ("F1");
     REQUIRE (w.view->part<HelpPanel>().isOpen());
-    bool is_listed = false;
-    for (const auto& seen : host::test::readTexts (w.view->part<HelpPanel>()))
-        is_listed = is_listed || seen.text.contains ("S, held");
-    CHECK (is_listed);
+    CHECK (mentions (w.view->part<HelpPanel>(), "S, held"));
 }
