@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/contrast.hpp"
+#include "host/app/support/environment.hpp"
 #include "host/app/support/screen.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
@@ -8,13 +9,13 @@
 
 #include <catch2/catch.hpp>
 
-#include <cstdlib>
 #include <fstream>
 #include <host/app/dialogs/file_dialog_parts.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::contrast;
+using tactus::host::test::Environment;
 using tactus::host::test::onScreen;
 using tactus::host::test::showsText;
 using tactus::host::test::waitFor;
@@ -28,139 +29,130 @@ bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() >
 TEST_CASE ("Ctrl+S, a name and Return save, and the graph, the header and the title have the name of the file", "[app][files]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
-    {
-        WindowRig w;
-        juce::String title;
-        w.view->onTitle = [&] (const juce::String& t) { title = t; };
-        w.key ("ctrl + n");
-        w.key ("ctrl + s");
-        REQUIRE (isDialogOpen());
-        const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
-        REQUIRE (name != nullptr);
-        CHECK (name->getText() == "untitled.json");
-        WindowRig::settle (200);   // the window behind is dimmed, and the dialog is not
-        auto* dialog = juce::Component::getCurrentlyModalComponent();
-        for (auto* child : w.view->getChildren())
-            if (dynamic_cast<Shade*> (child) != nullptr)
-                CHECK ((child->isVisible() && w.view->getIndexOfChildComponent (child) < w.view->getIndexOfChildComponent (dialog)));
-        CHECK (name->getHighlightedText() == name->getText());
-        w.stage->type ("my board");
-        CHECK (name->getText() == "my board");
-        CHECK (w.graph().root.nodes.empty());   // the canvas gets no key
-        w.key ("return");
-        REQUIRE (waitFor ([&] { return std::filesystem::exists (mine / "my board.json"); }));
-        CHECK_FALSE (isDialogOpen());
-        CHECK (w.graph().name == "My board");
-        CHECK (loadGraph (mine / "my board.json").graph.name == "My board");
-        CHECK (title == "My board (my board.json)");
-        CHECK (showsText (*w.view, "my board.json"));
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    WindowRig w;
+    juce::String title;
+    w.view->onTitle = [&] (const juce::String& t) { title = t; };
+    w.key ("ctrl + n");
+    w.key ("ctrl + s");
+    REQUIRE (isDialogOpen());
+    const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+    REQUIRE (name != nullptr);
+    CHECK (name->getText() == "untitled.json");
+    WindowRig::settle (200);   // the window behind is dimmed, and the dialog is not
+    auto* dialog = juce::Component::getCurrentlyModalComponent();
+    for (auto* child : w.view->getChildren())
+        if (dynamic_cast<Shade*> (child) != nullptr)
+            CHECK ((child->isVisible() && w.view->getIndexOfChildComponent (child) < w.view->getIndexOfChildComponent (dialog)));
+    CHECK (name->getHighlightedText() == name->getText());
+    w.stage->type ("my board");
+    CHECK (name->getText() == "my board");
+    CHECK (w.graph().root.nodes.empty());   // the canvas gets no key
+    w.key ("return");
+    REQUIRE (waitFor ([&] { return std::filesystem::exists (mine / "my board.json"); }));
+    CHECK_FALSE (isDialogOpen());
+    CHECK (w.graph().name == "My board");
+    CHECK (loadGraph (mine / "my board.json").graph.name == "My board");
+    CHECK (title == "My board (my board.json)");
+    CHECK (showsText (*w.view, "my board.json"));
 
-        SECTION ("the name of its file is proposed while it is that of the graph")
-        {
-            w.key ("ctrl + shift + s");
-            REQUIRE (isDialogOpen());
-            CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "my board.json");
-            w.key ("escape");
-            CHECK (waitFor ([] { return ! isDialogOpen(); }));
-        }
-        SECTION ("a new name of the graph is proposed as the name of a new file, and Esc closes the dialog")
-        {
-            w.view->document().perform (graph::SetHeader { .name = "Old oak" });
-            CHECK (title == "Old oak (my board.json, edited)");
-            w.key ("ctrl + shift + s");
-            REQUIRE (isDialogOpen());
-            CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old_oak.json");
-            w.key ("escape");
-            CHECK (waitFor ([] { return ! isDialogOpen(); }));
-            CHECK (w.graph().name == "Old oak");
-            w.key ("ctrl + shift + s");
-            w.key ("return");
-            CHECK (waitFor ([&] { return std::filesystem::exists (mine / "old_oak.json"); }));
-            CHECK (w.graph().name == "Old oak");   // as before: the names agree
-        }
-        SECTION ("saving again asks nothing and renames nothing")
-        {
-            w.view->document().perform (graph::SetHeader { .name = "Old oak" });
-            w.key ("ctrl + s");
-            CHECK_FALSE (isDialogOpen());
-            CHECK (loadGraph (mine / "my board.json").graph.name == "Old oak");
-        }
+    SECTION ("the name of its file is proposed while it is that of the graph")
+    {
+        w.key ("ctrl + shift + s");
+        REQUIRE (isDialogOpen());
+        CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "my board.json");
+        w.key ("escape");
+        CHECK (waitFor ([] { return ! isDialogOpen(); }));
     }
-    unsetenv ("TACTUS_GRAPHS");
+    SECTION ("a new name of the graph is proposed as the name of a new file, and Esc closes the dialog")
+    {
+        w.view->document().perform (graph::SetHeader { .name = "Old oak" });
+        CHECK (title == "Old oak (my board.json, edited)");
+        w.key ("ctrl + shift + s");
+        REQUIRE (isDialogOpen());
+        CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old_oak.json");
+        w.key ("escape");
+        CHECK (waitFor ([] { return ! isDialogOpen(); }));
+        CHECK (w.graph().name == "Old oak");
+        w.key ("ctrl + shift + s");
+        w.key ("return");
+        CHECK (waitFor ([&] { return std::filesystem::exists (mine / "old_oak.json"); }));
+        CHECK (w.graph().name == "Old oak");   // as before: the names agree
+    }
+    SECTION ("saving again asks nothing and renames nothing")
+    {
+        w.view->document().perform (graph::SetHeader { .name = "Old oak" });
+        w.key ("ctrl + s");
+        CHECK_FALSE (isDialogOpen());
+        CHECK (loadGraph (mine / "my board.json").graph.name == "Old oak");
+    }
 }
 
 TEST_CASE ("a file is replaced only after a question of the window, which offers another name", "[app][files]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
-    {
-        std::ofstream (mine / "old.json") << "old";
-        WindowRig w ("dry_wood.json");
-        const auto saveAs = [&] {
-            w.key ("ctrl + shift + s");
-            REQUIRE (isDialogOpen());
-            w.stage->type ("old");   // its ending is added
-            w.key ("return");
-            REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
-            CHECK_FALSE (isDialogOpen());
-            CHECK (w.view->asked().title() == "Replace old.json?");
-            CHECK (mine.textOf ("old.json") == "old");
-        };
-        saveAs();
-        w.key ("escape");
-        CHECK_FALSE (w.view->asked().isOpen());
-        CHECK (mine.textOf ("old.json") == "old");
-        CHECK (w.view->document().file().filename() != "old.json");
-
-        saveAs();
-        w.click ("Choose another name ...");
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    std::ofstream (mine / "old.json") << "old";
+    WindowRig w ("dry_wood.json");
+    const auto saveAs = [&] {
+        w.key ("ctrl + shift + s");
         REQUIRE (isDialogOpen());
-        CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old.json");
-        w.key ("escape");
-        REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
-
-        saveAs();
-        w.key ("return");   // a second Return that comes too soon must not replace the file unread
-        REQUIRE (isDialogOpen());
+        w.stage->type ("old");   // its ending is added
+        w.key ("return");
+        REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+        CHECK_FALSE (isDialogOpen());
+        CHECK (w.view->asked().title() == "Replace old.json?");
         CHECK (mine.textOf ("old.json") == "old");
-        w.key ("escape");
-        REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+    };
+    saveAs();
+    w.key ("escape");
+    CHECK_FALSE (w.view->asked().isOpen());
+    CHECK (mine.textOf ("old.json") == "old");
+    CHECK (w.view->document().file().filename() != "old.json");
 
-        saveAs();
-        w.click ("Replace");
-        CHECK (waitFor ([&] { return mine.textOf ("old.json") != "old"; }));
-        CHECK (w.view->document().file() == mine / "old.json");
-    }
-    unsetenv ("TACTUS_GRAPHS");
+    saveAs();
+    w.click ("Choose another name ...");
+    REQUIRE (isDialogOpen());
+    CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old.json");
+    w.key ("escape");
+    REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+
+    saveAs();
+    w.key ("return");   // a second Return that comes too soon must not replace the file unread
+    REQUIRE (isDialogOpen());
+    CHECK (mine.textOf ("old.json") == "old");
+    w.key ("escape");
+    REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+
+    saveAs();
+    w.click ("Replace");
+    CHECK (waitFor ([&] { return mine.textOf ("old.json") != "old"; }));
+    CHECK (w.view->document().file() == mine / "old.json");
 }
 
 TEST_CASE ("on a screen: a new folder", "[.screen]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
-    {
-        WindowRig w ("dry_wood.json");
-        w.key ("ctrl + shift + s");
-        REQUIRE (isDialogOpen());
-        auto* dialog = juce::Component::getCurrentlyModalComponent();
-        w.click ("New Folder");
-        REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() != dialog; }));
-        CHECK (waitFor ([] { return dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr; }));
-        w.stage->type ("oak");
-        w.key ("return");
-        CHECK (waitFor ([&] { return std::filesystem::is_directory (mine / "oak"); }));
-        REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() == dialog; }));
-        const auto* browser = browserIn (*dialog);
-        REQUIRE (browser != nullptr);
-        CHECK (waitFor ([&] { return browser->getRoot() == juce::File ((mine / "oak").string()); }));   // one looks into it
-        CHECK (waitFor ([&] { return WindowRig::focused() == nameField (*dialog); }));
-        w.stage->type ("bark");
-        w.key ("return");
-        CHECK (waitFor ([&] { return std::filesystem::exists (mine / "oak" / "bark.json"); }));
-        CHECK (waitFor ([] { return ! isDialogOpen(); }));
-    }
-    unsetenv ("TACTUS_GRAPHS");
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    WindowRig w ("dry_wood.json");
+    w.key ("ctrl + shift + s");
+    REQUIRE (isDialogOpen());
+    auto* dialog = juce::Component::getCurrentlyModalComponent();
+    w.click ("New Folder");
+    REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() != dialog; }));
+    CHECK (waitFor ([] { return dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr; }));
+    w.stage->type ("oak");
+    w.key ("return");
+    CHECK (waitFor ([&] { return std::filesystem::is_directory (mine / "oak"); }));
+    REQUIRE (waitFor ([&] { return juce::Component::getCurrentlyModalComponent() == dialog; }));
+    const auto* browser = browserIn (*dialog);
+    REQUIRE (browser != nullptr);
+    CHECK (waitFor ([&] { return browser->getRoot() == juce::File ((mine / "oak").string()); }));   // one looks into it
+    CHECK (waitFor ([&] { return WindowRig::focused() == nameField (*dialog); }));
+    w.stage->type ("bark");
+    w.key ("return");
+    CHECK (waitFor ([&] { return std::filesystem::exists (mine / "oak" / "bark.json"); }));
+    CHECK (waitFor ([] { return ! isDialogOpen(); }));
 }
 
 TEST_CASE ("a new folder of the dialog for files has the name that is typed at once", "[app][files]")
@@ -171,30 +163,25 @@ TEST_CASE ("a new folder of the dialog for files has the name that is typed at o
 TEST_CASE ("a film is saved under the typed name", "[app][files][film]")
 {
     const TemporaryFolder own;
-    const auto* home_before = std::getenv ("HOME");
-    const std::string home = home_before == nullptr ? "" : home_before;
-    setenv ("HOME", own.path().c_str(), 1);
-    {
-        WindowRig w ("dry_wood.json", 1280, 720, false);
-        w.click ("3D");
-        REQUIRE (waitFor ([&] { return w.view->run().film().end() > 2000; }));
-        auto* label = WindowRig::buttonIn (*w.view, "Film");
-        REQUIRE (label != nullptr);
-        auto* film = label->findParentComponentOfClass<FilmButton>();
-        REQUIRE (film != nullptr);
-        film->saveLast();   // as the first entry of its menu
-        REQUIRE (waitFor ([] { return isDialogOpen(); }));
-        const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
-        REQUIRE (name != nullptr);
-        CHECK (name->getText().startsWith ("film "));
-        w.stage->type ("oak v1.2");
-        w.key ("return");
-        const auto file = own / "Documents" / "Tactus" / "oak v1.2.png";   // the dot is part of the name
-        CHECK (waitFor ([&] { return std::filesystem::exists (file); }));
-        CHECK (waitFor ([&] { return std::filesystem::exists (file.parent_path() / "oak v1.2.csv"); }));
-        w.view->run().letGo();
-    }
-    setenv ("HOME", home.c_str(), 1);
+    const Environment home_is { "HOME", own.path() };
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    w.click ("3D");
+    REQUIRE (waitFor ([&] { return w.view->run().film().end() > 2000; }));
+    auto* label = WindowRig::buttonIn (*w.view, "Film");
+    REQUIRE (label != nullptr);
+    auto* film = label->findParentComponentOfClass<FilmButton>();
+    REQUIRE (film != nullptr);
+    film->saveLast();   // as the first entry of its menu
+    REQUIRE (waitFor ([] { return isDialogOpen(); }));
+    const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+    REQUIRE (name != nullptr);
+    CHECK (name->getText().startsWith ("film "));
+    w.stage->type ("oak v1.2");
+    w.key ("return");
+    const auto file = own / "Documents" / "Tactus" / "oak v1.2.png";   // the dot is part of the name
+    CHECK (waitFor ([&] { return std::filesystem::exists (file); }));
+    CHECK (waitFor ([&] { return std::filesystem::exists (file.parent_path() / "oak v1.2.csv"); }));
+    w.view->run().letGo();
 }
 
 TEST_CASE ("the dialog for the clip of a node waits for a name, and lists clips but no graphs", "[app][files]")
@@ -260,7 +247,7 @@ TEST_CASE ("the dialog for files has a border all around, and the window behind 
 TEST_CASE ("a recording to fit is chosen in the folder of the last one, or else in the folder of the user", "[app][files][fit]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
     WindowRig w ("dry_wood.json");
     const auto begin = [&] {
         w.key ("ctrl + k");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files in the whole window: those that settings name, which a saved graph finds again; large ones, which are loaded on another thread; shared ones; and
 // recordings.
+#include "host/app/support/environment.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <host/app/fit_panel/fit_panel.hpp>
@@ -17,6 +18,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::Environment;
 using tactus::host::test::waitFor;
 using tactus::host::test::WindowRig;
 namespace fs = std::filesystem;
@@ -117,41 +119,38 @@ fs::path writeStrokes (const TemporaryFolder& folder)
 TEST_CASE ("a graph that is saved elsewhere finds its clip again, also one that was chosen since", "[app][files]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
-    {
-        fs::copy_file (heart, mine / "heart.haptic");
-        WindowRig w;
-        w.key ("ctrl + n");
-        w.click ("Clip");
-        dropOnClip (w, mine / "heart.haptic");
-        CHECK (clipOf (w.graph()) != "heart.haptic");   // relative to the folder of the template
-        saveAs (w, mine / "one.json");
-        CHECK (clipIn (mine / "one.json") == "heart.haptic");
-        CHECK_FALSE (w.view->document().isChanged());
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    fs::copy_file (heart, mine / "heart.haptic");
+    WindowRig w;
+    w.key ("ctrl + n");
+    w.click ("Clip");
+    dropOnClip (w, mine / "heart.haptic");
+    CHECK (clipOf (w.graph()) != "heart.haptic");   // relative to the folder of the template
+    saveAs (w, mine / "one.json");
+    CHECK (clipIn (mine / "one.json") == "heart.haptic");
+    CHECK_FALSE (w.view->document().isChanged());
 
-        w.key ("ctrl + z");   // to the clip of the template; saving is no step
-        CHECK (clipOf (w.graph()) == "assets/pulse.haptic");
-        CHECK (w.graph().name == "One");   // undo keeps the name of the file
-        w.key ("ctrl + s");
-        w.key ("return");
-        CHECK (clipIn (mine / "one.json") == "assets/pulse.haptic");   // a copy
-        CHECK (fs::exists (mine / "assets/pulse.haptic"));
+    w.key ("ctrl + z");   // to the clip of the template; saving is no step
+    CHECK (clipOf (w.graph()) == "assets/pulse.haptic");
+    CHECK (w.graph().name == "One");   // undo keeps the name of the file
+    w.key ("ctrl + s");
+    w.key ("return");
+    CHECK (clipIn (mine / "one.json") == "assets/pulse.haptic");   // a copy
+    CHECK (fs::exists (mine / "assets/pulse.haptic"));
 
-        dropOnClip (w, mine / "heart.haptic");
-        w.key ("ctrl + s");
-        CHECK (clipIn (mine / "one.json") == "heart.haptic");
-        w.view->open (mine / "one.json");
-        CHECK_FALSE (hasErrors (w.view->run().messages()));
+    dropOnClip (w, mine / "heart.haptic");
+    w.key ("ctrl + s");
+    CHECK (clipIn (mine / "one.json") == "heart.haptic");
+    w.view->open (mine / "one.json");
+    CHECK_FALSE (hasErrors (w.view->run().messages()));
 
-        fs::create_directories (mine / "deeper");   // from a file of the user to another folder
-        setenv ("TACTUS_GRAPHS", (mine / "deeper").c_str(), 1);
-        w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& chosen) { chosen (mine / "deeper/two.json"); };
-        w.key ("ctrl + shift + s");
-        w.click ("Copy");
-        CHECK (clipIn (mine / "deeper/two.json") == "heart.haptic");
-        CHECK (fs::exists (mine / "deeper/heart.haptic"));
-    }
-    unsetenv ("TACTUS_GRAPHS");
+    fs::create_directories (mine / "deeper");   // from a file of the user to another folder
+    setenv ("TACTUS_GRAPHS", (mine / "deeper").c_str(), 1);
+    w.view->chooseFile = [&] (bool, const fs::path&, const std::function<void (const fs::path&)>& chosen) { chosen (mine / "deeper/two.json"); };
+    w.key ("ctrl + shift + s");
+    w.click ("Copy");
+    CHECK (clipIn (mine / "deeper/two.json") == "heart.haptic");
+    CHECK (fs::exists (mine / "deeper/heart.haptic"));
 }
 
 TEST_CASE ("an unsaved graph that is recovered finds its clip again", "[app][files][recovery]")

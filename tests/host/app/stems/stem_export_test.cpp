@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stems that the host exports, compared with those that `tactus render --stems` is made of.
 #include "host/app/support/desk_rig.hpp"
+#include "host/app/support/environment.hpp"
 #include "host/app/support/wait_for.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -22,6 +23,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskRig;
+using tactus::host::test::Environment;
 
 namespace
 {
@@ -96,9 +98,7 @@ TEST_CASE ("the stems of the open graph are exported, and they add up to its mix
 TEST_CASE ("a second export proposes another folder, so that no stems are replaced unless the user says so", "[app][stems]")
 {
     const TemporaryFolder own;
-    const char* before = std::getenv ("TACTUS_GRAPHS");
-    const std::string kept = before != nullptr ? before : "";
-    setenv ("TACTUS_GRAPHS", own.path().c_str(), 1);
+    const Environment own_is { "TACTUS_GRAPHS", own.path() };
     std::vector<std::filesystem::path> proposed;
     for (int i = 0; i < 3; ++i)
     {
@@ -109,7 +109,6 @@ TEST_CASE ("a second export proposes another folder, so that no stems are replac
         r.question.answer (0);
         std::filesystem::create_directories (proposed.back());   // as an export does
     }
-    kept.empty() ? unsetenv ("TACTUS_GRAPHS") : setenv ("TACTUS_GRAPHS", kept.c_str(), 1);
     CHECK (proposed == std::vector { own / "Bronze bell stems", own / "Bronze bell stems 2", own / "Bronze bell stems 3" });
 }
 

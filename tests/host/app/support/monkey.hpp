@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "environment.hpp"
 #include "stage.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -16,25 +17,6 @@
 
 namespace tactus::host::test
 {
-
-/// Sets an environment variable for the lifetime of this object.
-class Environment
-{
-public:
-    Environment (const char* n, const std::filesystem::path& value) : name (n), before (juce::SystemStats::getEnvironmentVariable (n, {}))
-    {
-        setenv (name, value.c_str(), 1);
-    }
-
-    ~Environment() { before.isEmpty() ? unsetenv (name) : setenv (name, before.toRawUTF8(), 1); }
-
-    Environment (const Environment&) = delete;
-    Environment& operator= (const Environment&) = delete;
-
-private:
-    const char* name;
-    const juce::String before;
-};
 
 /// Someone who does random things in the window, in random order. Has the whole window, with its own home folder and a copy of the
 /// presets that may be overwritten. The seed determines what is done, as far as it does not depend on time.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a person does to reach a goal, action by action: each click, drag, typed word and key is one.
+#include "host/app/support/environment.hpp"
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
@@ -12,6 +13,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::Environment;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -165,7 +167,7 @@ void checkRoughBoard (const std::filesystem::path& file)
 TEST_CASE ("a person builds plane, friction, a gated grating and a knob, and saves, in 18 actions", "[app][person]")
 {
     Person p { true };
-    setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
+    const Environment own_is { "TACTUS_GRAPHS", p.w.home.path() };
     p.key ("ctrl + n");
     p.key ("spacebar");
     p.type ("plane");
@@ -192,7 +194,6 @@ TEST_CASE ("a person builds plane, friction, a gated grating and a knob, and sav
     p.key ("return");
     const auto file = p.w.home / "rough board.json";
     p.await ([&] { return std::filesystem::exists (file); });
-    unsetenv ("TACTUS_GRAPHS");
     INFO (p.actions << " actions");
     CHECK (p.actions <= 18);
     std::cout << "plane, friction, gated grating, knob, saved: " << p.actions << " actions\n";
@@ -203,7 +204,7 @@ TEST_CASE ("a person builds plane, friction, a gated grating and a knob, and sav
 TEST_CASE ("keys alone build plane, friction, a gated grating and a knob, and save, in 25 actions", "[app][person][keyboard]")
 {
     Person p { true };
-    setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
+    const Environment own_is { "TACTUS_GRAPHS", p.w.home.path() };
     const auto choose = [&] (const char* key, const char* words) {
         p.key (key);
         p.type (words);
@@ -228,7 +229,6 @@ TEST_CASE ("keys alone build plane, friction, a gated grating and a knob, and sa
     p.key ("return");
     const auto file = p.w.home / "rough board.json";
     p.await ([&] { return std::filesystem::exists (file); });
-    unsetenv ("TACTUS_GRAPHS");
     std::cout << "the same by keys: " << p.actions << " actions\n";
     CHECK (p.actions <= 25);
     checkRoughBoard (file);
@@ -294,30 +294,27 @@ TEST_CASE ("presets are in view in a low window, whatever the user has opened an
     const TemporaryFolder mine;
     for (int i = 0; i < 9; ++i)
         std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/soft_pad.json", mine / ("pad_" + std::to_string (i) + ".json"));
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
-    {
-        Person p { true };
-        p.w.view->open (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "." / "soft_pad.json");   // a preset, as a file
-        for (const auto* file : { "pad_3.json", "pad_7.json", "pad_3.json" })
-            p.w.view->open (mine / file);
-        const auto rows = [&] { return p.w.view->part<PresetBrowser>().rows(); };
-        CHECK (rows()[1].preset->file == mine / "pad_3.json");   // the latest
-        CHECK (tactus::host::test::showsText (p.w.view->part<PresetBrowser>(), "Aluminium bar"));
-        int factory = 0;   // presets that can be read besides the own graphs
-        for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
-            factory += static_cast<int> (std::ranges::count (p.w.view->part<PresetBrowser>().shipped(), t.text.toStdString(), &Preset::name));
-        CHECK (factory >= 2);
-        const auto before = rows().size();
-        const auto* list = dynamic_cast<juce::ListBox*> (p.titled ("Presets")->getChildComponent (2));
-        REQUIRE (list != nullptr);
-        const auto heading = list->getRowPosition (0, true).getCentre();
-        p.w.stage->click (p.w.stage->getLocalPoint (list, heading).toFloat());
-        WindowRig::settle();
-        CHECK (rows().size() > before);
-        std::set<std::filesystem::path> files;
-        for (const auto& r : rows())
-            if (r.preset != nullptr) CHECK (files.insert (std::filesystem::canonical (r.preset->file)).second);
-        CHECK (files.contains (std::filesystem::canonical (mine / "pad_8.json")));
-    }
-    unsetenv ("TACTUS_GRAPHS");
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    Person p { true };
+    p.w.view->open (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "." / "soft_pad.json");   // a preset, as a file
+    for (const auto* file : { "pad_3.json", "pad_7.json", "pad_3.json" })
+        p.w.view->open (mine / file);
+    const auto rows = [&] { return p.w.view->part<PresetBrowser>().rows(); };
+    CHECK (rows()[1].preset->file == mine / "pad_3.json");   // the latest
+    CHECK (tactus::host::test::showsText (p.w.view->part<PresetBrowser>(), "Aluminium bar"));
+    int factory = 0;   // presets that can be read besides the own graphs
+    for (const auto& t : tactus::host::test::readTexts (p.w.view->part<PresetBrowser>()))
+        factory += static_cast<int> (std::ranges::count (p.w.view->part<PresetBrowser>().shipped(), t.text.toStdString(), &Preset::name));
+    CHECK (factory >= 2);
+    const auto before = rows().size();
+    const auto* list = dynamic_cast<juce::ListBox*> (p.titled ("Presets")->getChildComponent (2));
+    REQUIRE (list != nullptr);
+    const auto heading = list->getRowPosition (0, true).getCentre();
+    p.w.stage->click (p.w.stage->getLocalPoint (list, heading).toFloat());
+    WindowRig::settle();
+    CHECK (rows().size() > before);
+    std::set<std::filesystem::path> files;
+    for (const auto& r : rows())
+        if (r.preset != nullptr) CHECK (files.insert (std::filesystem::canonical (r.preset->file)).second);
+    CHECK (files.contains (std::filesystem::canonical (mine / "pad_8.json")));
 }
