@@ -29,15 +29,6 @@ const fs::path heart = TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", clip
 
 bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
 
-/// The point of the screen at a node.
-juce::Point<float> placeOf (WindowRig& w, const std::string& name)
-{
-    auto& canvas = w.view->canvas();
-    const auto node = std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
-    REQUIRE (node != canvas.scene().nodes().end());
-    return w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node->bounds().getCentre()));
-}
-
 void saveAs (WindowRig& w, const fs::path& file)
 {
     w.key ("ctrl + shift + s");
@@ -58,7 +49,7 @@ std::string clipOf (const graph::Graph& g)
 void dropOnClip (WindowRig& w, const fs::path& file)
 {
     const auto before = clipOf (w.graph());
-    w.stage->drop (file.string(), placeOf (w, "clip"));
+    w.stage->drop (file.string(), w.onStage (w.node ("clip").bounds().getCentre()));
     REQUIRE (waitFor ([&] { return clipOf (w.graph()) != before; }));
 }
 

@@ -222,11 +222,9 @@ TEST_CASE ("one Esc in an open number field takes back what is typed, and gives 
 TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, another value or an undo", "[app][canvas][words]")
 {
     WindowRig w ("templates/stroke.json");
-    auto& canvas = w.view->canvas();
     const auto place = [&] (const std::string& name, const std::string& param) {
-        const auto& node = *std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
-        const juce::Point<float> in_node { node.box.width - 20.0f, node.box.find (Role::param, param)->at.y };
-        return w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.at + in_node));
+        const auto& node = w.node (name);
+        return w.onStage (node.at + juce::Point<float> (node.box.width - 20.0f, node.box.find (Role::param, param)->at.y));
     };
     const auto at = place ("wall", "damping");
     const auto type = [&] (const juce::String& text) {
@@ -251,7 +249,7 @@ TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, anot
     type ("0.5");
     CHECK_FALSE (w.view->statusText().contains ("kg"));
     type ("5 kg");
-    w.stage->click (w.stage->getLocalPoint (&canvas, juce::Point<float> (4.0f, 4.0f)));   // closes the field
+    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), juce::Point<float> (4.0f, 4.0f)));   // closes the field
     CHECK (w.view->statusText().contains ("kg does not fit"));
     w.key ("ctrl + z");
     CHECK_FALSE (w.view->statusText().contains ("kg"));
@@ -260,10 +258,8 @@ TEST_CASE ("what a node refuses is said over the pointer's hint, until Esc, anot
 TEST_CASE ("what was undone is said over the hint about what is under the pointer, until the pointer is elsewhere", "[app][words][undo]")
 {
     WindowRig w ("dry_wood.json");
-    auto& canvas = w.view->canvas();
     const auto moveTo = [&] (const std::string& name) {
-        const auto& node = *std::ranges::find (canvas.scene().nodes(), name, &SceneNode::name);
-        w.stage->move (w.stage->getLocalPoint (&canvas, canvas.view().toPixels (node.at + juce::Point<float> (30.0f, 10.0f))));
+        w.stage->move (w.onStage (w.node (name).at + juce::Point<float> (30.0f, 10.0f)));
         WindowRig::settle();
     };
     moveTo ("drag");

@@ -26,10 +26,16 @@ struct WindowRig : OnStage
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
         stage = std::make_unique<Stage> (width, height);
-        view = std::make_unique<MainView> (catalogue());
-        stage->fill (*view);
         MainView::StartOptions start { .home = home.path(), .safe = safe };
         if (! preset.empty()) start.files = { std::filesystem::path (TACTUS_SOURCE_DIR "/graphs") / preset };
+        begin (start);
+    }
+
+    /// Opens another window in place of this one.
+    void begin (const MainView::StartOptions& start)
+    {
+        view = std::make_unique<MainView> (catalogue());
+        stage->fill (*view);
         view->begin (start);
         if (! view->asked().isOpen()) view->grabKeyboardFocus();   // as the program does
         settle();
@@ -43,6 +49,18 @@ struct WindowRig : OnStage
     }
 
     const graph::Graph& graph() { return view->document().graph(); }
+
+    /// The node of this name on the canvas.
+    const SceneNode& node (const std::string& name)
+    {
+        const auto& nodes = view->canvas().scene().nodes();
+        const auto found = std::ranges::find (nodes, name, &SceneNode::name);
+        REQUIRE (found != nodes.end());
+        return *found;
+    }
+
+    /// The point of the screen at a place of the canvas.
+    juce::Point<float> onStage (juce::Point<float> on_canvas) { return stage->getLocalPoint (&view->canvas(), view->canvas().view().toPixels (on_canvas)); }
 };
 
 }   // namespace tactus::host::test

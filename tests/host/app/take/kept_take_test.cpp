@@ -137,10 +137,7 @@ TEST_CASE ("a signal or a crash loses no take: the next start offers it", "[app]
     if (is_crash) fs::remove_all (own);
 
     auto& w = c.w;
-    w.view = std::make_unique<MainView> (catalogue());
-    w.stage->fill (*w.view);
-    w.view->begin ({ .home = w.home.path() });
-    WindowRig::settle();
+    w.begin ({ .home = w.home.path() });
     REQUIRE (w.view->asked().isOpen());
     CHECK (w.view->asked().getDescription().contains ("A take was not saved."));
     w.click ("Recover without running");
@@ -169,9 +166,6 @@ TEST_CASE ("a take of which only a gesture was saved is offered after a crash", 
     fs::copy (own, sessions / "crashed", fs::copy_options::recursive);
     c.w.view.reset();
     fs::remove_all (own);
-    c.w.view = std::make_unique<MainView> (catalogue());
-    c.w.stage->fill (*c.w.view);
-    c.w.view->begin ({ .home = c.w.home.path() });
-    WindowRig::settle();
+    c.w.begin ({ .home = c.w.home.path() });
     CHECK (c.w.view->asked().getDescription().contains ("take"));   // a gesture is only its movement
 }

@@ -122,7 +122,7 @@ TEST_CASE ("the tour has five steps on parts of the window, goes on by keys, and
     w.key ("cursor left");
     CHECK (tour.step() == 0);
     const auto node = w.view->canvas().scene().nodes().front().bounds().getCentre();   // the window stays usable
-    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), w.view->canvas().view().toPixels (node)));
+    w.stage->click (w.onStage (node));
     CHECK (w.view->canvas().selection().size() == 1);
     CHECK (tour.isOpen());
     w.key ("escape");

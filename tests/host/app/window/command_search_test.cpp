@@ -25,18 +25,10 @@ struct SearchDesk
     Canvas& canvas() { return w.view->canvas(); }
     graph::Id id (const std::string& node) { return w.graph().root.find (node)->id; }
 
-    const SceneNode& shown (const std::string& node)
-    {
-        const auto& nodes = canvas().scene().nodes();
-        const auto found = std::ranges::find (nodes, node, &SceneNode::name);
-        REQUIRE (found != nodes.end());
-        return *found;
-    }
-
     /// True if all of a node is on the canvas as it is shown.
     bool isInView (const std::string& node)
     {
-        const auto b = shown (node).bounds();
+        const auto b = w.node (node).bounds();
         const auto& view = canvas().view();
         return canvas().getLocalBounds().toFloat().contains (juce::Rectangle<float> (view.toPixels (b.getTopLeft()), view.toPixels (b.getBottomRight())));
     }
@@ -295,10 +287,7 @@ TEST_CASE ("the search for commands finds OSC, and says at which port messages a
     CHECK (told().startsWith ("No OSC messages"));
     MainView::StartOptions start { .home = w.home.path(), .safe = true };
     start.osc = OscListen { .port = 0 };
-    w.view = std::make_unique<MainView> (catalogue());
-    w.stage->fill (*w.view);
-    w.view->begin (start);
-    WindowRig::settle();
+    w.begin (start);
     CHECK (told().contains ("UDP port "));
     CHECK_FALSE (told().contains ("UDP port 0"));
 }

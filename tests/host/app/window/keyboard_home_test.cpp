@@ -148,9 +148,7 @@ TEST_CASE ("after a menu, a name, a dialog and a start, the keys of the canvas w
     w.key ("escape");
     d.checkKeys ("a question");
 
-    const auto& scene = w.view->canvas().scene();
-    const auto at = w.view->canvas().view().toPixels (scene.nodes().front().bounds().getCentre());
-    w.choose (w.stage->getLocalPoint (&w.view->canvas(), at), 0, juce::ModifierKeys::rightButtonModifier, "escape");
+    w.choose (w.onStage (w.view->canvas().scene().nodes().front().bounds().getCentre()), 0, juce::ModifierKeys::rightButtonModifier, "escape");
     d.checkKeys ("the menu of a node");
 
     d.select ("scrub");

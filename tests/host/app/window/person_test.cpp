@@ -30,18 +30,14 @@ struct Person
 
     juce::Point<float> onCanvas (juce::Point<float> at)
     {
-        const auto pixel = canvas().view().toPixels (at);
-        REQUIRE (canvas().getLocalBounds().toFloat().contains (pixel));
-        return w.stage->getLocalPoint (&canvas(), pixel);
+        REQUIRE (canvas().getLocalBounds().toFloat().contains (canvas().view().toPixels (at)));
+        return w.onStage (at);
     }
 
     /// A visible place near a node, in pixels from its middle, just far enough away not to be on any node.
     juce::Point<float> near (const std::string& node, juce::Point<float> way)
     {
-        const auto& nodes = canvas().scene().nodes();
-        const auto found = std::ranges::find (nodes, node, &SceneNode::name);
-        REQUIRE (found != nodes.end());
-        auto at = found->bounds().getCentre();
+        auto at = w.node (node).bounds().getCentre();
         for (int i = 0; i < 100 && canvas().scene().nodeAt (at) != nullptr; ++i)
             at += way / canvas().view().zoom;
         return onCanvas (at + way / canvas().view().zoom);
@@ -50,12 +46,10 @@ struct Person
     juce::Point<float> port (const std::string& node, Role role, const std::string& id)
     {
         INFO (node << '.' << id);
-        const auto& nodes = canvas().scene().nodes();
-        const auto found = std::ranges::find (nodes, node, &SceneNode::name);
-        REQUIRE (found != nodes.end());
-        const auto* socket = found->box.find (role, id);
+        const auto& shown = w.node (node);
+        const auto* socket = shown.box.find (role, id);
         REQUIRE (socket != nullptr);
-        return onCanvas (found->placeOf (*socket));
+        return onCanvas (shown.placeOf (*socket));
     }
 
     void click (const juce::String& text)

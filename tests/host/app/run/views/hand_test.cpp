@@ -267,11 +267,10 @@ TEST_CASE ("Esc during a drag puts the node back, and stops the forces", "[app][
     WindowRig w ("dry_wood.json", 1280, 720, false);
     auto& run = w.view->run();
     REQUIRE (run.isWanted());
-    auto& canvas = w.view->canvas();
-    const auto node = [&]() -> const SceneNode& { return *std::ranges::find (canvas.scene().nodes(), "grain", &SceneNode::name); };
+    const auto node = [&]() -> const SceneNode& { return w.node ("grain"); };
     const auto place = node().at;
     const auto steps = w.view->document().history().position();
-    const auto at = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (place + juce::Point<float> (40.0f, 14.0f)));
+    const auto at = w.onStage (place + juce::Point<float> (40.0f, 14.0f));
     w.stage->hold();
     w.stage->move (at);
     w.stage->press();
@@ -306,9 +305,8 @@ TEST_CASE ("a drag ends when another program gets the keyboard, because the wind
     // Nor does a drag on the canvas go on.
     w.stage->release();
     w.stage->regainKeyboard();
-    auto& canvas = w.view->canvas();
-    const auto& board = *std::ranges::find (canvas.scene().nodes(), "board", &SceneNode::name);
-    const auto header = w.stage->getLocalPoint (&canvas, canvas.view().toPixels (board.bounds().getCentre().withY (board.bounds().getY() + 8.0f)));
+    const auto board = w.node ("board").bounds();
+    const auto header = w.onStage (board.getCentre().withY (board.getY() + 8.0f));
     w.stage->move (header);
     w.stage->press();
     w.stage->loseKeyboard();
