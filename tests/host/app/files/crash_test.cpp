@@ -3,6 +3,9 @@
 #include "host/app/support/files_rig.hpp"
 #include "support/waiting.hpp"
 
+#include <host/base/assets/file_assets.hpp>
+#include <tactus/plan/compile.hpp>
+
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -333,4 +336,19 @@ TEST_CASE ("a program that must close suddenly autosaves unsaved changes, and no
     e.files->open (wood);
     e.files->endSuddenly();
     CHECK (fs::is_empty (e.folder / "sessions"));
+}
+
+TEST_CASE ("an unsaved graph that is recovered finds its clip again", "[app][files][recovery]")
+{
+    Rig d;
+    d.files->beginSession (d.folder.path());
+    d.files->open (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic");   // a graph that plays it, without a file
+    REQUIRE (d.document.perform (graph::SetHeader { .name = "Mine" }));
+    d.files->finishAutosave();
+    d.files->endSuddenly();
+    auto crashed = findCrashedSessions (d.folder.path());
+    REQUIRE (crashed.size() == 1);
+    const auto restored = restore (crashed.front().document()).graph;
+    FileAssets assets;
+    CHECK (compile (restored, catalogue(), { .assets = &assets }).plan != nullptr);
 }

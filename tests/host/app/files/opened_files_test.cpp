@@ -144,33 +144,6 @@ TEST_CASE ("a graph that is saved elsewhere finds its clip again, also one that 
     CHECK (fs::exists (mine / "deeper/heart.haptic"));
 }
 
-TEST_CASE ("an unsaved graph that is recovered finds its clip again", "[app][files][recovery]")
-{
-    const TemporaryFolder folder, home;
-    {
-        juce::ScopedJuceInitialiser_GUI gui;
-        Document document { graph::Graph {} };
-        Question question;
-        Settings settings;
-        Files::Callbacks callbacks {};
-        callbacks.notify = [] (const juce::String&) {};
-        callbacks.stop = callbacks.onSettings = [] {};
-        callbacks.run = [] (bool) {};
-        callbacks.isRunning = callbacks.isByPointer = [] { return false; };
-        Files files { document, question, settings, std::move (callbacks) };
-        files.beginSession (home.path());
-        files.open (heart);   // a graph that plays it, without a file
-        REQUIRE (document.perform (graph::SetHeader { .name = "Mine" }));
-        files.finishAutosave();
-        files.endSuddenly();
-    }
-    auto crashed = findCrashedSessions (home.path());
-    REQUIRE (crashed.size() == 1);
-    const auto restored = restore (crashed.front().document()).graph;
-    FileAssets assets;
-    CHECK (compile (restored, catalogue(), { .assets = &assets }).plan != nullptr);
-}
-
 TEST_CASE ("a file that is missing is chosen from the problem, with one Return on its path", "[app][files][problems]")
 {
     const TemporaryFolder folder;
