@@ -94,26 +94,34 @@ struct OnStage
         settle();
     }
 
-    /// Opens a menu, goes down in it (or up, if `steps` is negative), and presses a key. The keys are in the message after the one that opens the menu,
-    /// because JUCE closes a menu at its first timer call if no window of the program has the keyboard of the X server.
-    static void useMenu (Stage& stage, const std::function<void()>& open, int steps, const juce::String& end)
+    /// Opens a menu, and uses it until it is closed. It is used in the message after the one that opens it, because JUCE closes a menu at its first timer
+    /// call if no window of the program has the keyboard of the X server.
+    static void withMenu (const std::function<void()>& open, const std::function<void (juce::Component&)>& use)
     {
         bool opened = false;
         int waits = 0;
-        const std::function<void()> chooseIfOpen = [&] {
+        const std::function<void()> useIfOpen = [&] {
             opened = juce::Component::getNumCurrentlyModalComponents() == 1;
-            if (! opened && ++waits < 1000) return void (juce::MessageManager::callAsync (chooseIfOpen));
-            for (int i = 0; i < std::abs (steps); ++i)
-                stage.key (steps > 0 ? "cursor down" : "cursor up");
-            stage.key (end);
+            if (! opened && ++waits < 1000) return void (juce::MessageManager::callAsync (useIfOpen));
             waits = 1000;
+            if (opened) use (*juce::Component::getCurrentlyModalComponent());
         };
         open();
-        chooseIfOpen();
+        useIfOpen();
         while (waits < 1000 || juce::Component::getNumCurrentlyModalComponents() > 0)
             settle();
         REQUIRE (opened);
         settle();
+    }
+
+    /// Opens a menu, goes down in it (or up, if `steps` is negative), and presses a key.
+    static void useMenu (Stage& stage, const std::function<void()>& open, int steps, const juce::String& end)
+    {
+        withMenu (open, [&] (juce::Component&) {
+            for (int i = 0; i < std::abs (steps); ++i)
+                stage.key (steps > 0 ? "cursor down" : "cursor up");
+            stage.key (end);
+        });
     }
 
     /// The same for the menu that a click there opens.

@@ -3,8 +3,6 @@
 // run first.
 #include "host/app/support/window_rig.hpp"
 
-#include "support/waiting.hpp"
-
 #include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -61,30 +59,10 @@ struct GraphDesk
 template <typename F>
 void withMenu (WindowRig& w, juce::Component& at, int button, F f)
 {
-    bool was_open = false;
-    int waits = 0;
-    // In a message, because JUCE closes a menu at its first timer call if no window of the program has the keyboard of the X server.
-    const std::function<void()> look = [&] {
-        auto* menu = juce::Component::getCurrentlyModalComponent();
-        if (menu == nullptr && ++waits < 1000) return void (juce::MessageManager::callAsync (look));
-        waits = 1000;
-        if (menu == nullptr) return;
-        was_open = true;
-        f (*menu);
+    const auto open = [&] { w.stage->click (w.middleOf (at), button); };
+    WindowRig::withMenu (open, [&] (juce::Component& menu) {
+        f (menu);
         juce::PopupMenu::dismissAllActiveMenus();
-    };
-    w.stage->click (w.middleOf (at), button);
-    look();
-    while (waits < 1000 || juce::Component::getNumCurrentlyModalComponents() > 0)
-        WindowRig::settle();
-    REQUIRE (was_open);
-}
-
-bool runs (WindowRig& w)
-{
-    return tactus::test::eventually ({}, [&] {
-        WindowRig::settle (5);
-        return w.view->run().isRunning();
     });
 }
 
@@ -410,7 +388,7 @@ TEST_CASE ("after a new graph is opened, what is typed is for the canvas and not
 TEST_CASE ("with the palette open, Esc stops the run and closes the palette", "[app][keys][safety]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
-    REQUIRE (runs (w));
+    REQUIRE (waitFor ([&] { return w.view->run().isRunning(); }));
     REQUIRE_FALSE (w.view->run().drivesDevice());
     w.view->canvas().grabKeyboardFocus();
     w.key ("ctrl + k");
@@ -424,7 +402,7 @@ TEST_CASE ("with the palette open, Esc stops the run and closes the palette", "[
 TEST_CASE ("with a menu open, Esc stops the run and closes the menu", "[app][keys][safety]")
 {
     WindowRig w ("dry_wood.json", 1280, 720, false);
-    REQUIRE (runs (w));
+    REQUIRE (waitFor ([&] { return w.view->run().isRunning(); }));
     withMenu (w, *w.titled ("Menu"), juce::ModifierKeys::leftButtonModifier, [&] (juce::Component&) {
         w.stage->key ("escape");
         CHECK_FALSE (w.view->run().isWanted());

@@ -200,16 +200,13 @@ TEST_CASE ("while the scene is enlarged, keys do not edit the hidden canvas")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
-    HandPanel* hand = nullptr;
-    for (auto* child : o.view->getChildren())
-        if (auto* panel = dynamic_cast<HandPanel*> (child)) hand = panel;
-    REQUIRE (hand != nullptr);
+    auto& hand = o.view->part<HandPanel>();
     const auto nodes = [&] { return o.view->document().graph().root.nodes.size(); };
     const auto before = nodes();
     o.press ("ctrl + a");
     REQUIRE_FALSE (o.view->canvas().selection().empty());
-    hand->showScene (true);
-    hand->enlarge (true);
+    hand.showScene (true);
+    hand.enlarge (true);
     CHECK_FALSE (o.view->canvas().isVisible());
     o.press ("delete");
     CHECK (nodes() == before);

@@ -28,15 +28,6 @@ constexpr const char* with_simulated_stylus = R"({ "format": "tactus-session", "
     "roles": { "stylus": { "driver": "gesture", "path": "tap" } } })";
 constexpr const char* with_sound_card = R"({ "format": "tactus-session", "version": 1, "roles": { "stylus": { "driver": "audio" } } })";
 
-template <typename T>
-T* partIn (juce::Component& c)
-{
-    if (auto* part = dynamic_cast<T*> (&c)) return part;
-    for (auto* child : c.getChildren())
-        if (auto* part = partIn<T> (*child)) return part;
-    return nullptr;
-}
-
 struct Bench final : BoardBench<WindowRig>
 {
     explicit Bench (const char* preset = "dry_wood.json", std::string of = "stylus") : BoardBench (preset, std::move (of))
@@ -46,10 +37,10 @@ struct Bench final : BoardBench<WindowRig>
     }
     ~Bench() override { view->run().letGo(); }
 
-    DevicesPanel& panel() override { return *partIn<DevicesPanel> (*view); }
+    DevicesPanel& panel() override { return view->part<DevicesPanel>(); }
     LiveRun& run() override { return view->run(); }
     void showPanel() override { click ("Devices"); }
-    SceneView& scene() { return *partIn<SceneView> (*view); }
+    SceneView& scene() { return view->part<HandPanel>().scene(); }
 
     void start()
     {
@@ -333,15 +324,12 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
         return w.force() == 0.0;
     }));
     CHECK (w.view->statusText().contains ("until you release S"));
-    SafetyStrip* strip = nullptr;
-    for (auto* child : w.view->getChildren())
-        if (auto* found = dynamic_cast<SafetyStrip*> (child)) strip = found;
-    REQUIRE (strip != nullptr);
+    const auto& strip = w.view->part<SafetyStrip>();
     CHECK (w.until ([&] {
         hold();
-        return strip->guardText().contains ("its workspace is being moved");
+        return strip.guardText().contains ("its workspace is being moved");
     }));
-    CHECK_FALSE (strip->isAlarmed());   // it is what the person wants
+    CHECK_FALSE (strip.isAlarmed());   // it is what the person wants
     const auto after = [&] (std::uint64_t more) {
         return w.until ([&, from = w.ticks()] {
             hold();
@@ -357,7 +345,7 @@ TEST_CASE ("S moves the workspace with the hand while it is held, and the force 
         CHECK (w.view->run().tool()->position == place);   // the circle goes on, but not in the graph
     }
     w.stage->keyUp();
-    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip->guardText().contains ("being moved"); }));
+    CHECK (w.until ([&] { return w.force() > 0.0 && ! strip.guardText().contains ("being moved"); }));
     CHECK (w.origin().norm() > 1e-4);
     CHECK (stepsChecked (w.view->run()) == 0);   // nor does the tool jump
     CHECK_FALSE (w.workspace().contains ("offset"));
