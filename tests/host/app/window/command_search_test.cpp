@@ -164,14 +164,11 @@ TEST_CASE ("Ctrl+K finds what moves the tool: the mouse, a gesture, and the devi
 
 TEST_CASE ("the search for commands finds what a click can do, wherever it is", "[app][keyboard]")
 {
-    WindowRig w ("dry_wood.json");
+    SearchDesk d ("dry_wood.json");
+    auto& w = d.w;
     const auto find = [&] (const char* words) {
         INFO (words);
-        w.key ("ctrl + k");
-        REQUIRE (w.titled ("Palette") != nullptr);
-        w.stage->type (words);
-        w.key ("return");
-        WindowRig::settle();
+        d.choose ("ctrl + k", words);
         CHECK (w.titled ("Palette") == nullptr);
     };
     find ("history");
@@ -256,28 +253,24 @@ TEST_CASE ("the key of another search leaves the search for commands, and gets w
 
 TEST_CASE ("Quit is in the menu, on a key, and in the search for commands", "[app][keyboard]")
 {
-    WindowRig w ("dry_wood.json");
+    SearchDesk d ("dry_wood.json");
+    auto& w = d.w;
     int quits = 0;
     w.view->allowQuit ([&] { ++quits; });
     w.key ("ctrl + q");
     CHECK (quits == 1);
     w.choose (w.middleOf (*w.titled ("Menu")), -1, juce::ModifierKeys::leftButtonModifier);   // the last entry
     CHECK (quits == 2);
-    w.key ("ctrl + k");
-    w.stage->type ("quit");
-    w.key ("return");
-    WindowRig::settle();
+    d.choose ("ctrl + k", "quit");
     CHECK (quits == 3);
 }
 
 TEST_CASE ("the search for commands finds OSC, and says at which port messages arrive", "[app][keyboard][osc]")
 {
-    WindowRig w ("dry_wood.json");
+    SearchDesk d ("dry_wood.json");
+    auto& w = d.w;
     const auto told = [&] {
-        w.key ("ctrl + k");
-        w.stage->type ("osc");
-        w.key ("return");
-        WindowRig::settle();
+        d.choose ("ctrl + k", "osc");
         REQUIRE (w.view->asked().isOpen());
         CHECK (w.view->asked().title().contains ("OSC"));
         const auto text = w.view->asked().getDescription();

@@ -58,23 +58,6 @@ struct Opened
 };
 }   // namespace
 
-TEST_CASE ("the first start shows the welcome page, and one click runs a preset with the mouse as the hand")
-{
-    Opened o;
-    o.view->begin ({ o.home.path() });
-    REQUIRE (o.view->part<WelcomePage>().isVisible());
-    REQUIRE (o.view->part<WelcomePage>().cards().size() == 6);
-    const auto first = o.view->part<WelcomePage>().cards().front();
-    CHECK (first.name == "Dry wood");
-    o.view->part<WelcomePage>().onFeel (first.file, true);
-    CHECK_FALSE (o.view->part<WelcomePage>().isVisible());
-    CHECK (o.view->run().isRunning());
-    CHECK (o.view->run().hand() == LiveRun::Hand::pointer());
-    CHECK (o.view->document().file().empty());
-    o.view->document().undo();
-    CHECK_FALSE (o.view->part<WelcomePage>().isVisible());   // an empty graph does not bring it back
-}
-
 TEST_CASE ("with simulated devices, Esc first closes what is open and then stops the forces, and Shift+Esc stops in any case")
 {
     Opened o;

@@ -232,6 +232,8 @@ TEST_CASE ("a person feels something in two actions", "[app][person]")
 {
     Person p { false };
     p.click ("Dry wood");
+    CHECK (p.w.view->run().isRunning());
+    CHECK (p.w.view->run().hand() == LiveRun::Hand::pointer());
     auto* surface = p.titled ("Surface");
     REQUIRE (surface != nullptr);
     const auto at = p.of (*surface);
@@ -249,6 +251,9 @@ TEST_CASE ("a person feels something in two actions", "[app][person]")
     p.w.stage->release();
     CHECK (is_felt);
     CHECK (p.actions == 2);
+    CHECK (p.w.view->document().file().empty());   // it is a copy of the preset
+    p.w.view->document().undo();
+    CHECK_FALSE (p.w.view->part<WelcomePage>().isVisible());   // an empty graph does not bring it back
     p.w.view->run().letGo();
 }
 
