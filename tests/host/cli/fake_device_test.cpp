@@ -78,7 +78,7 @@ struct Fake
 
 TEST_CASE ("a program that is killed while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
 {
-    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    const auto wire = GENERATE (from_range (test::playedWires()));
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto graph = fake.scratch.write ("push.json", pushing);
@@ -184,7 +184,7 @@ TEST_CASE ("a program that is killed while it pushes an arm without a watchdog l
 
 TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
 {
-    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    const auto wire = GENERATE (from_range (test::playedWires()));
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto graph = fake.scratch.write ("push.json", pushing);
@@ -200,7 +200,7 @@ TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire
 
 TEST_CASE ("play on a wire accounts for its reports, and ends with the device at rest", "[cli][wires]")
 {
-    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    const auto wire = GENERATE (from_range (test::playedWires()));
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "1" });
@@ -288,7 +288,7 @@ TEST_CASE ("a line that carries only garbage is told from one that carries nothi
 
 TEST_CASE ("a board whose rate is not that of its profile is told, with the speed of the graph", "[cli][wires]")
 {
-    const test::Scratch scratch;
+    const test::Scratch profiles;
     auto slow = *readTextFile (TACTUS_SOURCE_DIR "/host/devices/profiles/tactus_board.json");
     const auto change = [&] (const std::string& from, const std::string& to) {
         REQUIRE (slow.find (from) != std::string::npos);
@@ -297,15 +297,14 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     change (R"("id": "tactus_board")", R"("id": "slow_board")");
     change (R"("rate": 1000,)", R"("rate": 500,)");
     change (R"("vid": "0x16c0")", R"("vid": "0x1234")");
-    scratch.write ("slow_board.json", slow);
-    setenv ("TACTUS_PROFILES", scratch.path ("").c_str(), 1);
-    const auto link = scratch.path ("board");
-    Running fake { { "fake-device", "slow_board", "--link", link } };
-    const bool is_there = soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; });
+    profiles.write ("slow_board.json", slow);
+    setenv ("TACTUS_PROFILES", profiles.path ("").c_str(), 1);
+    Fake fake { test::playedWires().front(), "slow_board" };
     unsetenv ("TACTUS_PROFILES");
-    INFO (fake.err());
-    REQUIRE (is_there);
-    const auto device = "stylus=serial:tactus_board@" + link;
+    INFO (fake.program.err());
+    REQUIRE (fake.is_there);
+    auto device = "stylus=" + fake.device;
+    device.replace (device.find ("slow_board"), 10, "tactus_board");
     // Longer than two spans of 2 s.
     const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "9" });
     INFO (ran.err);
@@ -345,7 +344,7 @@ TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires
 
 TEST_CASE ("tactus devices --capture records what a device on a wire has sent, byte for byte", "[cli][wires][capture]")
 {
-    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    const auto wire = GENERATE (from_range (test::playedWires()));
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto file = fake.scratch.path ("board.jsonl");
@@ -379,7 +378,7 @@ TEST_CASE ("tactus devices --capture records what a device on a wire has sent, b
 
 TEST_CASE ("tactus devices --probe shows the readings of a board on a wire", "[cli][wires]")
 {
-    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    const auto wire = GENERATE (from_range (test::playedWires()));
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto ran = runTactus ({ "devices", "--probe", "--device", fake.device, "--duration", "1" });

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -49,6 +50,16 @@ std::string testedProgram()
 {
     const char* other = std::getenv ("TACTUS_TESTED_PROGRAM");
     return other != nullptr ? other : TACTUS_PROGRAM;
+}
+
+bool isOfWindows() { return std::getenv ("TACTUS_TESTED_PROGRAM") != nullptr; }
+
+std::vector<std::string> playedWires() { return isOfWindows() ? std::vector<std::string> { "udp" } : std::vector<std::string> { "serial", "udp" }; }
+
+std::string withSlashes (std::string text)
+{
+    if (isOfWindows()) std::replace (text.begin(), text.end(), '\\', '/');
+    return text;
 }
 
 Ran runTactus (const std::vector<std::string>& arguments) { return runProgram (testedProgram(), arguments); }

@@ -30,6 +30,15 @@ struct Ran
 /// `tactus`, or the program that TACTUS_TESTED_PROGRAM names: ./test.sh --windows tests tactus.exe in wine by the same tests.
 std::string testedProgram();
 
+/// True if the tested program is one of Windows: it prints paths with a \, and has no pseudo-terminal that could be the far end of a serial line.
+bool isOfWindows();
+
+/// The wires on which the tested program can play a device to itself.
+std::vector<std::string> playedWires();
+
+/// The text with the paths as on Linux.
+std::string withSlashes (std::string text);
+
 /// Runs `tactus` or another program with these arguments.
 Ran runTactus (const std::vector<std::string>& arguments);
 Ran runProgram (const std::string& program, const std::vector<std::string>& arguments);

@@ -104,7 +104,7 @@ TEST_CASE ("a recording and a log survive kill -9 up to their last second, and t
     INFO (next.err);
     CHECK (next.status == 0);
     for (const auto& left : { left_csv, left_wav })
-        CHECK (next.err.find ("note: " + left + " is what an earlier run recorded") != std::string::npos);
+        CHECK (test::withSlashes (next.err).find ("note: " + left + " is what an earlier run recorded") != std::string::npos);
     CHECK (textOf (left_csv) == kept_csv);
     CHECK ((textOf (left_wav) == kept_wav));
     CHECK (countedRows (csv) == 50);
