@@ -8,6 +8,7 @@
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -355,7 +356,11 @@ void CanvasCommands::modulate (const Plug& from, const Plug& to, graph::Command&
     };
     if (std::ranges::any_of (commands, [&] (const auto& c) { return replaced (c) != nullptr && ! replaced (c)->add; })) return;
     const auto now = paramNow (document.graph(), canvas.seen(), *driven, to.port).value;
-    const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet, wanted);
+    const auto& unit = to.port.sheet->unit;
+    const auto symbol = unit.kind == UnitRule::Kind::fixed
+                            ? std::string (unit.unit.symbol)
+                            : unitInEffect (document.graph(), canvas.address (to.node.name + '.' + to.port.id), canvas.types());
+    const auto depth = depthOf (*source, *from.node.face, from.node.quantityOf (from.port), now, *to.port.sheet, symbol, wanted);
     if (! depth) return;
     auto& wire = std::get<graph::AddWire> (commands.back().edit).wire;
     wire.add = true;
@@ -393,7 +398,7 @@ void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, con
 Result<> CanvasCommands::mayJoin (const ScenePort& from, const ScenePort& to, graph::Id replaced) const
 {
     auto checked = checkWireByComponent (from.end(), to.end());
-    const bool is_envelope = from.node->type == "signal.envelope" && to.port->unit.kind == UnitRule::Kind::fixed;
+    const bool is_envelope = from.node->type == "signal.envelope";
     const bool is_modulator = from.port->role == Role::output && (from.end().quantity == Quantity::speed || is_envelope) && from.port->width == 1;
     if (checked || ! is_modulator || replaced != 0 || to.port->role != Role::param || to.port->width != 1 || to.port->isChoice()) return checked;
     for (const auto& w : patchShown().wires)

@@ -152,11 +152,12 @@ std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, co
     return values;
 }
 
-std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet& sheet, double depth)
+std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet& sheet, const std::string& symbol,
+                             double depth)
 {
     constexpr std::array<std::string_view, 4> modulators { "signal.lfo", "signal.envelope", "signal.noise", "signal.sample_hold" };
     constexpr double part_of_value = 0.1, part_of_range = 0.05, slow = 0.1;   // m/s
-    const bool is_speed = carried == Quantity::speed, is_fixed = sheet.unit.kind == UnitRule::Kind::fixed;
+    const bool is_speed = carried == Quantity::speed;
     if (! is_speed && std::ranges::count (modulators, source.type) == 0) return std::nullopt;
     const auto [value, low, high] = usualSweep (now, sheet);
     const double si = value.si();
@@ -171,10 +172,10 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
         depth /= std::abs (size->si());
         has_unit = has_unit || ! size->unit.empty();
     }
-    const auto symbol = is_fixed ? std::string (sheet.unit.unit.symbol) : std::string();
     const bool is_number = symbol.empty() || symbol == "1" || symbol == unit::decibel.symbol;   // a factor has no dB
-    if (is_speed && carried != (is_fixed ? sheet.unit.unit.quantity : Quantity::any))
+    if (is_speed && symbol != unit::speed.symbol)
         return Json (numberText (value.moved (depth).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
+    const bool is_fixed = sheet.unit.kind == UnitRule::Kind::fixed;
     if (has_unit && is_fixed && carried != Quantity::any && carried != sheet.unit.unit.quantity) return std::nullopt;
     if (has_unit || is_number) return Json (QuantityText { 0.0, {}, 1.0 }.moved (depth).number);
     auto text = withBestPrefix (value.moved (depth), sheet);

@@ -37,8 +37,9 @@ std::vector<std::pair<std::string, Json>> valuesOfSource (const Face& source, co
 
 /// The gain of a wire that modulates a param around its value `now`: a source that swings by one unit, or by its amplitude, moves the param by a tenth of
 /// this value, or by a twentieth of its usual range if it is 0. With a speed, 0.1 m/s does so. Empty if the source is no modulator: an oscillator, an
-/// envelope, a noise, a held sample or a speed; or if its unit does not fit. `carried`: the quantity of the output. `depth`: how far it moves the param
-/// instead, in SI; 0: as above.
-std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet&, double depth = 0.0);
+/// envelope, a noise, a held sample or a speed; or if its unit does not fit. `carried`: the quantity of the output. `symbol`: the SI unit of the param, "" if
+/// it is unknown. `depth`: how far it moves the param instead, in SI; 0: as above.
+std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quantity carried, const Json& now, const PortSheet&, const std::string& symbol,
+                             double depth = 0.0);
 
 }   // namespace tactus::host

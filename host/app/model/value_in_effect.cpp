@@ -10,6 +10,7 @@
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/param_edit.hpp>
 #include <tactus/plan/flat/flatten.hpp>
+#include <tactus/plan/rules/unit_check.hpp>
 #include <tactus/plan/values.hpp>
 
 #include <algorithm>
@@ -81,6 +82,14 @@ std::optional<double> valueInEffect (const graph::Graph& g, const std::string& a
         all = values[at];
     }
     return all;
+}
+
+std::string unitInEffect (const graph::Graph& g, const std::string& address, const Catalogue& catalogue)
+{
+    auto flattened = plan::flatten (g, catalogue, {}, nullptr, plan::SettingFiles::left_out);
+    plan::Ports found;
+    if (! plan::find (address, plan::Side::param, *flattened.top, nullptr, flattened.flat, found) || found.empty()) return {};
+    return plan::checkUnits (flattened.flat).symbol (found.front());
 }
 
 graph::Graph withValuesInEffect (const graph::Graph& g, const SeenPatch& seen, const Catalogue& catalogue)

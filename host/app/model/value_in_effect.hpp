@@ -18,6 +18,10 @@ namespace tactus::host
 /// control: a subgraph node may override it. Empty if there is no such parameter, or if its instances have different values.
 std::optional<double> valueInEffect (const graph::Graph&, const std::string& address, const Catalogue&);
 
+/// The SI unit of a parameter that controls name like this, also if its wires and values decide it: "N", or "1" for a number without one. Empty if nothing
+/// does, or if there is no such parameter.
+std::string unitInEffect (const graph::Graph&, const std::string& address, const Catalogue&);
+
 /// The graph with the values in effect stored in the nodes of a patch, so that a copy of them feels the same.
 graph::Graph withValuesInEffect (const graph::Graph&, const SeenPatch&, const Catalogue&);
 

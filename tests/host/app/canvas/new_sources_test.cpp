@@ -5,6 +5,7 @@
 #include "support/sketch.hpp"
 
 #include <host/app/model/param_now.hpp>
+#include <host/app/model/param_value.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/values.hpp>
@@ -13,6 +14,7 @@
 
 #include <cmath>
 #include <host/app/inspector/rows.hpp>
+#include <set>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -179,6 +181,45 @@ TEST_CASE ("a modulator that is wired to a param moves it around its value, with
                 CHECK (rig.graph().root.wires.empty());
             }
         }
+}
+
+TEST_CASE ("a modulator of a param brings no error, whether the datasheet, a value or a wire decides the unit of the param", "[app][canvas][sources]")
+{
+    const auto errorsOf = [] (const graph::Graph& g) {
+        std::multiset<std::string> all;
+        for (const auto& m : problemsOf (g, catalogue()))
+            if (m.severity == Message::Severity::error) all.insert (m.id + ' ' + m.where);
+        return all;
+    };
+    const auto modulate = [&] (const graph::Graph& g, const std::string& node, const std::string& param) {
+        const auto before = errorsOf (g);
+        for (const char* type : { "signal.lfo", "signal.envelope", "signal.noise", "motion.velocity" })
+        {
+            INFO (type << " -> " << node << '.' << param);
+            CanvasRig rig { g };
+            rig.canvas->commands().addModulator (node, param, type);
+            CHECK (std::ranges::count_if (rig.graph().root.wires, &graph::Wire::add) == 1);
+            CHECK (errorsOf (rig.graph()) == before);
+        }
+    };
+    for (const auto& type : catalogue())
+    {
+        const auto g = Sketch {}.node ("driven", std::string (type.info.id)).graph;
+        for (const auto& p : faceOf (g, g.root, g.root.nodes[0], catalogue()).params)
+        {
+            if (p.isChoice() || p.width != 1) continue;
+            INFO (type.info.id);
+            auto valued = g;
+            if (p.unit.kind != UnitRule::Kind::fixed) valued.root.nodes[0].params[baseOf (p.id)] = *withValue (valued.root.nodes[0], p, Json ("0.5 N"));
+            modulate (valued, "driven", p.id);
+        }
+    }
+
+    Sketch wired;
+    wired.node ("wall", "deform.plane").node ("slow", "signal.slew").node ("level", "signal.constant").node ("up", "vector.join");
+    wired.node ("motor", "device.force").wire ("wall.resistance -> slow.in").wire ("level.out -> up.z").wire ("up.out -> motor.force");
+    modulate (wired.graph, "slow", "rate");   // N/s
+    modulate (wired.graph, "level", "value");
 }
 
 TEST_CASE ("a modulator with an amplitude keeps its unit, and a second wire replaces nothing that is set", "[app][canvas][sources]")

@@ -384,6 +384,26 @@ TEST_CASE ("an envelope that modulates a knob moves all that it sets, whatever t
     CHECK (w.document.history().position() == 1);
 }
 
+TEST_CASE ("a modulator of a knob has the unit that wires give to the parameter, also inside of a group", "[app][modulation]")
+{
+    for (const char* type : { "signal.lfo", "signal.envelope", "signal.noise", "motion.velocity" })
+        for (const bool is_grouped : { false, true })
+        {
+            INFO (type << (is_grouped ? ", grouped" : ""));
+            auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/heartbeat.json").graph;
+            if (is_grouped) REQUIRE (graph::apply (g, graph::CollapseNodes { "", { "beat", "felt" }, "block", "block" }));
+            DeskStage w (std::move (g), 1280, 1000);
+            w.canvas.commands().addModulatorOf ("strength", type);
+            OnStage::settle();
+            const auto made = first (w.graph(), is_grouped ? "block/beat.gain" : "beat.gain");
+            CHECK (made.depth == Approx (0.1));
+            CHECK_FALSE (hasErrors (problemsOf (w.graph(), catalogue())));
+            const auto wire = std::ranges::find (w.graph().root.wires, made.wire, &graph::Wire::id);
+            REQUIRE (wire != w.graph().root.wires.end());
+            if (type == std::string ("motion.velocity")) CHECK (wire->gain == Json ("1 N*s/m"));
+        }
+}
+
 TEST_CASE ("a second modulator of a parameter adds to the first one, which keeps its depth", "[app][modulation]")
 {
     Sketch s { wavy ("0.02") };
