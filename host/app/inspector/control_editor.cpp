@@ -13,8 +13,10 @@
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/inside.hpp>
+#include <tactus/plan/values.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace tactus::host
 {
@@ -141,15 +143,26 @@ protected:
             const auto remove = [this, path] {
                 if (auto command = removeTarget (document.graph(), id, path, catalogue)) document.perform (std::move (*command));
             };
-            const auto sheet = sheetOfTarget (path);
+            const auto sheet = sheetOfTarget (c->to[i]);
             std::vector<TableRow::Cell> cells { { sheet, end (&graph::Control::Target::low) }, { sheet, end (&graph::Control::Target::high) } };
             add (std::make_unique<TableRow> (std::move (cells), remove, refused));
         }
     }
 
 private:
+    /// The datasheet row for both ends of a range. If wires decide the unit, it is the one in which an end is written.
+    PortSheet sheetOfTarget (const graph::Control::Target& target)
+    {
+        auto sheet = sheetOfParam (target.path);
+        for (const auto* end : { &target.low, &target.high })
+            if (const auto read = plan::readNumber (*end); read && sheet.unit.kind != UnitRule::Kind::fixed)
+                if (const auto unit = read->dimension.value_or (Dimension {}); unit != Dimension {})
+                    sheet.unit = Unit { Quantity::any, unit, *symbols.insert (symbolOf (unit)).first };
+        return sheet;
+    }
+
     /// The datasheet row of a parameter, which may be inside of subgraphs, as in "grain/wave/drag.mu".
-    PortSheet sheetOfTarget (const std::string& path) const
+    PortSheet sheetOfParam (const std::string& path) const
     {
         const auto end = graph::parseEndpoint (path);
         graph::Inside in { &document.graph(), &document.graph().root };
@@ -174,6 +187,7 @@ private:
     const Catalogue& catalogue;
     std::string id;
     Refusal refused;
+    std::set<std::string> symbols;   // of units of sheets
 };
 }   // namespace
 

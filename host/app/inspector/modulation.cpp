@@ -41,19 +41,41 @@ GainUnit unitOf (const Json& gain)
     return unit.empty() || ! one ? GainUnit {} : GainUnit { unit, one->value };
 }
 
-/// The value of a source at a full swing, and whether it is never below 0.
-std::pair<double, bool> swingOf (const graph::Graph& g, const graph::Patch& patch, const graph::Endpoint& from, const Catalogue& catalogue)
+/// A full swing of a source: its value, its dimension, and whether it is never below 0.
+struct Swing
+{
+    double size = 1.0;
+    bool is_one_sided = false;
+    Dimension dimension {};
+};
+
+Dimension dimensionOf (const Json& value)
+{
+    const auto number = plan::readNumber (value);
+    return number ? number->dimension.value_or (Dimension {}) : Dimension {};
+}
+
+Swing swingOf (const graph::Graph& g, const graph::Patch& patch, const graph::Endpoint& from, const Catalogue& catalogue)
 {
     constexpr double slow = 0.1;   // m/s, as in depthOf()
     const auto* node = patch.find (graph::firstNameOf (from.node));
-    if (node == nullptr) return { 1.0, false };
+    if (node == nullptr) return {};
     const auto face = faceOf (g, patch, *node, catalogue);
     const auto* out = face.startOf (from);
-    if (out != nullptr && out->quantity() == Quantity::speed) return { slow, true };
+    if (out != nullptr && out->quantity() == Quantity::speed) return { slow, true, unit::speed.dimension };
     const auto* amplitude = face.find (Role::param, "amplitude");
     if (amplitude == nullptr || amplitude->sheet == nullptr) return { 1.0, node->type == "signal.envelope" };
     const auto written = writtenValue (*node, *amplitude);
-    return { std::abs (siOf (written.is_null() ? initialValue (g, *node, *amplitude) : written, *amplitude->sheet, 1.0)), false };
+    return { std::abs (siOf (written.is_null() ? initialValue (g, *node, *amplitude) : written, *amplitude->sheet, 1.0)), false, dimensionOf (written) };
+}
+
+/// The SI unit of a param: that of its datasheet, else that of what a wire adds to it, or that of its stored value. Empty if none is known.
+std::string unitOf (const graph::Graph& g, const graph::Node& node, const FacePort& param, Dimension added)
+{
+    if (param.unit.kind == UnitRule::Kind::fixed) return std::string (param.unit.unit.symbol);
+    const auto written = writtenValue (node, param);
+    const auto unit = added == Dimension {} ? dimensionOf (written.is_null() ? initialValue (g, node, param) : written) : added;
+    return unit == Dimension {} ? std::string() : symbolOf (unit);
 }
 }   // namespace
 
@@ -62,17 +84,18 @@ std::vector<Modulation> modulationsOf (const graph::Graph& g, const std::string&
 {
     std::vector<Modulation> found;
     const auto* patch = findPatch (g, patch_name);
-    if (patch == nullptr || param.width != 1 || param.isChoice()) return found;
+    const auto* driven = patch == nullptr ? nullptr : patch->find (node);
+    if (driven == nullptr || param.width != 1 || param.isChoice()) return found;
     const auto entry = entryOf (param.id);
     for (const auto& w : patch->wires)
     {
         if (! w.add || ! w.enabled.value_or (true) || w.to.node != node || w.to.port != baseOf (param.id)) continue;
         if (w.to.index != (entry ? static_cast<int> (*entry) : -1)) continue;
         const auto gain = plan::readNumber (w.gain.is_null() ? Json (1.0) : w.gain);
-        const auto [swing, is_one_sided] = swingOf (g, *patch, w.from, catalogue);
         if (! gain) continue;
-        found.push_back ({ patch_name, w.id, graph::toText (w.from), gain->value * swing, is_one_sided, unitOf (w.gain).si * swing,
-                           param.unit.kind == UnitRule::Kind::fixed ? std::string (param.unit.unit.symbol) : std::string() });
+        const auto swing = swingOf (g, *patch, w.from, catalogue);
+        found.push_back ({ patch_name, w.id, graph::toText (w.from), gain->value * swing.size, swing.is_one_sided, unitOf (w.gain).si * swing.size,
+                           unitOf (g, *driven, param, gain->dimension.value_or (Dimension {}) * swing.dimension) });
     }
     return found;
 }
@@ -138,6 +161,8 @@ Result<double> readDepth (const std::string& typed, const Modulation& m, const P
 {
     auto any = sheet;
     any.limits = {};   // they are those of the parameter
+    if (const auto one = parseMeasure ("1 " + m.unit); one && ! m.unit.empty() && any.unit.kind != UnitRule::Kind::fixed)
+        any.unit = Unit { Quantity::any, one->dimension, m.unit };   // in which the depth is shown
     const auto shown = withBestPrefix ({ rounded (std::abs (m.depth)), {}, 1.0 }, any);
     const auto read = readTyped (typed, shown, any);
     if (! read) return read.error();

@@ -115,6 +115,22 @@ TEST_CASE ("the range of a control keeps its unit when its parameter gets into a
     }
 }
 
+TEST_CASE ("both ends of the range of a control show the unit that one of them is written with", "[app][controls]")
+{
+    DeskStage w ("heartbeat.json", 1048, 850);
+    REQUIRE (w.graph().controls[1].to[0].low == Json (0));
+    OnStage::settle();
+    std::vector<juce::String> texts;
+    const std::function<void (juce::Component&)> look = [&] (juce::Component& at) {
+        if (const auto* field = dynamic_cast<NumberField*> (&at)) texts.push_back (field->spokenValue());
+        for (auto* child : at.getChildren())
+            look (*child);
+    };
+    look (w.inspector);
+    CHECK (std::ranges::count (texts, juce::String ("0 N")) == 1);
+    CHECK (std::ranges::count (texts, juce::String ("1 N")) == 1);
+}
+
 TEST_CASE ("a control that is deleted leaves its values, and one more parameter moves none", "[app][controls]")
 {
     Cloth c;

@@ -104,6 +104,30 @@ TEST_CASE ("a depth has the unit of its parameter, and its gain keeps the one in
     CHECK (modulationsAt (s.graph, "nothing/at.all", catalogue()).empty());
 }
 
+TEST_CASE ("a depth has the unit of a parameter also where wires decide it, and a depth in another unit is refused", "[app][modulation]")
+{
+    const std::string sign = "\xc2\xb1";
+    for (const auto& [value, amplitude, gain] : { std::tuple { R"("0.5 N")", "2", "0.1" }, { "0.5", R"("2 N")", "0.1" }, { "0.5", "2", R"("0.1 N")" } })
+    {
+        INFO (value << ' ' << amplitude << ' ' << gain);
+        Sketch s;
+        s.node ("beat", "signal.clip", { { "gain", Json::parse (value) } }).node ("lfo", "signal.lfo", { { "amplitude", Json::parse (amplitude) } });
+        s.wire ("lfo.out -> (+) beat.gain");
+        s.graph.root.wires.back().gain = Json::parse (gain);
+        const auto m = first (s.graph, "beat.gain");
+        CHECK (sizeOf (m).toStdString() == sign + "200 mN");
+        const auto face = faceOf (s.graph, s.graph.root, s.graph.root.nodes[0], catalogue());
+        const auto& sheet = *face.find (Role::param, "gain")->sheet;
+        CHECK (*readDepth ("30", m, sheet) == Approx (0.03));   // it shows mN
+        CHECK (*readDepth ("0.3 N", m, sheet) == Approx (0.3));
+        CHECK_FALSE (readDepth ("3 mm", m, sheet));
+    }
+    Sketch speed;
+    speed.node ("beat", "signal.clip", { { "gain", 0.5 } }).node ("motion", "motion.velocity").wire ("motion.speed -> (+) beat.gain");
+    speed.graph.root.wires.back().gain = "1 N*s/m";
+    CHECK (sizeOf (first (speed.graph, "beat.gain")) == "+100 mN");
+}
+
 TEST_CASE ("a dial beside a parameter shows its modulator, and a drag changes the depth or ends it, in one undo step", "[app][modulation]")
 {
     DeskStage w (wavy ("0.02"), 1280, 1000);
