@@ -62,7 +62,7 @@ public:
                 continue;
             }
             if (starts) wire.from = exposed (wire.from, inner.expose.outputs);
-            if (ends) wire.to = exposed (wire.to, isExposedParam (wire.to) ? inner.expose.params : inner.expose.inputs);
+            if (ends) wire.to = wire.add ? exposedParam (wire.to) : exposed (wire.to, isExposedParam (wire.to) ? inner.expose.params : inner.expose.inputs);
             patchOf (graph, command.patch).wires.push_back (std::move (wire));
         }
         moveNodes();
@@ -85,21 +85,27 @@ private:
             if (isInside (e)) e = exposed (e, list);
     }
 
-    /// The port of the new node that exposes an inner port. The new node always exposes the whole port; the outer endpoint selects
-    /// the entry or component.
-    Endpoint exposed (const Endpoint& e, Exposed& list)
+    /// The param of the new node for one to which a wire adds. An entry of a list is exposed on its own, so that its value and its depth are seen outside.
+    Endpoint exposedParam (const Endpoint& e)
     {
-        const Endpoint whole { e.node, e.port };
-        auto port = std::ranges::find (list, whole, &Exposed::value_type::second);
+        return isExposedParam (e) ? exposed (e, inner.expose.params) : exposed (e, { e.node, e.port, e.index }, inner.expose.params);
+    }
+
+    /// The port of the new node that exposes an inner port as a whole; the outer endpoint selects the entry or component.
+    Endpoint exposed (const Endpoint& e, Exposed& list) { return exposed (e, { e.node, e.port }, list); }
+
+    Endpoint exposed (const Endpoint& e, const Endpoint& shown, Exposed& list)
+    {
+        auto port = std::ranges::find (list, shown, &Exposed::value_type::second);
         if (port == list.end())
         {
             const auto isTaken = [&] (const std::string& name) { return used.contains (name); };
             const auto node = firstNameOf (e.node);
             const auto name = isTaken (e.port) ? freeName (node + "_" + e.port, isTaken) : e.port;
             used.insert (name);
-            port = list.insert (list.end(), { name, whole });
+            port = list.insert (list.end(), { name, shown });
         }
-        return { command.name, port->first, e.index, e.component };
+        return { command.name, port->first, shown.index < 0 ? e.index : -1, e.component };
     }
 
     void moveNodes()

@@ -129,7 +129,8 @@ private:
     void showDepths (const graph::Node& node)
     {
         constexpr std::size_t most_rings = 3;
-        modulations = modulationsOf (document.graph(), patch.name, node.name, port, catalogue);
+        modulations = modulationsAt (document.graph(), patch.address (node.name + '.' + port.id), catalogue);   // also by wires outside of the patch
+        if (modulations.empty()) modulations = modulationsOf (document.graph(), patch.name, node.name, port, catalogue);
         const auto count = std::min (modulations.size(), most_rings);
         const bool has_changed = count != rings.size();
         if (has_changed && depth_field)

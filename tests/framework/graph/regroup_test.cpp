@@ -59,6 +59,35 @@ TEST_CASE ("when nodes are collapsed to a subgraph, all references to them follo
     CHECK (g.root.find ("grain")->overrides == as_it_was.root.find ("grain")->overrides);
 }
 
+TEST_CASE ("a param to which a wire adds becomes a param of the subgraph, alone if it is an entry of a list, and comes back when it is expanded")
+{
+    auto g = woodGraph();
+    g.root.nodes.push_back (node ("mix"));
+    g.root.nodes.back().type = "layer.mix";
+    g.root.nodes.push_back (node ("lfo"));
+    g.root.nodes.back().type = "signal.lfo";
+    for (const auto* text : { "lfo.out -> (+) drag.mu", "lfo.out -> (+) mix.gain[2]", "lfo.out -> drag.d_max" })
+        g.root.wires.push_back (wire (text));
+    const auto wires = [&] {
+        std::vector<std::string> all;
+        for (auto w = g.root.wires.end() - 3; w != g.root.wires.end(); ++w)
+            all.push_back (toText (*w));
+        return all;
+    };
+    const auto before = wires();
+    perform (g, CollapseNodes { "", { "drag", "mix" }, "block", "block" });
+    CHECK (wires() == std::vector<std::string> { "lfo.out -> (+) block.mu", "lfo.out -> (+) block.gain", "lfo.out -> block.d_max" });
+    const auto& shown = g.find ("block")->expose;
+    CHECK (shown.params == std::vector<std::pair<std::string, Endpoint>> { { "mu", { "drag", "mu" } }, { "gain", { "mix", "gain", 2 } } });
+    CHECK (std::ranges::count (shown.inputs, "d_max", &std::pair<std::string, Endpoint>::first) == 1);
+
+    perform (g, CollapseNodes { "", { "block" }, "outer", "outer" });
+    CHECK (wires() == std::vector<std::string> { "lfo.out -> (+) outer.mu", "lfo.out -> (+) outer.gain", "lfo.out -> outer.d_max" });
+    perform (g, ExpandNode { "", "outer" });
+    perform (g, ExpandNode { "", "block" });
+    CHECK (wires() == before);
+}
+
 TEST_CASE ("expanding applies params, overrides and roles to the inner nodes, and keeps a shared subgraph")
 {
     auto loaded = readGraph (R"({ "format": "tactus-graph", "version": 1,

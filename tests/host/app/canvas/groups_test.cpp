@@ -2,6 +2,8 @@
 // Groups of nodes within groups, made with the mouse and the keyboard.
 #include "host/app/support/desk_stage.hpp"
 
+#include <host/app/inspector/blocks/depth_ring.hpp>
+#include <host/app/inspector/modulation.hpp>
 #include <host/app/problems/unfelt.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
@@ -13,6 +15,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskStage;
+using tactus::host::test::OnStage;
 
 namespace
 {
@@ -195,6 +198,42 @@ TEST_CASE ("groups within groups show their ports at every depth, are no problem
         CHECK (w.problems() == problems);
     }
     CHECK (w.graph().graphs.empty());
+}
+
+TEST_CASE ("a group of a modulated node shows the depths as the node did, and feels the same", "[app][canvas][groups][modulation]")
+{
+    GroupBench w (1368, 656);
+    w.canvas.commands().addModulatorOf ("roughness", "signal.lfo");
+    const auto force = w.force();
+    const auto depths = [&] (const std::string& path) {
+        std::vector<juce::String> all;
+        for (const auto& m : modulationsAt (w.graph(), path, catalogue()))
+            all.push_back (textOf (m));
+        return all;
+    };
+    const auto mu = depths ("drag.mu"), amplitude = depths ("grain.amplitude");
+    REQUIRE (mu.size() == 1);
+    REQUIRE (amplitude.size() == 1);
+    const auto shown = [&] (const std::string& node, const char* param) {
+        const auto* socket = w.node (node).box.find (Role::param, param);
+        return socket == nullptr ? std::string() : socket->value + ' ' + socket->depth;
+    };
+    const auto on_node = shown ("drag", "mu");
+    w.canvas.select ({ w.node ("drag").id, w.node ("grain").id });
+    w.canvas.commands().groupSelection();
+    OnStage::settle();
+    CHECK (shown ("group", "mu") == on_node);
+    CHECK (depths ("group/drag.mu") == mu);
+    CHECK (depths ("group/grain.amplitude") == amplitude);
+    CHECK (w.force() == force);
+
+    w.canvas.commands().enterSelection();
+    REQUIRE (w.canvas.patch() == "group");
+    w.canvas.select ({ w.node ("drag").id });
+    OnStage::settle();
+    const auto* ring = dynamic_cast<DepthRing*> (w.titled (juce::String ("Depth of mu by ") + modulationsAt (w.graph(), "group/drag.mu", catalogue())[0].from));
+    REQUIRE (ring != nullptr);
+    CHECK (textOf (ring->shown()) == mu[0]);
 }
 
 TEST_CASE ("undo and redo go to the patch that they change, and select what has changed", "[app][canvas][groups][undo]")
