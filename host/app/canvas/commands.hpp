@@ -37,6 +37,7 @@ struct NodeRequest
     bool modulates = false;           ///< what the new node gives to `start`, a param, moves it around its value, and does not set it
     bool is_joined = false;           ///< it belongs to the last step of the history
     double depth = 0.0;               ///< how far it moves the param, in SI; 0: in proportion to its value
+    bool has_more_targets = false;    ///< it is going to move more params, and what it reads is wired after that
 };
 
 /// The commands for the selection of a canvas and for its patch. Each edit is one undo step.
@@ -127,7 +128,8 @@ private:
     /// no such param; empty if neither.
     juce::String eachTarget (const std::string& control, graph::Step& step, const std::function<juce::String (const PortId&, double depth)>& act);
 
-    void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step, double depth = 0.0);
+    void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step, double depth = 0.0, bool has_more_targets = false);
+    void wireInputsOf (const std::string& node);
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
 
     /// The node that was added last, its place, and where the pointer was.

@@ -284,11 +284,11 @@ void CanvasCommands::addModulator (const std::string& node, const std::string& p
     if (const auto to = canvas.scene().findPort ({ driven->id, Role::param, param })) addModulatorAt (to, type, graph::Step::own);
 }
 
-void CanvasCommands::addModulatorAt (const ScenePort& to, const std::string& type, graph::Step step, double depth)
+void CanvasCommands::addModulatorAt (const ScenePort& to, const std::string& type, graph::Step step, double depth, bool has_more_targets)
 {
     constexpr float gap = 3 * Box::grid;
     const PortId param { to.node->id, Role::param, to.port->id };
-    const NodeRequest request { to.node->bounds().getTopLeft().translated (-gap, 0.0f), param, 0, true, step == graph::Step::joined, depth };
+    const NodeRequest request { to.node->bounds().getTopLeft().translated (-gap, 0.0f), param, 0, true, step == graph::Step::joined, depth, has_more_targets };
     type.empty() ? requestNode (request) : addNodeAt (type, request);
 }
 
@@ -327,17 +327,24 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         else if (to.port->role == Role::param)
             addValues (*to.node, *to.port, *from.node, joined);
         perform (std::move (joined), graph::Step::joined);
-        if (const auto* reads = request.modulates ? canvas.types().find (type) : nullptr)
-        {
-            graph::Batch inputs { NEEDS_TRANS ("connect"), {} };
-            wiring::wireInputs (*reads, name, document.graph(), canvas.patch(), { name }, canvas.types(), inputs);
-            if (! inputs.commands.empty()) perform (std::move (inputs), graph::Step::joined);
-        }
+        if (request.modulates && ! request.has_more_targets) wireInputsOf (name);
         if (has_more)
             if (auto wires = wiring::obviousWires (document.graph(), canvas.patch(), name, canvas.types()); ! wires.commands.empty())
                 perform (std::move (wires), graph::Step::joined);
         return;
     }
+}
+
+/// Wires what a new modulator reads, such as the hand, or the contact that opens the gate of an envelope. What it moves does not drive it, which would be
+/// a loop.
+void CanvasCommands::wireInputsOf (const std::string& name)
+{
+    const auto* node = patchShown().find (name);
+    const auto* type = node == nullptr ? nullptr : canvas.types().find (node->type);
+    if (type == nullptr) return;
+    graph::Batch inputs { NEEDS_TRANS ("connect"), {} };
+    wiring::wireInputs (*type, name, document.graph(), canvas.patch(), wiring::downstreamOf (patchShown(), name), canvas.types(), inputs);
+    if (! inputs.commands.empty()) perform (std::move (inputs), graph::Step::joined);
 }
 
 /// A modulator that is wired to a param adds to its value and to what other modulators add. Its depth is the gain of the wire. A param that a wire sets
@@ -456,12 +463,13 @@ void CanvasCommands::addModulatorOf (const std::string& control, const std::stri
         const auto to = canvas.scene().findPort (target);
         if (from && to) connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, graph::Step::joined, depth);
         if (source || ! to) return {};
-        addModulatorAt (to, type, std::exchange (step, graph::Step::joined), depth);
+        addModulatorAt (to, type, std::exchange (step, graph::Step::joined), depth, ! type.empty());
         for (const auto& w : patchShown().wires)
             if (const auto* made = canvas.scene().find (added.node); made != nullptr && w.from.node == made->name)
                 if (const auto* output = made->face->startOf (w.from)) source = PortId { made->id, Role::output, output->id };
         return {};
     });
+    if (const auto from = source ? canvas.scene().findPort (*source) : ScenePort {}) wireInputsOf (from.node->name);
     if (why.isNotEmpty()) canvas.notice (why);
 }
 

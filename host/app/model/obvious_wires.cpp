@@ -205,6 +205,7 @@ std::string wireInputs (const NodeType& type, const std::string& name, const gra
         if (! isWired (type, input) || hasWireInto (patch, name, input.id)) continue;
         auto from = sourceFor (input, g, patch, excluded, catalogue);
         if (! from && input.id == "speed") from = speedOfTool (g, in, excluded, catalogue, batch);
+        if (! from && input.id == "gate") from = touchGain (g, in, excluded, catalogue, batch);
         if (from)
             batch.commands.push_back (graph::AddWire { in, wire (std::move (*from), endOf (name, input.id)) });
         else if (missing.empty() && ! (input.width == 3 && input.id == "normal"))   // without one, it is up

@@ -92,6 +92,9 @@ public:
             if (n.type == clip_type && ! hasClip (n))
                 add (all, n, "clip/no_file", filled (TRANS ("'%1 has no clip, so it is silent"), called),
                      TRANS ("choose a clip in the inspector, or drop one on the node"));
+            if (n.type == "signal.envelope" && leads (n.name) && ! hears (n.name, "gate"))
+                add (all, n, "envelope/no_gate", filled (TRANS ("nothing is wired into gate of '%1, so it stays at rest"), called),
+                     filled (TRANS ("wire what opens it into %1, such as the gain of a contact window"), n.name + ".gate"));
             warnAboutInputs (n, called, all);
             warnAboutLayers (n, all);
         }

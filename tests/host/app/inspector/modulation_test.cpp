@@ -5,7 +5,9 @@
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/inspector/blocks/depth_ring.hpp>
 #include <host/app/inspector/modulation.hpp>
+#include <host/app/problems/unfelt.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
 
@@ -426,6 +428,39 @@ TEST_CASE ("a modulator of a knob has the unit that wires give to the parameter,
             REQUIRE (wire != w.graph().root.wires.end());
             if (type == std::string ("motion.velocity")) CHECK (wire->gain == Json ("1 N*s/m"));
         }
+}
+
+TEST_CASE ("the contact opens the gate of an envelope that modulates, and Problems name one that nothing opens", "[app][modulation][problems]")
+{
+    const auto gateOf = [] (const graph::Graph& g) {
+        std::vector<std::string> sources;
+        for (const auto& w : g.root.wires)
+            if (graph::toText (w.to) == "envelope.gate") sources.push_back (graph::toText (w.from));
+        return sources;
+    };
+    const auto isAtRest = [] (const graph::Graph& g) { return std::ranges::count (unfelt (g, catalogue()), "envelope/no_gate", &Message::id) == 1; };
+    const auto touched = std::vector<std::string> { "touch.gain" };
+    for (const auto& [preset, knob] : { std::pair { "bronze_bell.json", "warble" }, { "heartbeat.json", "strength" }, { "canvas_weave.json", "weave" } })
+    {
+        INFO (preset);
+        DeskStage w (preset, 1280, 1000);
+        const auto before = writeGraph (w.graph());
+        w.canvas.commands().addModulatorOf (knob, "signal.envelope");
+        CHECK (gateOf (w.graph()) == touched);   // of a window that is there, or of a new one
+        CHECK_FALSE (isAtRest (w.graph()));
+        CHECK_FALSE (hasErrors (problemsOf (w.graph(), catalogue())));
+        w.document.undo();
+        CHECK (writeGraph (w.graph()) == before);
+    }
+
+    // The contact comes from what the knob moves: the gate would be a loop.
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+    g.controls[0].to.push_back ({ "board.damping", 0.1, 0.5 });
+    DeskStage w (std::move (g), 1280, 1000);
+    w.canvas.commands().addModulatorOf ("roughness", "signal.envelope");
+    CHECK (gateOf (w.graph()).empty());
+    CHECK (isAtRest (w.graph()));
+    CHECK_FALSE (hasErrors (problemsOf (w.graph(), catalogue())));
 }
 
 TEST_CASE ("a second modulator of a parameter adds to the first one, which keeps its depth", "[app][modulation]")
