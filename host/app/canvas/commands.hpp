@@ -130,6 +130,7 @@ private:
 
     void addModulatorAt (const ScenePort& param, const std::string& type, graph::Step, double depth = 0.0, bool has_more_targets = false);
     void wireInputsOf (const std::string& node);
+    void hintTargets (const PortId& source) const;
     juce::Point<float> placeFor (const std::string& type, const NodeRequest&) const;
 
     /// The node that was added last, its place, and where the pointer was.

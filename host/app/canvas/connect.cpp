@@ -440,6 +440,18 @@ juce::String CanvasCommands::eachTarget (const std::string& control, graph::Step
     return why.value_or (filled (TRANS ("%1 sets nothing in this patch"), set.name.empty() ? control : set.name));
 }
 
+/// Names all params that an output moves, if there are several.
+void CanvasCommands::hintTargets (const PortId& source) const
+{
+    const auto from = canvas.scene().findPort (source);
+    juce::StringArray targets;
+    for (const auto& w : patchShown().wires)
+        if (from && w.add && w.from.node == from.node->name && from.node->face->startOf (w.from) == from.port) targets.add (graph::toText (w.to));
+    if (targets.size() < 2) return;
+    const auto output = from.node->name + '.' + from.port->id;
+    canvas.hint (filled (TRANS ("%1 moves %2 around their values. Select a wire to set its depth."), output, targets.joinIntoString (", ")));
+}
+
 void CanvasCommands::joinControl (const PortId& start, const std::string& control)
 {
     auto step = graph::Step::own;
@@ -451,6 +463,7 @@ void CanvasCommands::joinControl (const PortId& start, const std::string& contro
         connectNew ({ *from.node, *from.port }, { *to.node, *to.port }, std::exchange (step, graph::Step::joined), depth);
         return {};
     });
+    hintTargets (start);
     if (why.isNotEmpty()) canvas.notice (why);
 }
 
@@ -470,6 +483,7 @@ void CanvasCommands::addModulatorOf (const std::string& control, const std::stri
         return {};
     });
     if (const auto from = source ? canvas.scene().findPort (*source) : ScenePort {}) wireInputsOf (from.node->name);
+    if (source) hintTargets (*source);
     if (why.isNotEmpty()) canvas.notice (why);
 }
 

@@ -430,6 +430,20 @@ TEST_CASE ("a modulator of a knob has the unit that wires give to the parameter,
         }
 }
 
+TEST_CASE ("the status line names all that a modulator of a knob moves", "[app][modulation]")
+{
+    DeskStage w ("canvas_weave.json", 1280, 1000);
+    w.canvas.commands().addModulatorOf ("weave", "signal.lfo");
+    CHECK (w.status.text().contains ("lfo.out moves warp.amplitude, weft.amplitude around their values"));
+    w.document.undo();
+
+    Sketch s { w.graph() };
+    s.node ("wave", "signal.lfo");
+    REQUIRE (w.document.perform (graph::ReplaceGraph { std::make_shared<const graph::Graph> (s.graph) }));
+    w.canvas.commands().joinControl ({ w.graph().root.find ("wave")->id, Role::output, "out" }, "weave");
+    CHECK (w.status.text().contains ("wave.out moves warp.amplitude, weft.amplitude around their values"));
+}
+
 TEST_CASE ("the contact opens the gate of an envelope that modulates, and Problems name one that nothing opens", "[app][modulation][problems]")
 {
     const auto gateOf = [] (const graph::Graph& g) {
