@@ -104,7 +104,7 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
                                      .toStdString(),
                                  std::move (*mixed) };
     if (m.id == "node/no_effect") return leadToMotor (g, location);
-    if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
+    if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input" || m.id == "envelope/no_gate")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));
     if (m.severity != Message::Severity::error) return std::nullopt;
     const auto& [patch, id, node, param, role, setting, within] = location;

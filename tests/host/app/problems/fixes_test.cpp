@@ -215,6 +215,20 @@ TEST_CASE ("what is there but cannot be felt is a problem, and a click wires it"
         REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
         CHECK (unfeltIn (g).empty());
     }
+    SECTION ("an envelope that nothing opens")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"swell":{"type":"signal.envelope"},"rub":{"type":"friction.elasto_plastic"}},
+            "wires":["hand.position -> wall.position","wall.force -> motor.force","hand.position -> rub.position",
+                "wall.resistance -> rub.normal_force","rub.force -> motor.force","swell.out -> (+) rub.mu"])");
+        const auto isIt = [] (const Message& m) { return m.id == "envelope/no_gate"; };
+        const auto all = unfeltIn (g);
+        const auto m = std::ranges::find_if (all, isIt);
+        REQUIRE (m != all.end());
+        REQUIRE (graph::apply (g, fixOf (g, *m)->command).has_value());
+        CHECK (hasWire (g, "wall.depth -> touch.depth"));
+        CHECK (hasWire (g, "touch.gain -> swell.gate"));
+        CHECK (std::ranges::none_of (unfeltIn (g), isIt));
+    }
     SECTION ("an empty layer and a clip without a file")
     {
         auto g = graphOf (R"("nodes":{)" + ends + R"(,"buzz":{"type":"signal.clip"},"desk":{"type":"layer.mix_vectors","settings":{"inputs":3}}},
