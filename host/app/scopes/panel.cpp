@@ -14,8 +14,7 @@ Panel scopesPanel (Desk& desk)
     scopes->onHint = [&desk] (const juce::String& text) { desk.hint (text); };
     scopes->selectedPorts = [&desk] { return desk.canvas.commands().selectedPorts(); };
     desk.probe = [&desk, scopes] (const Desk::Ports& ports) {
-        for (const auto& port : ports)
-            scopes->probe (port);
+        scopes->probe (ports);
         desk.toFront (*scopes);
     };
     desk.probed = [scopes] {

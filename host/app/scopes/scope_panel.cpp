@@ -119,7 +119,7 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
     freeze_button.setTooltip (TRANS ("Freezes all scopes, or lets them continue. The run is not affected. Key: X"));
     freeze_button.onClick = [this] { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
-    suggestion.onClick = [this] { probe (suggestion.getName().toStdString()); };
+    suggestion.onClick = [this] { probe ({ suggestion.getName().toStdString() }); };
     addChildComponent (suggestion);
 
     context.onChange = [this] {
@@ -308,18 +308,17 @@ void ScopePanel::close (const ScopeSpec& s)
     resized();
 }
 
-bool ScopePanel::probe (const std::string& port)
+void ScopePanel::probe (const std::vector<std::string>& ports)
 {
-    const auto scopes_before = model.scopes.size();
     const auto before = copiesOf (model);
-    const bool is_shown = model.probe (port);
-    const bool is_new = model.scopes.size() > scopes_before;
+    for (const auto& port : ports)
+        model.probe (port);
+    const bool is_new = model.scopes.size() > before.size();
     if (is_new) showView (*model.scopes.back());
     requestPorts();
     resized();
     if (is_new) reveal (*views.back());
     addStep (NEEDS_TRANS ("probe"), before);
-    return is_shown;
 }
 
 bool ScopePanel::isFrozen() const

@@ -26,8 +26,8 @@ public:
     /// Keeps the scopes in a graph that is about to be written, if the user has changed them.
     void keepIn (graph::Graph&) const;
 
-    /// Toggles a port as a trace. Returns true if it is shown now.
-    bool probe (const std::string& port);
+    /// Toggles ports as traces, in one step of the history.
+    void probe (const std::vector<std::string>& ports);
     bool isProbed (const std::string& port) const { return model.shows (port); }
 
     ScopeView& add (ScopeKind);   ///< with the selected ports, if it shows traces and there are any

@@ -103,11 +103,11 @@ TEST_CASE ("scopes: a graph with more energies than can be recorded shows no sco
     // Of too many ports, the rest is said to be left out, and not that nothing runs.
     auto& last = b.panel->add (ScopeKind::time);
     for (int i = 0; i < 20; ++i)
-        b.panel->probe ("pad" + std::to_string (i) + ".force");
+        b.panel->probe ({ "pad" + std::to_string (i) + ".force" });
     b.run (20);
     CHECK (b.panel->warning().isNotEmpty());
     for (int i = 0; i < 8; ++i)
-        b.panel->probe ("pad" + std::to_string (i) + ".force");
+        b.panel->probe ({ "pad" + std::to_string (i) + ".force" });
     CHECK_FALSE (says (readTexts (last), "not run yet"));
 }
 
@@ -144,8 +144,8 @@ TEST_CASE ("scopes: against displacement, sticking and sliding have different co
 TEST_CASE ("scopes: each unit has a lane, and all components of a vector share one", "[app][scopes]")
 {
     Bench b;
-    b.panel->probe ("board.depth");
-    b.panel->probe ("drag.force");
+    b.panel->probe ({ "board.depth" });
+    b.panel->probe ({ "drag.force" });
     b.run (500);
     const auto& lanes = b.view (ScopeKind::time).plot().shownLanes();
     REQUIRE (lanes.size() == 2);
@@ -163,7 +163,7 @@ TEST_CASE ("scopes: ports that share a lane, such as those of two roles, have co
     };
     b.run (500);
     CHECK (inLegend ("motor.applied") == 0);   // alone, it is named above the plot
-    b.panel->probe ("drag.force");
+    b.panel->probe ({ "drag.force" });
     b.run (500);
     CHECK (b.view (ScopeKind::time).shown().ports.size() == 2);
     CHECK (inLegend ("motor.applied") == 1);
@@ -175,7 +175,7 @@ TEST_CASE ("scopes: ports that share a lane, such as those of two roles, have co
 TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo", "[app][scopes]")
 {
     Bench b;
-    b.panel->probe ("grain.value");
+    b.panel->probe ({ "grain.value" });
     b.run (100);
     auto& view = b.view (ScopeKind::time);
     REQUIRE (b.document.perform (graph::RemoveNode { "", "grain" }));
@@ -191,7 +191,7 @@ TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo",
 TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][scopes]")
 {
     Bench b;
-    b.panel->probe ("board.depth");
+    b.panel->probe ({ "board.depth" });
     b.run (100);
     auto& view = b.view (ScopeKind::time);
     const auto chip = [&]() -> FlatButton& {
@@ -350,11 +350,11 @@ TEST_CASE ("scopes: the warning names the components that exceed the recording l
     b.run (10);
     CHECK (b.panel->warning().isEmpty());
     for (const char* port : { "motor.force", "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value" })
-        b.panel->probe (port);
+        b.panel->probe ({ port });
     b.run (10);
     CHECK (b.panel->warning().startsWith ("At most 32 components are recorded; not shown: "));
     CHECK (b.live_run.traces().leftOut().size() == 1);
-    b.panel->probe ("hand.rotation");
+    b.panel->probe ({ "hand.rotation" });
     b.run (10);
     CHECK (b.panel->warning().isEmpty());
 }
@@ -420,7 +420,7 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
     };
     REQUIRE (waitFor ("motor.applied", 400));
     const auto first = client.of ("motor.applied").front()->begin();
-    b.panel->probe ("board.depth");
+    b.panel->probe ({ "board.depth" });
     REQUIRE (waitFor ("board.depth", 400));
     CHECK (client.of ("motor.applied").front()->begin() == first);   // the same trace, possibly with a gap
     CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);

@@ -70,3 +70,22 @@ TEST_CASE ("closing, moving and sizing scopes are steps that can be undone", "[a
     undoAndRedo (w, [&] { return scopes (w).size() == before.size() - 1; });
     CHECK (latestStep (w.document) == "close scope");
 }
+
+TEST_CASE ("P on several nodes is one step, which one undo takes back", "[app][undo]")
+{
+    DeskStage w ("dry_wood.json", 1600, 900);
+    auto& panel = w.show<ScopePanel> (scopesPanel);
+    w.canvas.select ({ w.graph().root.find ("drag")->id, w.graph().root.find ("grain")->id });
+    const auto ports = w.canvas.commands().selectedPorts();
+    REQUIRE (ports.size() == 2);
+    const auto probed = [&] { return std::pair { panel.isProbed (ports[0]), panel.isProbed (ports[1]) }; };
+    const auto before = probed();
+    const auto steps = w.document.history().size();
+    w.canvas.grabKeyboardFocus();
+    w.key ("p");
+    CHECK (probed() == std::pair { ! before.first, ! before.second });
+    CHECK (w.document.history().size() == steps + 1);
+    CHECK (latestStep (w.document) == "probe");
+    w.key ("ctrl + z");
+    CHECK (probed() == before);
+}
