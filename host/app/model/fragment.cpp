@@ -107,9 +107,12 @@ Result<graph::Graph> readCopied (const std::string& text)
 {
     if (static_cast<double> (text.size()) > budgets().file)
         return Message::error ("file/too_large", {}, TRANS ("the text is larger than a graph file may be").toStdString());
+    const auto none = Message::error ("file/no_nodes", {}, TRANS ("the clipboard has no nodes").toStdString());
+    if (text.empty()) return none;
     auto read = readGraph (text);
     for (auto& m : read.messages)
         if (m.severity == Message::Severity::error) return std::move (m);
+    if (read.graph.root.nodes.empty()) return none;
     return std::move (read.graph);
 }
 

@@ -115,6 +115,32 @@ TEST_CASE ("text of strangers in the clipboard changes nothing, and the window s
         }
 }
 
+TEST_CASE ("a clipboard without nodes is said to have none", "[app][canvas][clipboard]")
+{
+    DeskStage w ("dry_wood.json");
+    const auto before = writeGraph (w.graph());
+    for (const auto& text : { std::string(), writeGraph (graph::Graph {}) })
+        for (const auto* key : { "ctrl + v", "ctrl + shift + v" })
+        {
+            INFO (text << " " << key);
+            copyToClipboard (text);
+            w.status.refuse ({});
+            w.canvas.grabKeyboardFocus();
+            w.key (key);
+            CHECK (writeGraph (w.graph()) == before);
+            CHECK (w.status.text() == "Nothing to paste: the clipboard has no nodes");
+        }
+}
+
+TEST_CASE ("where there is nothing that a layer could join, Ctrl+Shift+V says so", "[app][canvas][clipboard]")
+{
+    DeskStage w;
+    w.canvas.grabKeyboardFocus();
+    w.key ("ctrl + shift + v");
+    CHECK (w.graph().root.nodes.empty());
+    CHECK (w.status.text().contains ("Ctrl+V"));
+}
+
 TEST_CASE ("a pasted subgraph does not become another one of the same name", "[fragment]")
 {
     const auto with = [] (double gain) {
