@@ -52,7 +52,7 @@ std::string valueText (const Json& value, const FacePort& port)
     if (! value.is_array()) return {};
     const auto partText = [] (const Json& part) {
         if (part.is_number()) return briefly (numberText (part.get<double>()));
-        return part.is_string() ? part.get<std::string>() : "?";
+        return part.is_string() ? briefly (part.get<std::string>()) : "?";
     };
     std::string text;
     for (const auto& part : value)

@@ -41,7 +41,8 @@ const graph::Wire* driverOf (const graph::Patch& patch, const std::string& node,
 
 juce::String gainText (const Json& gain)
 {
-    const auto text = gain.is_string() ? gain.asString() : gain.dump();
+    const auto text = gain.is_string() ? gain.asString() : gain.is_number() ? shownQuantity (gain.get<double>(), "1")
+                                                                            : gain.dump();
     return juce::String::fromUTF8 (text.c_str());
 }
 

@@ -174,7 +174,7 @@ std::optional<Json> depthOf (const graph::Node& source, const Face& face, Quanti
     }
     const bool is_number = symbol.empty() || symbol == "1" || symbol == unit::decibel.symbol;   // a factor has no dB
     if (is_speed && symbol != unit::speed.symbol)
-        return Json (numberText (value.moved (depth).si()) + " " + (is_number ? "" : symbol + "*") + "s/m");
+        return Json (numberText (rounded (value.moved (depth).si())) + " " + (is_number ? "" : symbol + "*") + "s/m");
     const bool is_fixed = sheet.unit.kind == UnitRule::Kind::fixed;
     if (has_unit && is_fixed && carried != Quantity::any && carried != sheet.unit.unit.quantity) return std::nullopt;
     if (has_unit || is_number) return Json (QuantityText { 0.0, {}, 1.0 }.moved (depth).number);

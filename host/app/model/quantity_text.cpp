@@ -54,10 +54,11 @@ QuantityText withBestPrefix (QuantityText q, const PortSheet& sheet)
 
 std::string shownQuantity (double si, std::string_view symbol)
 {
-    if (symbol.empty() || symbol == "1") return numberText (si);
+    constexpr int digits = 6;
     const auto prefix = prefixFor (si, symbol);
-    const double number = prefix.text.empty() ? si : rounded (si / prefix.factor, 12);
-    return numberText (number) + ' ' + unitShown (std::string (prefix.text) + std::string (symbol));
+    const double number = si / prefix.factor;
+    const auto text = numberText (number == std::round (number) ? number : rounded (number, digits));
+    return symbol.empty() || symbol == "1" ? text : text + ' ' + unitShown (std::string (prefix.text) + std::string (symbol));
 }
 
 std::string unitShown (const std::string& unit)

@@ -39,7 +39,7 @@ std::string unitShown (const std::string& unit);
 /// A text as files have it: with "*" for each "·" and "u" for each "µ", so that what is shown can be typed.
 std::string unitWritten (std::string text);
 
-/// A value in SI units as people read it: "100 µm", "2.5 N". For the units "1" and "", only the number.
+/// A value in SI units as people read it: "100 µm", "2.5 N". Six digits, of a whole number all. For the units "1" and "", only the number.
 std::string shownQuantity (double si, std::string_view symbol);
 
 /// Rounds to significant digits.

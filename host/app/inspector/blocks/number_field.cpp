@@ -38,10 +38,9 @@ private:
 /// Writes numbers of moderate size without an exponent: 500000, not 5e+05.
 std::string plainText (double v)
 {
-    if (v == 0.0 || ! (std::abs (v) >= 1e-4 && std::abs (v) < 1e7)) return numberText (v);
-    char text[40];
-    std::snprintf (text, sizeof text, "%.10g", v);
-    return text;
+    constexpr int digits = 10;   // without the last bits that a computed value has
+    if (v == 0.0 || ! (std::abs (v) >= 1e-4 && std::abs (v) < 1e7)) return numberText (rounded (v, digits));
+    return roundedText (v, digits);
 }
 
 /// The position of a value within a range, 0…1.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/sketch.hpp"
 
+#include <host/app/model/param_now.hpp>
 #include <host/app/model/quantities.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -91,6 +92,15 @@ TEST_CASE ("the quantity of every wired subgraph port of the presets is known", 
             }
     }
     CHECK (seen >= 2);
+}
+
+TEST_CASE ("a number is shown with six digits, and a whole one with all, so the last bits of a sum are not seen", "[app][units]")
+{
+    CHECK (shownQuantity (0.1 + 0.2, "1") == "0.3");
+    CHECK (shownQuantity (0.1 + 0.2, "rad") == "0.3 rad");
+    CHECK (shownQuantity (1.0 / 3.0, "m") == "333.333 mm");
+    CHECK (shownQuantity (4294967295.0, "1") == "4294967295");
+    CHECK (gainText (Json (0.1 + 0.2)) == "0.3");
 }
 
 TEST_CASE ("a length is shown in one way everywhere, as 100 µm and not as 0.0001 m", "[app][units]")
