@@ -14,6 +14,7 @@ class Meter
 {
 public:
     static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< the peak is held for hold_s, then falls to a tenth every second
+    static constexpr double falls_from = 1e3;                 ///< at most, so that the peak of a tool that has run away falls in seconds, too
 
     /// Takes the latest samples, the last `fresh` of which are new, and the time since the last call.
     void take (std::span<const double> latest, std::size_t fresh, double dt_s) noexcept
@@ -30,7 +31,7 @@ public:
         }
         level = n > 0 ? std::sqrt (sum / static_cast<double> (n)) : 0.0;
         held_for += dt_s;
-        if (held_for > hold_s) held = std::max (level, held * std::pow (fall_per_s, dt_s));
+        if (held_for > hold_s) held = std::max (level, std::min (held, falls_from) * std::pow (fall_per_s, dt_s));
         if (highest >= held)
         {
             held = highest;

@@ -16,8 +16,14 @@ namespace
 constexpr int button_width = 112;
 constexpr double pause_before_start_s = 1.0;
 
-/// Less than half a millinewton is not felt, and its digits would only flicker.
-juce::String newtonText (double force) { return std::abs (force) < 0.5e-3 ? juce::String ("0 N") : fromUtf8 (withPrefix (force, "N")); }
+/// Less than half a millinewton is not felt, and its digits would only flicker. What a simulated tool without a guard gets while it runs away is no
+/// force of any motor.
+juce::String newtonText (double force)
+{
+    constexpr double of_no_motor = 1e6;
+    if (force < 0.5e-3) return "0 N";
+    return force > of_no_motor ? TRANS ("over 1000 kN") : juce::String (fromUtf8 (withPrefix (force, "N")));
+}
 
 juce::String stiffnessText (double stiffness)
 {

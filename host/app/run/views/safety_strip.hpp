@@ -30,6 +30,9 @@ public:
     const juce::String& guardText() const noexcept { return shown.guard; }
     bool isAlarmed() const noexcept { return shown.alarmed; }
 
+    /// The force now, and the largest one since the start.
+    const juce::String& forceText() const noexcept { return shown.force; }
+
     /// A click on the state while the graph has errors.
     std::function<void()> onProblems;
 

@@ -46,6 +46,17 @@ TEST_CASE ("silence, too few samples and missed ticks give no power", "[layers]"
         CHECK (bandsOf (samples, 4000.0).power == Bands {}.power);
 }
 
+TEST_CASE ("the peak of a meter falls within seconds, however large it was", "[layers]")
+{
+    Meter meter;
+    const std::vector<double> run_away (400, 1e61), silence (400, 0.0);
+    meter.take (run_away, run_away.size(), 0.1);
+    CHECK (meter.peak() == 1e61);
+    for (int i = 0; i < 100; ++i)
+        meter.take (silence, silence.size(), 0.1);
+    CHECK (meter.peak() < 1e-3);
+}
+
 TEST_CASE ("a meter shows the RMS level, and holds the peak before it falls", "[layers]")
 {
     Meter meter;

@@ -97,6 +97,24 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     CHECK (until ([&] { return ! run.isRunning(); }));
 }
 
+TEST_CASE ("the strip says in words that a simulated tool without a guard has had a force beyond that of any motor", "[app][run]")
+{
+    CanvasRig rig { readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000, "devices": { "tip": { "driver": "sim" } },
+        "nodes": { "hand": { "type": "device.position", "role": "tip" }, "push": { "type": "signal.constant", "params": { "value": "1e9 N" } },
+                   "motor": { "type": "device.force", "role": "tip" } },
+        "wires": [ "push.out -> motor.force.z" ] })")
+                        .graph };
+    StripRig seen { rig };
+    seen.playback.run().start ({});
+    const auto isSeen = [&] {
+        seen.playback.run().poll();
+        seen.strip.refresh();
+        return seen.strip.forceText().endsWith ("peak over 1000 kN");
+    };
+    CHECK (tactus::test::eventually (std::chrono::milliseconds (5), isSeen));
+    seen.playback.stop();
+}
+
 TEST_CASE ("while an edit has errors, the strip says that the last valid version runs, and a click on that shows the problems", "[app][run]")
 {
     CanvasRig rig { readGraph (R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "devices": { "tip": { "driver": "gesture", "path": "circle" } },
