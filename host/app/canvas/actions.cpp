@@ -8,7 +8,6 @@
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/plan/rules/fan_in.hpp>
-#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -147,10 +146,9 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     if (at) node.extra["ui"] = Json { { "at", toJson (*at) } };
     made = node.id;
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
-    // A device node needs a device role. If the graph has none, also adds one: a simulated stylus, moved by a
-    // simulated hand that strokes.
+    // A device node needs a device role. If the graph has none, also adds one.
     graph::Batch all { "add '" + node.name + "'", {} };
-    if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
+    if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", newTool() });
     node.role = g.devices.empty() ? "stylus" : g.devices.front().first;
     all.commands.push_back (graph::AddNode { patch, std::move (node) });
     return all;

@@ -2,6 +2,7 @@
 #include "describe.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/model/fragment.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
@@ -132,8 +133,8 @@ void describeDevice (const InspectorContext& at, const graph::Node& node, Column
     const auto now = descriptionOf (document, role);
     if (now.is_null())
     {
-        const auto describe = [&document, role] { document.perform (graph::SetDevice { role, defaultDevice() }); };
-        column.add (buttonRow (TRANS ("Add description"), describe, TRANS ("Adds a simulated tool, moved by a hand that strokes")));
+        const auto describe = [&document, role] { document.perform (graph::SetDevice { role, newTool() }); };
+        column.add (buttonRow (TRANS ("Add description"), describe, TRANS ("Adds a simulated tool with a guard, moved by a hand that strokes")));
         return;
     }
     std::vector<std::string> paths;

@@ -7,6 +7,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/run/device/make_device.hpp>
 #include <tactus/text/budget.hpp>
 
 #include <algorithm>
@@ -55,6 +56,13 @@ std::string usualName (const std::string& type)
     if (type == "device.force") return "motor";
     const auto cut = type.find_last_of (".:");
     return type.substr (cut == std::string::npos ? 0 : cut + 1);
+}
+
+Json newTool()
+{
+    auto tool = defaultDevice();
+    tool["guard"] = { { "max_force", "6 N" }, { "max_speed", "2 m/s" }, { "max_impulse", "30 N*s" }, { "impulse_window", "10 s" }, { "max_energy", "120 mJ" }, { "energy_window", "1 s" } };
+    return tool;
 }
 
 std::string asNodeName (const juce::String& typed) { return typed.trim().toLowerCase().replaceCharacters (" -", "__").toStdString(); }

@@ -40,6 +40,9 @@ std::optional<juce::Point<double>> cornerOf (const graph::Patch&);
 /// The name of a new node of this type, if nothing else names it.
 std::string usualName (const std::string& type);
 
+/// The description of a role that the window adds to a graph: a simulated tool in a hand that strokes, with the guard of the templates.
+Json newTool();
+
 /// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
 

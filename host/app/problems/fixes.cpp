@@ -3,13 +3,13 @@
 
 #include <host/app/canvas/actions.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/model/fragment.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/node/catalogue.hpp>
-#include <tactus/run/device/make_device.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>
 
@@ -118,7 +118,7 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         const bool has_device = ! g.devices.empty();
         const auto name = has_device ? g.devices.front().first : std::string ("stylus");
         graph::Batch all { has_device ? NEEDS_TRANS ("assign role") : NEEDS_TRANS ("add stylus"), {} };
-        if (! has_device) all.commands.push_back (graph::SetDevice { name, defaultDevice() });
+        if (! has_device) all.commands.push_back (graph::SetDevice { name, newTool() });
         all.commands.push_back (graph::SetNodeKey { patch, node, "role", Json (name) });
         return Fix { filled (has_device ? TRANS ("Assign to %1") : TRANS ("Add a %1"), name).toStdString(), std::move (all) };
     }

@@ -55,6 +55,23 @@ Messages fixAll (graph::Graph& g)
 }
 }   // namespace
 
+TEST_CASE ("a hand, a motor or a role that a button adds has the guard of the templates", "[app][problems]")
+{
+    const auto guard = loadGraph (TACTUS_SOURCE_DIR "/graphs/templates/press.json").graph.device ("stylus")->at ("guard");
+    auto g = graphOf (R"("nodes":{"wall":{"type":"deform.plane"}})");
+    const auto missing = unfeltIn (g);
+    REQUIRE (missing.size() >= 2);
+    for (const auto& m : { missing[0], missing[1] })
+        REQUIRE (graph::apply (g, fixOf (g, m)->command).has_value());
+    REQUIRE (g.devices.size() == 1);
+    CHECK (g.devices[0].second.at ("guard") == guard);
+
+    auto lacking = graphOf (R"("nodes":{"hand":{"type":"device.position"}})");
+    fixAll (lacking);
+    REQUIRE (lacking.devices.size() == 1);
+    CHECK (lacking.devices[0].second.at ("guard") == guard);
+}
+
 TEST_CASE ("a loop is fixed by a delay on the wire that closes it", "[app][problems]")
 {
     auto g = graphOf (R"("nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"])");
