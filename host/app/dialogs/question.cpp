@@ -105,6 +105,14 @@ juce::TextLayout Question::layout (int w) const
     return wrapText (body, look.font (13.0f), look.theme().text, static_cast<float> (w));
 }
 
+juce::TextLayout Question::layoutOfTitle (int w) const
+{
+    const auto& look = lookOf (*this);
+    return wrapText (heading, look.font (16.0f, true), look.theme().text, static_cast<float> (w));
+}
+
+int Question::titleHeight (int w) const { return std::max (24, static_cast<int> (std::ceil (layoutOfTitle (w).getHeight()))); }
+
 void Question::resized()
 {
     const int w = std::min (width, getWidth() - 32);
@@ -115,7 +123,7 @@ void Question::resized()
         in_a_row += b->widthFor() + gap;
     const bool is_list = in_a_row > w - 2 * margin;   // long labels: one below the other
     const int rows = is_list ? static_cast<int> (buttons.size()) : 1;
-    box = getLocalBounds().withSizeKeepingCentre (w, margin + 24 + 8 + text_height + 24 + rows * (high + gap) - gap + margin);
+    box = getLocalBounds().withSizeKeepingCentre (w, margin + titleHeight (w - 2 * margin) + 8 + text_height + 24 + rows * (high + gap) - gap + margin);
     auto area = box.reduced (margin).removeFromBottom (rows * (high + gap) - gap);
     for (const auto& b : buttons)
         if (is_list)
@@ -129,13 +137,11 @@ void Question::resized()
 
 void Question::paint (juce::Graphics& g)
 {
-    const auto& look = lookOf (*this);
-    const auto& theme = look.theme();
-    drawDialog (g, theme, box);
+    drawDialog (g, themeOf (*this), box);
     auto area = box.reduced (margin);
-    g.setColour (theme.text);
-    g.setFont (look.font (16.0f, true));
-    g.drawText (heading, area.removeFromTop (24), juce::Justification::centredLeft, true);
+    const auto title = layoutOfTitle (area.getWidth());
+    const auto top = area.removeFromTop (titleHeight (area.getWidth())).toFloat();
+    title.draw (g, top.withSizeKeepingCentre (top.getWidth(), title.getHeight()));
     area.removeFromTop (8);
     layout (area.getWidth()).draw (g, area.toFloat());
 }

@@ -56,6 +56,8 @@ private:
 
     void mark (std::size_t choice);
     juce::TextLayout layout (int width) const;
+    juce::TextLayout layoutOfTitle (int width) const;
+    int titleHeight (int width) const;
 
     static constexpr int width = 560, margin = 24;
     juce::String heading, body;

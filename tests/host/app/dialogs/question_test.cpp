@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/desk_stage.hpp"
+#include "host/app/support/seen_text.hpp"
 
 #include <host/app/dialogs/question.hpp>
 
@@ -86,4 +87,17 @@ TEST_CASE ("a double click, or a key that is held, does not answer the next ques
     }
     CHECK (second == 1);
     CHECK_FALSE (w.question.isOpen());
+}
+
+TEST_CASE ("the title of a question is shown to its end, however long the name of a file in it is", "[app][question]")
+{
+    DeskStage w;
+    const juce::String name = "a board of dry oak that was planed by hand and measured at three speeds in the winter.json";
+    w.question.ask ("Replace " + name + "?", "It is in ~/Tactus already.", { { "Replace", {} }, { "Cancel", {} } });
+    OnStage::settle();
+    juce::String seen;
+    for (const auto& t : tactus::host::test::readTexts (w.question))
+        seen << t.text << " ";
+    CHECK (seen.contains ("in the winter.json?"));
+    CHECK (seen.contains ("It is in"));
 }
