@@ -158,7 +158,7 @@ void FileDialogs::launch (const juce::String& title, const juce::String& pattern
     auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (juce::Component::getCurrentlyModalComponent());
     auto* name = dialog == nullptr ? nullptr : nameField (*dialog);
     if (name == nullptr) return;
-    dialog->setBounds (dialog->getBounds().constrainedWithin (window.getLocalBounds().withTrimmedTop (kept_at_top)));   // STOP stays within reach
+    dialog->setBounds (dialog->getBounds().constrainedWithin (room()));
     if (auto* browser = browserIn (*dialog))
     {
         // JUCE takes what is typed into its list of places for an absolute path; a path can be typed as the name.
@@ -180,16 +180,28 @@ void FileDialogs::keepKeyboard (juce::Component& modal)
     if (name != nullptr && (now == nullptr || now == &modal || ! modal.isParentOf (now))) takeFocus (*name);
 }
 
-/// JUCE asks for the name of a new folder in a window of its own, and gives the keyboard to its button.
+/// The part of the window that dialogs may cover: STOP stays within reach.
+juce::Rectangle<int> FileDialogs::room() const { return window.getLocalBounds().withTrimmedTop (kept_at_top); }
+
+/// JUCE asks for the name of a new folder in a window of the desktop, which may come up anywhere, and gives the keyboard to its button.
 void FileDialogs::attendNewFolder()
 {
     auto* asks = dynamic_cast<juce::AlertWindow*> (juce::Component::getCurrentlyModalComponent());
     if (asks == nullptr || asks == begun.getComponent()) return;
     auto* name = nameField (*asks);
     if (name == nullptr) return;
+    if (asks->getParentComponent() != &window) placeOverDialog (*asks);
     if (! name->hasKeyboardFocus (false)) return takeFocus (*name);
     begun = asks;
     openWhenMade (*asks, *name);
+}
+
+void FileDialogs::placeOverDialog (juce::AlertWindow& asks)
+{
+    const auto* dialog = juce::Component::getCurrentlyModalComponent (1);
+    if (dialog == nullptr) return;
+    window.addAndMakeVisible (asks);
+    asks.setBounds (asks.getBounds().withCentre (dialog->getBounds().getCentre()).constrainedWithin (room()));
 }
 
 /// JUCE makes the folder and goes on to list the one around it.

@@ -33,7 +33,9 @@ private:
     struct SaveWords;
     void save (const SaveWords&, const Path& begin, TakePath);
     void launch (const juce::String& title, const juce::String& patterns, const Path& begin, int how, TakePath);
+    void placeOverDialog (juce::AlertWindow&);
     void openWhenMade (juce::AlertWindow&, juce::TextEditor& name);
+    juce::Rectangle<int> room() const;
 
     juce::Component& window;
     const int kept_at_top;
