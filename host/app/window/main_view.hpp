@@ -69,6 +69,7 @@ public:
         throw std::logic_error ("the window has no such part");
     }
 
+    const std::vector<Keyboard::Key>& keys() const noexcept { return keyboard.keys; }   ///< of the window itself
     juce::String statusText() const { return parts.status.text(); }
     bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while: it polls and paints less often
 

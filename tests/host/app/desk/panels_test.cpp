@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels with a desk, and without the window.
 #include "host/app/support/desk_rig.hpp"
+#include "host/app/support/window_rig.hpp"
 #include "wires_panel.hpp"
 
 #include <host/app/browser/browser.hpp>
@@ -14,6 +15,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::DeskRig;
+using tactus::host::test::WindowRig;
 
 namespace
 {
@@ -33,6 +35,42 @@ graph::AddNode nodeOf (const std::string& name, const std::string& type)
     n.name = name;
     n.type = type;
     return { "", n };
+}
+
+/// A key as it is written in one way, whatever the case and the spaces of its description.
+std::string spelled (const juce::String& key) { return juce::KeyPress::createFromDescription (key).getTextDescription().toStdString(); }
+
+/// The keys of all panels that act in the whole window.
+std::vector<std::string> keysOfPanels()
+{
+    std::vector<std::string> keys;
+    for (const auto& maker : makers)
+    {
+        DeskRig r;
+        r.make<juce::Component> (maker.make);
+        for (const auto& key : r.panel->keys)
+            if (key.act) keys.push_back (spelled (key.key));
+    }
+    return keys;
+}
+
+/// The keys of the window and of the canvas, which a panel would take from them.
+std::vector<std::string> keysOfWindow()
+{
+    std::vector<std::string> keys;
+    for (const auto* key : { "escape", "shift + escape", "s", "v" })   // the stops, the clutch, and the last two snapshots
+        keys.push_back (spelled (key));
+    for (int n = 1; n <= snapshot_count; ++n)
+        for (const auto* with : { "", "ctrl + ", "shift + " })
+            keys.push_back (spelled (with + juce::String (n)));
+    for (const auto& command : canvasCommands())
+        for (const auto& key : juce::StringArray::fromTokens (command.keys, "|", {}))
+            keys.push_back (spelled (key));
+    const WindowRig w;
+    w.view->allowQuit ([] {});
+    for (const auto& key : w.view->keys())
+        keys.push_back (spelled (key.key));
+    return keys;
 }
 
 juce::Button* buttonIn (juce::Component& in, const juce::String& text)
@@ -80,17 +118,22 @@ TEST_CASE ("each panel works on a desk whose window answers nothing", "[app][des
 
 TEST_CASE ("no two panels have the same key", "[app][desk]")
 {
-    std::vector<std::string> keys;
-    for (const auto& maker : makers)
-    {
-        DeskRig r;
-        r.make<juce::Component> (maker.make);
-        for (const auto& key : r.panel->keys)
-            if (key.act) keys.push_back (juce::KeyPress::createFromDescription (key.key).getTextDescription().toStdString());
-    }
+    auto keys = keysOfPanels();
     CHECK (keys.size() >= 2);
     std::ranges::sort (keys);
     CHECK (std::ranges::adjacent_find (keys) == keys.end());
+}
+
+TEST_CASE ("no panel takes a key of the window or of the canvas", "[app][desk]")
+{
+    const auto taken = keysOfWindow();
+    for (const auto* known : { "ctrl + s", "ctrl + q", "?", "spacebar", "ctrl + shift + z" })
+        CHECK (std::ranges::count (taken, spelled (known)) == 1);
+    for (const auto& key : keysOfPanels())
+    {
+        INFO (key);
+        CHECK (std::ranges::count (taken, key) == 0);
+    }
 }
 
 TEST_CASE ("the list of problems says what the run says, counts it in its title, and mends it", "[app][desk][problems]")
