@@ -136,7 +136,7 @@ ClipText writeAhap (const Clip& given)
             data[key == "project" ? "Project" : key == "created" ? "Created"
                                                                  : "Description"] = value;
         else
-            lose (made.losses, "notes/" + key, "the note is left out: the format has no place for it", "keep the original file");
+            lose (made.losses, "notes/" + key, "the " + key + " of the clip is left out: the format has no place for it", "keep the original file");
     if (! data.empty()) file["Metadata"] = std::move (data);
     file["Pattern"] = std::move (*pattern);
     made.text = writeJson (file);

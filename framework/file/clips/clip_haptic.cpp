@@ -117,7 +117,7 @@ Json metadataOf (const Clip& clip, Messages& losses)
         if (key == "author" || key == "editor" || key == "source" || key == "project" || key == "description")
             data[key] = value;
         else
-            lose (losses, "notes/" + key, "the note is left out: the format has no place for it", "keep the original file");
+            lose (losses, "notes/" + key, "the " + key + " of the clip is left out: the format has no place for it", "keep the original file");
     if (! data.contains ("editor")) data["editor"] = "Tactus";
     return data;
 }

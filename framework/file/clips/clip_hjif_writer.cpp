@@ -167,7 +167,7 @@ ClipText writeHjif (const Clip& clip)
         if (key == "description")
             description = value;
         else if (! isMixingNote (key))
-            lose (made.losses, "notes/" + key, "the note is left out: the format has no place for it", "keep the original file");
+            lose (made.losses, "notes/" + key, "the " + key + " of the clip is left out: the format has no place for it", "keep the original file");
     if (clip.voice.ducking != 1.0) lose (made.losses, "voice", "the ducking is left out: the format has none", "draw it into the envelopes");
 
     Json file { { "version", "2023" }, { "profile", "Main" }, { "level", 1 }, { "date", "2023-01-01" }, { "description", description } };

@@ -112,8 +112,8 @@ Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wante
                       false };
     for (const auto& [key, value] : clip.notes)
         if (key != "rate")
-            saved.losses.push_back (
-                Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a WAV of Tactus holds only samples", "keep the original file"));
+            saved.losses.push_back (Message::warning ("clip/not_carried", "notes/" + key,
+                                                      "the " + key + " of the clip is left out: a WAV of Tactus holds only samples", "keep the original file"));
     if (peak > 1.0)
         saved.losses.push_back (Message::warning (
             "clip/changed", path.string(), "the signal reaches " + roundedText (peak) + ", so all samples are divided by this number: beyond 1, programs clip",
@@ -132,8 +132,8 @@ Result<SavedClip> saveRows (const Clip& clip, const fs::path& path)
     if (auto written = file->commit(); ! written) return written.error();
     SavedClip saved { {}, lossesOf (clip, clipOf (grid).clip, false), false };
     for (const auto& [key, value] : clip.notes)
-        saved.losses.push_back (
-            Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a table holds only numbers", "keep the original file"));
+        saved.losses.push_back (Message::warning ("clip/not_carried", "notes/" + key,
+                                                  "the " + key + " of the clip is left out: a table holds only numbers", "keep the original file"));
     return saved;
 }
 

@@ -74,6 +74,23 @@ TEST_CASE ("every clip from other programs, saved in any format, reads back with
     }
 }
 
+TEST_CASE ("what is known about a clip, and a file has no place for, is named by its own word", "[clips]")
+{
+    const TemporaryFolder folder;
+    folder.write ("clip.json", R"({ "format": "tactus-clip", "version": 1, "notes": { "room": "the lab" },
+        "tracks": [ { "channel": 1, "amplitude": [[0.0, 0.0], [0.04, 1.0], [0.15, 0.0]] } ] })");
+    const auto read = loadClip (folder / "clip.json");
+    REQUIRE (read);
+    for (const auto* name : { "a.haptic", "a.ahap", "a.hjif", "a.csv", "a.wav" })
+    {
+        INFO (name);
+        const auto saved = saveClip (read->clip, folder / name);
+        REQUIRE (saved);
+        const auto report = lossReport (*saved);
+        CHECK (std::ranges::count_if (report, [] (const std::string& s) { return s.starts_with ("notes/room: the room of the clip is left out: "); }) == 1);
+    }
+}
+
 TEST_CASE ("a clip node plays a recording: each sample becomes a point, and each channel a wave", "[clips]")
 {
     const TemporaryFolder folder;
