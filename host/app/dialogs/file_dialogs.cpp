@@ -112,7 +112,10 @@ void FileDialogs::save (const SaveWords& words, const Path& begin, TakePath chos
         std::error_code failed;
         // Of what is in a folder, only stems are replaced; a folder without them is refused, or empty.
         if (! std::filesystem::exists (words.how == saves_in ? file / list_of_stems : file, failed)) return chosen (file);
-        question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
+        const auto text = words.how == saves_in
+                              ? TRANS ("It is in %1 already. The WAV files and clips of its last export are deleted; your own files in it stay.")
+                              : TRANS ("It is in %1 already.");
+        question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (text, folderText (file)),
                       { { TRANS ("Choose another name ..."), [this, words, file, chosen] { save (words, file, chosen); } },   // the default
                         { TRANS ("Replace"), [chosen, file] { chosen (file); } },
                         { TRANS ("Cancel"), {} } });

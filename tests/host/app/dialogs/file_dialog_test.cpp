@@ -291,6 +291,7 @@ TEST_CASE ("an existing folder of stems is chosen by its name, after a question,
         REQUIRE (waitFor (isAsked));
         CHECK_FALSE (isDialogOpen());
         CHECK (w.view->asked().title() == "Replace bell?");
+        CHECK (w.view->asked().text().endsWith ("clips of its last export are deleted; your own files in it stay."));
         CHECK (chosen.empty());
         SECTION ("replaced")
         {
