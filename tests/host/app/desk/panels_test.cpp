@@ -226,7 +226,7 @@ TEST_CASE ("the fit of a recording covers the window until Esc closes it", "[app
     CHECK_FALSE (component.isVisible());
 }
 
-TEST_CASE ("the panel of the page follows the graph", "[app][desk]")
+TEST_CASE ("the panel of the page follows the graph, and comes to the front by its key", "[app][desk]")
 {
     DeskRig r ("dry_wood.json");
     auto& wires = r.make<juce::Component> (wiresPanel);
@@ -240,4 +240,8 @@ TEST_CASE ("the panel of the page follows the graph", "[app][desk]")
     CHECK (pixels() == before);
     REQUIRE (r.document.perform (nodeOf ("extra", "signal.lfo")));
     CHECK (pixels() != before);
+    const juce::Component* shown = nullptr;
+    r.desk.reveal = [&] (const juce::Component& c) { shown = &c; };
+    r.panel->keys.front().act();
+    CHECK (shown == &wires);
 }

@@ -39,7 +39,10 @@ Panel wiresPanel (Desk& desk)
 {
     auto made = std::make_unique<Wires>();
     auto* wires = made.get();
-    return { .name = TRANS ("Wires"), .component = std::move (made), .refresh = [&desk, wires] { wires->show (desk.document.graph().root); } };
+    return { .name = TRANS ("Wires"),
+             .component = std::move (made),
+             .keys = { { "ctrl + t", NEEDS_TRANS ("Ctrl+T"), NEEDS_TRANS ("counts the nodes and wires"), [&desk, wires] { desk.reveal (*wires); } } },
+             .refresh = [&desk, wires] { wires->show (desk.document.graph().root); } };
 }
 
 }   // namespace tactus::host
