@@ -30,7 +30,7 @@ struct Settings
     std::vector<std::filesystem::path> favourites;
     std::filesystem::path recordings;        ///< the folder of the latest recording that was fitted
     std::vector<std::string> recent_types;   ///< node types that were added, the latest first
-    Json others = Json::object();            ///< keys written by a different version of Tactus
+    Json others = Json::object();            ///< keys of panels, and of other versions of Tactus
 
     void noteRecent (const std::filesystem::path&);
     void noteType (const std::string&);
