@@ -246,6 +246,51 @@ private:
         const auto* const its = &role;
         weigh (demand, options.trials, c, { &its, 1 }, turns(), claimedLoad() <= limit);
         doubtDamper (c);
+        blame (c);
+    }
+
+    /// Finds which nodes the verdict is about. One that only trials give, or that is not explained by the loops of single nodes, is about the whole.
+    void blame (Condition& c) const
+    {
+        const bool grows = ! c.loops.empty();
+        const bool is_passive = c.verdict == Verdict::passive || c.verdict == Verdict::passive_here;
+        if (! grows && ! is_passive) return;
+        auto nodes = passiveNodes();
+        if (! grows)
+        {
+            c.loops = std::move (nodes);
+            return;
+        }
+        for (auto& loop : c.loops)
+            if (const auto at = std::ranges::find (nodes, loop.node, &Condition::Loop::node); at != nodes.end()) loop.passive_up_to = at->passive_up_to;
+        if (c.verdict == Verdict::stable) std::ranges::stable_sort (c.loops, {}, &Condition::Loop::passive_up_to);
+    }
+
+    /// How many times each node's response could be as large and passive, in its own loop at every place. Empty if not all loops are known.
+    std::vector<Condition::Loop> passiveNodes() const
+    {
+        std::vector<Condition::Loop> nodes;
+        const std::vector<Jacobian>* last = nullptr;   // many places have the same response
+        for (const auto& s : role.slopes)
+        {
+            const auto& response = responseAt (s);
+            if (isOverdamped() || isSlow (demand, numbers) || (response.empty() && s.stiffness > 0.0)) return {};
+            if (last != nullptr && isLike (*last, response)) continue;
+            last = &response;
+            const double limit = loadAt (s).limit;
+            for (const auto& one : nodeResponses (s, response))
+            {
+                const double load = one.passivityLoad (numbers, period_s), room = load > 0.0 ? limit / load : inf;
+                const auto& path = demand.nodes[one.node].path;
+                const auto known = std::ranges::find (nodes, path, &Condition::Loop::node);
+                if (known == nodes.end())
+                    nodes.push_back ({ path, room });
+                else
+                    known->passive_up_to = std::min (known->passive_up_to, room);
+            }
+        }
+        std::ranges::stable_sort (nodes, {}, &Condition::Loop::passive_up_to);
+        return nodes;
     }
 
     /// A damper that grows with the speed may swing only after a hard blow, harder than those of the trials.
@@ -352,12 +397,14 @@ private:
         std::string rooms;
         for (const auto& loop : loops)
         {
-            c.loops.push_back ({ demand.nodes[loop.node].path, loop.may_grow });
-            addToList (rooms, text (loop.may_grow) + " times along the force of '" + demand.nodes[loop.node].path + "'");
-            if (&loop != &loops.front()) others.push_back (loop.response);
+            const auto& path = demand.nodes[loop.along.node].path;
+            c.loops.push_back ({ .node = path, .may_grow = loop.may_grow });
+            addToList (rooms, text (loop.may_grow) + " times along the force of '" + path + "'");
+            if (&loop != &loops.front()) others.push_back (loop.along.response);
         }
         if (loops.size() > 1) c.text += ": " + rooms;
-        return strongestChange (loops.front().response, at (*weakest), period_s, drags (demand, loops.front().node), others);
+        const auto& first = loops.front().along;
+        return strongestChange (first.response, at (*weakest), period_s, drags (demand, first.node), others);
     }
 
     bool areLike (const Slope& a, const Slope& b) const

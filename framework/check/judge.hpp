@@ -16,6 +16,7 @@
 #include <tactus/run/device/device_numbers.hpp>
 #include <tactus/run/device/sim.hpp>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,14 +56,17 @@ struct Condition
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
     double may_grow = 0.0;   ///< for the verdicts `stable` and `unstable`: how many times the response could be as large before the loop swings
-    /// A node, and how many times the response along its own force could be as large before the loop swings.
+    /// The loop along a node's own force.
     struct Loop
     {
         std::string node;
-        double may_grow = 0.0;
+        double passive_up_to = 0.0;                                   ///< how many times its response could be as large and passive, at every place
+        double may_grow = std::numeric_limits<double>::quiet_NaN();   ///< before it swings, where the contact is nearest to swinging; NaN: not judged
     };
-    std::vector<Loop> loops {};   ///< for `stable` and `unstable`: of the nodes at the place that is nearest to swinging, the weakest first; else empty
-    bool falls = false;           ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
+    /// Of `stiffness`: the loops of the nodes, the weakest first: for `unstable`, the one that swings first, and else, the one that is passive up to the
+    /// least. Empty if they do not explain the verdict.
+    std::vector<Loop> loops {};
+    bool falls = false;   ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
 

@@ -22,15 +22,17 @@ namespace tactus::check
 /// direction.
 struct Slope
 {
-    double t_s = 0.0;                            ///< time since the start of the motion
-    Vec3 position = Vec3::Zero();                ///< m
-    Vec3 force = Vec3::Zero();                   ///< on the tool, at rest, in N
-    double brake = 0.0;                          ///< damping of the device's brake there, in N s/m
-    double stiffness = 0.0;                      ///< sigma: force per displacement once the force has settled, in N/m
-    double lag = 0.0;                            ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
-    double damping = 0.0;                        ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
-    std::vector<double> by_node {};              ///< by node number: the largest response of the node's own forces, in N/m
-    std::vector<Eigen::Matrix3d> gradients {};   ///< by node number: J^T J, where J is the Jacobian of the node's own forces, in N^2/m^2
+    double t_s = 0.0;                 ///< time since the start of the motion
+    Vec3 position = Vec3::Zero();     ///< m
+    Vec3 force = Vec3::Zero();        ///< on the tool, at rest, in N
+    double brake = 0.0;               ///< damping of the device's brake there, in N s/m
+    double stiffness = 0.0;           ///< sigma: force per displacement once the force has settled, in N/m
+    double lag = 0.0;                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
+    double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
+    std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
+    /// By node number: in which directions the node's own force changes, J J^T in N^2/m^2, where J is the Jacobian of this force. A friction that depends on
+    /// the load of a wall feels a displacement towards the wall, but its force is along the surface. Of a node whose forces are no vectors: J^T J.
+    std::vector<Eigen::Matrix3d> pulls {};
     /// The force that pulls back after a step of the tool, along the step, tick by tick, in N/m: for a step in the steepest direction, and for
     /// one in the direction of the largest excess, if that is another one. Empty if one of them cannot be measured, as if sections do not run
     /// on every tick.

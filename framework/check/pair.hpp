@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tactus::check
@@ -60,14 +61,14 @@ public:
     std::vector<double> ownResponses() const;
     std::size_t numberOfForces() const noexcept { return settled.size(); }
 
-    /// Calls f (node, i) for each component i of ownResponses().
+    /// Calls f (node, i, width) for each force of a node: its components are the `width` entries of ownResponses() from i on.
     template <typename F>
     void eachForce (F&& f) const
     {
         std::size_t i = 0;
         for (std::size_t n = 0; n < forces.size(); ++n)
-            for (std::size_t c = 0; c < forces[n].size(); ++c)
-                f (n, i++);
+            for (const auto width : forces[n].widths())
+                f (n, std::exchange (i, i + width), width);
     }
 
     /// Raises each entry of `by_node` to the largest of that node's ownResponses().

@@ -76,7 +76,7 @@ Json toJson (const Condition& c)
     if (! c.remedy.empty()) j["remedy"] = c.remedy;
     if (! c.loops.empty()) j["loops"] = Json::array();
     for (const auto& loop : c.loops)
-        j["loops"].push_back (Json { { "node", loop.node }, { "may_grow", number (loop.may_grow) } });
+        j["loops"].push_back (Json { { "node", loop.node }, { "passive_up_to", number (loop.passive_up_to) }, { "may_grow", number (loop.may_grow) } });
     return j;
 }
 }   // namespace

@@ -380,42 +380,64 @@ std::vector<double> along (const Eigen::Vector3d& d, std::span<const Jacobian> r
         all.push_back (d.dot (Eigen::Matrix3d (m) * d));
     return all;
 }
+}   // namespace
 
-NodeLoop loopOf (std::size_t node, std::vector<double> response, const DeviceNumbers& device, double period_s)
+double NodeResponse::mayGrow (const DeviceNumbers& device, double period_s) const
 {
-    NodeLoop loop { .node = node, .response = std::move (response) };
-    loop.may_grow = roomToGrow ([&] (double factor) {
-        auto larger = loop.response;
+    return roomToGrow ([&] (double factor) {
+        auto larger = response;
         for (double& v : larger)
             v *= factor;
         return comesToRest (larger, device, period_s);
     });
-    return loop;
 }
-}   // namespace
 
-std::vector<NodeLoop> nodeLoops (const Slope& slope, std::span<const Jacobian> response, const DeviceNumbers& device, double period_s)
+double NodeResponse::passivityLoad (const DeviceNumbers& device, double period_s) const
+{
+    std::vector<Jacobian> all;
+    for (const double v : response)
+        all.emplace_back (Jacobian::Constant (1, 1, v));
+    const DeviceNumbers* const axis = &device;
+    constexpr std::array<double, 1> whole { 1.0 };
+    return check::passivityLoad (all, { &axis, 1 }, whole, period_s).value_or (0.0);
+}
+
+std::vector<NodeResponse> nodeResponses (const Slope& slope, std::span<const Jacobian> response)
 {
     constexpr double faint = 1e-2, parallel = 0.9;   // of the steepest response; cosine
-    std::vector<NodeLoop> all;
-    if (! device.mass || ! device.damping || response.empty()) return all;
-    std::vector<std::size_t> nodes (slope.gradients.size());
+    std::vector<NodeResponse> all;
+    if (response.empty()) return all;
+    std::vector<std::size_t> nodes (slope.pulls.size());
     std::iota (nodes.begin(), nodes.end(), std::size_t { 0 });
     std::ranges::stable_sort (nodes, std::ranges::greater {}, [&] (std::size_t n) { return slope.by_node[n]; });
     std::vector<Eigen::Vector3d> taken;
     for (const auto n : nodes)
     {
         if (! (slope.by_node[n] > faint * slope.by_node[nodes.front()])) break;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (slope.gradients[n]);
-        std::optional<NodeLoop> weakest;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (slope.pulls[n]);
         for (int i = 2; i >= 0 && parts.eigenvalues()[i] > faint * parts.eigenvalues()[2]; --i)
         {
             const Eigen::Vector3d d = parts.eigenvectors().col (i);
             if (std::ranges::any_of (taken, [&] (const auto& t) { return std::abs (t.dot (d)) > parallel; })) continue;
             taken.push_back (d);
-            if (auto loop = loopOf (n, along (d, response), device, period_s); ! weakest || loop.may_grow < weakest->may_grow) weakest = std::move (loop);
+            all.push_back ({ n, along (d, response) });
         }
-        if (weakest) all.push_back (*std::move (weakest));
+    }
+    return all;
+}
+
+std::vector<NodeLoop> nodeLoops (const Slope& slope, std::span<const Jacobian> response, const DeviceNumbers& device, double period_s)
+{
+    std::vector<NodeLoop> all;
+    if (! device.mass || ! device.damping) return all;
+    for (auto& one : nodeResponses (slope, response))
+    {
+        const double may_grow = one.mayGrow (device, period_s);
+        const auto known = std::ranges::find (all, one.node, [] (const NodeLoop& loop) { return loop.along.node; });
+        if (known == all.end())
+            all.push_back ({ std::move (one), may_grow });
+        else if (may_grow < known->may_grow)
+            *known = { std::move (one), may_grow };
     }
     std::ranges::stable_sort (all, {}, &NodeLoop::may_grow);
     return all;

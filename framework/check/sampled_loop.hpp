@@ -92,16 +92,28 @@ double roomToGrow (Rests&& rests)
     return low;
 }
 
-/// The sampled loop along the direction in which a node's own force is steepest.
-struct NodeLoop
+/// The response of a graph along a direction in which a node's own force changes, as for loopRadius().
+struct NodeResponse
 {
     std::size_t node = 0;
-    std::vector<double> response {};   ///< of the whole graph along this direction, as for loopRadius()
-    double may_grow = 0.0;             ///< roomToGrow()
+    std::vector<double> response {};
+
+    double mayGrow (const DeviceNumbers&, double period_s) const;         ///< roomToGrow(); mass and damping must be known
+    double passivityLoad (const DeviceNumbers&, double period_s) const;   ///< of this loop alone, in N s/m
 };
 
-/// The loops at a place, the weakest first. A node whose direction another one has, such as a mixer, is left out: the steeper one stands for both, or the
-/// first one. `response` is that of the role in its three axes, at this place. Empty if mass or damping of the device are not known. [any thread]
+/// The responses at a place, those of the steepest node first. A node whose direction another one has, such as a mixer, is left out: the steeper one stands
+/// for both, or the first one. `response` is that of the role in its three axes, at this place. [any thread]
+std::vector<NodeResponse> nodeResponses (const Slope&, std::span<const Jacobian> response);
+
+/// The loop of each node at a place that is nearest to swinging, the weakest first.
+struct NodeLoop
+{
+    NodeResponse along {};
+    double may_grow = 0.0;
+};
+
+/// As nodeResponses(). Empty if mass or damping of the device are not known. [any thread]
 std::vector<NodeLoop> nodeLoops (const Slope&, std::span<const Jacobian> response, const DeviceNumbers&, double period_s);
 
 }   // namespace tactus::check

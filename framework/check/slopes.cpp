@@ -137,7 +137,7 @@ private:
                       .force = pair.force (role),
                       .brake = pair.brake (role),
                       .by_node = std::vector<double> (pair.nodes(), 0.0),
-                      .gradients = std::vector<Matrix> (pair.nodes(), Matrix::Zero()) };
+                      .pulls = std::vector<Matrix> (pair.nodes(), Matrix::Zero()) };
         std::array<std::vector<double>, 3> own;
         own.fill (std::vector<double> (pair.numberOfForces(), 0.0));
         for (int axis = 0; axis < (motion.roles[role].axis ? 1 : 3); ++axis)
@@ -158,23 +158,39 @@ private:
                     keep (all.late, response->late);
                     keep (all.excess, response->excess);
                     const double felt = response->settled.norm() * holding_s() + response->late.norm() + response->excess.norm();
-                    if (felt > most_felt) keepPath (all, column, sign, *response);
+                    if (felt > most_felt)
+                    {
+                        keepPath (all, column, sign, *response);
+                        own[at (axis)] = pair.ownResponses();
+                    }
                     most_felt = std::max (most_felt, felt);
-                    own[at (axis)] = pair.ownResponses();
                     pair.raise (slope.by_node);
                     sides[sign > 0.0] = sign * response->settled;
                 }
             const double most = std::max (sides[0].norm(), sides[1].norm());
             if ((sides[0] - sides[1]).norm() > 0.05 * most) all.is_smooth = false;
         }
-        pair.eachForce ([&] (std::size_t node, std::size_t component) {
-            const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
-            slope.gradients[node] += gradient * gradient.transpose();
-        });
-        for (std::size_t n = 0; n < slope.gradients.size(); ++n)
-            found.directions[role][n] += slope.gradients[n];
+        addForces (slope, role, own);
         summarise (slope, role, all);
         return slope;
+    }
+
+    /// Adds the directions in which the nodes' own forces change, and those in which they feel a displacement.
+    void addForces (Slope& slope, std::size_t role, const std::array<std::vector<double>, 3>& own)
+    {
+        std::vector<Matrix> felt (pair.nodes(), Matrix::Zero());
+        pair.eachForce ([&] (std::size_t node, std::size_t first_of, std::size_t width) {
+            Eigen::MatrixXd jacobian (static_cast<Eigen::Index> (width), 3);
+            for (std::size_t i = 0; i < width; ++i)
+                jacobian.row (static_cast<Eigen::Index> (i)) << own[0][first_of + i], own[1][first_of + i], own[2][first_of + i];
+            felt[node] += jacobian.transpose() * jacobian;
+            if (width == 3) slope.pulls[node] += jacobian * jacobian.transpose();
+        });
+        for (std::size_t n = 0; n < felt.size(); ++n)
+        {
+            found.directions[role][n] += felt[n];
+            if (slope.pulls[n].isZero (0.0)) slope.pulls[n] = felt[n];
+        }
     }
 
     void summarise (Slope& slope, std::size_t role, const Linked& all)

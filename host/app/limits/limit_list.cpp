@@ -146,17 +146,17 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     LimitList list;
     for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
     {
-        // All together are passive up to the same factor; the steepest node stands for them where the loops of the nodes are not known.
-        const auto addContact = [&] (const std::string& node, double stable_up_to) {
+        const auto addContact = [&] (const std::string& node, double passive_up_to, double may_grow) {
             list.contacts.push_back ({ .node = node,
                                        .device = nameOf (devices, c.role),
                                        .verdict = c.verdict,
-                                       .passive_up_to = c.limit / c.value,
-                                       .stable_up_to = std::isnan (c.may_grow) ? 0.0 : stable_up_to });
+                                       .passive_up_to = passive_up_to,
+                                       .stable_up_to = std::isnan (may_grow) ? 0.0 : may_grow });
         };
         for (const auto& loop : c.loops)
-            addContact (loop.node, loop.may_grow);
-        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty()) addContact (steepestOf (demand, c.role), c.may_grow);
+            addContact (loop.node, loop.passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
+        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())   // the steepest node stands for all
+            addContact (steepestOf (demand, c.role), c.limit / c.value, c.may_grow);
         const bool is_broken = c.isBroken();
         if (! c.isKnown())
         {
@@ -176,12 +176,15 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             auto about = c.node.empty() && is_slope && ! nodes.empty() ? nodes.front() : c.node;
             const auto details = detailsOf (c, device, is_broken);
             list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c), details });
-            for (std::size_t i = 1; i < c.loops.size() && is_broken && c.loops[i].may_grow < 1.0 && ! std::isnan (c.may_grow); ++i)
+            for (std::size_t i = 1; i < c.loops.size() && (is_broken ? ! std::isnan (c.may_grow) : isPastPassivity (c)); ++i)
             {
-                const auto& node = c.loops[i].node;
+                const auto& [node, passive_up_to, may_grow] = c.loops[i];
+                const double room = is_broken ? may_grow : passive_up_to;
+                if (! (room < 1.0)) continue;
                 auto other = c;
-                other.may_grow = c.loops[i].may_grow;
-                list.limits.push_back ({ true, std::string (c.id), { node }, limitSentence (other, node, device), firstRemedy (c), details });
+                other.may_grow = may_grow;
+                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), twoDigits (room)).toStdString();
+                list.limits.push_back ({ is_broken, std::string (c.id), { node }, limitSentence (other, node, device), remedy, details });
             }
         }
     }

@@ -53,14 +53,14 @@ struct Limit
     bool operator== (const Limit&) const = default;
 };
 
-/// The limits of a role's steepest contact, in multiples of its stiffness and its damping now.
+/// The limits of a node's contact, in multiples of its stiffness and its damping now.
 struct ContactLimit
 {
-    std::string node;     ///< path of the steepest node
+    std::string node;     ///< its path
     std::string device;   ///< name of the role's device
     check::Verdict verdict = check::Verdict::passive;
-    double passive_up_to = 0.0;
-    double stable_up_to = 0.0;   ///< without a hand and with the usual ones; 0 if it is not known: the contact is passive, or only trials judge it
+    double passive_up_to = 0.0;   ///< by its own force alone; the contact is passive if all its nodes are
+    double stable_up_to = 0.0;    ///< without a hand and with the usual ones; 0 if it is not known: the contact is passive, or only trials judge it
 
     bool operator== (const ContactLimit&) const = default;
 };

@@ -44,14 +44,6 @@ constexpr LimitNoun nouns[] {
     { "force_resolution", NEEDS_TRANS ("The steps of force"), true },
 };
 
-/// 5.1, 42, 4200: two digits, and no exponent.
-std::string twoDigits (double v)
-{
-    if (! (v > 0.0) || ! std::isfinite (v)) return "0";
-    const double unit = std::pow (10.0, std::floor (std::log10 (v)) - 1.0);
-    return v >= 10.0 ? numberText (std::round (v / unit) * unit) : roundedText (v, 2);
-}
-
 /// "4.02e+03 N*s/m" as "4020 N·s/m".
 std::string readableNumbers (const std::string& text)
 {
@@ -70,6 +62,14 @@ std::string readableNumbers (const std::string& text)
     return fromUtf8 (unitShown (all)).replace (" um", fromUtf8 (" \xc2\xb5m")).toStdString();
 }
 }   // namespace
+
+std::string twoDigits (double v)
+{
+    if (! (v > 0.0) || ! std::isfinite (v)) return "0";
+    const double unit = std::pow (10.0, std::floor (std::log10 (v)) - 1.0);
+    if (std::abs (v - 1.0) < 0.1) return roundedText (v, 3);
+    return v >= 10.0 ? numberText (std::round (v / unit) * unit) : roundedText (v, 2);
+}
 
 bool isPastPassivity (const check::Condition& c)
 {
@@ -112,7 +112,9 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
 
 std::string firstRemedy (const check::Condition& c)
 {
-    auto first = c.remedy.substr (0, c.remedy.find ("; "));
+    const auto passive = isPastPassivity (c) ? c.remedy.find ("for a contact that is passive") : 0;
+    auto first = c.remedy.substr (passive == c.remedy.npos ? 0 : passive);
+    first.erase (std::min (first.size(), first.find ("; ")));
     if (const auto about = first.rfind (": "); about != first.npos) first.erase (0, about + 2);
     first.erase (std::min (first.size(), first.find (", ")));
     return readableNumbers (first);

@@ -11,6 +11,9 @@ namespace tactus::host
 /// True for a contact whose slopes are more than what is passive, and whose sampled loop comes to rest with usual hands.
 bool isPastPassivity (const check::Condition&);
 
+/// 5.1, 42, 4200: two digits, and no exponent; three near 1.
+std::string twoDigits (double);
+
 /// A limit in one sentence, without its laws: "The stiffness of wall is 5.1 times what stylus (simulated) allows". `node` is what the limit is about;
 /// empty: the whole role. A number has two digits.
 std::string limitSentence (const check::Condition&, const std::string& node, const std::string& device);

@@ -61,7 +61,8 @@ std::string usualName (const std::string& type)
 Json newTool()
 {
     auto tool = defaultDevice();
-    tool["guard"] = { { "max_force", "6 N" }, { "max_speed", "2 m/s" }, { "max_impulse", "30 N*s" }, { "impulse_window", "10 s" }, { "max_energy", "120 mJ" }, { "energy_window", "1 s" } };
+    tool["guard"] = Json::parse (R"({ "max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s",
+        "max_energy": "120 mJ", "energy_window": "1 s" })");
     return tool;
 }
 

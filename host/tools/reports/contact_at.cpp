@@ -72,6 +72,35 @@ double stretch (const check::Jacobian& m)
     return std::sqrt (std::max (0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> (square).eigenvalues().maxCoeff()));
 }
 
+/// The part of a response in some directions, to steps in these directions.
+Response within (const Eigen::Matrix3d& directions, const Response& r)
+{
+    Response all;
+    for (const auto& m : r)
+        all.emplace_back (directions * m * directions);
+    return all;
+}
+
+/// A response without a force across some directions that depends on steps along them, but not the other way round, or the reverse. A friction that slides
+/// along a wall has less force the less it is pressed. No energy belongs to that, so a matrix says too much of it.
+check::Jacobian withoutOneWay (const Eigen::Matrix3d& along, const check::Jacobian& m)
+{
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along, there = along * m * across, back = (across * m * along).transpose();
+    constexpr double clearly = 0.5;   // relative
+    if (! ((there - back).norm() > clearly * std::max (there.norm(), back.norm()))) return m;
+    return along * m * along + across * m * across;
+}
+
+/// The projection on the directions in which a symmetric matrix has at least this share of its largest eigenvalue.
+Eigen::Matrix3d strongest (const Eigen::Matrix3d& m, double share)
+{
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (m);
+    Eigen::Matrix3d all = Eigen::Matrix3d::Zero();
+    for (int i = 0; i < 3; ++i)
+        if (parts.eigenvalues()[i] >= share * parts.eigenvalues()[2]) all += parts.eigenvectors().col (i) * parts.eigenvectors().col (i).transpose();
+    return all;
+}
+
 /// The excess of a response over its settled force, integrated over time, in N s/m.
 check::Jacobian excessOf (const Response& r, double period_s)
 {
@@ -159,7 +188,8 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
     const auto loops = check::nodeLoops (*heaviest, heaviest_response, role.device.numbers, periodOf (role.device.numbers, motion.rate_hz));
-    if (! loops.empty() && demand.nodes[loops.front().node].path != steepest) its_weakest = { demand.nodes[loops.front().node].path, loops.front().may_grow };
+    if (loops.empty()) return;
+    if (const auto& path = demand.nodes[loops.front().along.node].path; path != steepest) its_weakest = { path, loops.front().may_grow };
 }
 
 /// Chooses the params to vary: those of the steepest node that has them, if they change the response.
@@ -170,11 +200,12 @@ void Contact::findParams (const check::Demand& demand, const check::Slope& slope
     std::ranges::stable_sort (nodes, std::ranges::greater {}, [&] (std::size_t n) { return slope.by_node[n]; });
     if (nodes.empty() || ! (slope.by_node[nodes.front()] > 0.0)) return;
     steepest = demand.nodes[nodes.front()].path;
-    const Eigen::Vector3d direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (slope.gradients[nodes.front()]).eigenvectors().col (2);
+    const Eigen::Vector3d direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (slope.pulls[nodes.front()]).eigenvectors().col (2);
     constexpr double along = 0.1;   // less acts across it
     std::erase_if (nodes, [&, least = along * slope.by_node[nodes.front()]] (std::size_t n) {
-        return ! (direction.dot (slope.gradients[n] * direction) > least * least);
+        return ! (direction.dot (slope.pulls[n] * direction) > least * least);
     });
+    acts = strongest (slope.pulls[nodes.front()], along * along);
     const auto changes = [&] (const std::string& param, double value) {
         const auto base = asIs (motion.rate_hz, {}).response, other = measured (motion.rate_hz, {}, { { param, Json (value) } }).response;
         return ! other.empty() && sizeOf (sum (other, -1.0, base)) > 1e-4 * sizeOf (base);
@@ -234,7 +265,7 @@ Contact::Measured Contact::measured (double rate_hz, const std::vector<double>& 
         const auto first = static_cast<Eigen::Index> (3 * (at - demand.roles.begin()));
         found.response.clear();
         for (const auto& now : demand.linked.front().responses)
-            found.response.emplace_back (now.block (first, first, 3, 3));
+            found.response.emplace_back (withoutOneWay (acts, now.block (first, first, 3, 3)));
         if (found.response.empty()) return found;
         found.stiffness = stretch (found.response.back());
         found.damping = at->slopes.front().damping;
@@ -295,7 +326,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         const double b = valueOf (damping_param, damping_set), more = 0.1 * damping();
         const auto other = measured (rate_hz, params, { { damping_param, Json (b + more) } });
         if (other.response.empty()) return models[std::move (key)];
-        m.damper = scaled (1.0 / more, sum (other.response, -1.0, base.response));
+        m.damper = scaled (1.0 / more, within (acts, sum (other.response, -1.0, base.response)));
         const double each = stretch (excessOf (m.damper, period_s));
         if (each > 0.0)
         {
@@ -311,7 +342,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         {
             const auto other = measured (rate_hz, params, { { stiffness_param, Json (1.01 * k) } });
             if (other.response.empty()) return models[std::move (key)];
-            const auto change = scaled (100.0, sum (other.response, -1.0, base.response));   // of all of the param
+            const auto change = scaled (100.0, within (acts, sum (other.response, -1.0, base.response)));   // of all of the param
             if (const double of_param = change.empty() ? 0.0 : stretch (change.back()); of_param > 0.0)
             {
                 m.spring = scaled (1.0 / of_param, change);
@@ -328,12 +359,11 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         m.rest = scaled (0.0, m.rest);
         m.stiffness = base.stiffness;
     }
-    if (m.damper.empty())   // a damper along the steepest direction, from one tick to the next
+    if (m.damper.empty())   // a damper along the steepest direction, or along all that are as steep, from one tick to the next
     {
-        const Eigen::MatrixXd last = base.response.back();
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts (Eigen::MatrixXd (last.transpose() * last));
-        const Eigen::VectorXd along = base.stiffness > 0.0 ? Eigen::VectorXd (parts.eigenvectors().col (2)) : Eigen::VectorXd (Eigen::Vector3d::UnitZ());
-        m.damper.emplace_back (along * along.transpose() / period_s);
+        constexpr double as_steep = 0.9;
+        const Eigen::Matrix3d last = base.response.back(), z = Eigen::Vector3d::UnitZ().asDiagonal();
+        m.damper.emplace_back ((base.stiffness > 0.0 ? strongest (last.transpose() * last, as_steep * as_steep) : z) / period_s);
         m.damper.emplace_back (check::Jacobian::Zero (3, 3));
         m.damping = 0.0;
     }

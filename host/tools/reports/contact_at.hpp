@@ -47,8 +47,8 @@ struct Standing
 /// is then pressed in or let out until its force is as before.
 ///
 /// The params `stiffness` and `damping` of the steepest node that has them vary the contact. The change that such a param makes to the response is
-/// measured, so a filter or a hold after the node counts. Without such a param, the whole response grows with the stiffness, and a damper along the steepest
-/// direction is added.
+/// measured along the node's own force, so a filter or a hold after the node counts, and a friction that slides under its load does not. Without such a
+/// param, the whole response grows with the stiffness, and a damper along the steepest direction is added, or along all that are as steep.
 class Contact
 {
 public:
@@ -105,6 +105,7 @@ private:
     double t_s = 0.0;
     check::HandMotion way;   // to the place, where the tool stays
     std::string steepest;
+    Eigen::Matrix3d acts = Eigen::Matrix3d::Identity();   // projection on the directions in which the steepest node acts; a param changes these
     std::optional<Weakest> its_weakest;
     std::string stiffness_param, damping_param;   // NODE.PARAM; empty: the contact has none
     double stiffness_set = 0.0, damping_set = 0.0;

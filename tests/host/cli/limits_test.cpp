@@ -12,6 +12,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -111,24 +112,33 @@ TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact 
     CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=5000" }).out.find ("stable, but not passive") != std::string::npos);
 }
 
+namespace
+{
+/// A graph whose tool strokes a wall, with a friction that has its load from the wall.
+std::string strokedWall (int rate_hz, const std::string& tool, const std::string& wall)
+{
+    return R"({ "format": "tactus-graph", "version": 2, "rate_hz": )" + std::to_string (rate_hz) + R"(, "devices": { "tip": { "driver": "sim", "mass": 0.1,
+        "hand": { "stiffness": 100, "damping": 2, "path": "stroke" }, )"
+           + tool + R"( } },
+        "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+            "wall": { "type": "deform.plane", "params": { )"
+           + wall + R"( } }, "drag": { "type": "friction.elasto_plastic" } },
+        "wires": ["hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
+            "wall.force -> motor.force", "drag.force -> motor.force"] })";
+}
+}   // namespace
+
 TEST_CASE ("`tactus limits` names a weaker loop beside the contact that it varies, and varies no param that acts across this", "[check][cli]")
 {
     const Scratch scratch;
     const auto limits = [&] (const char* wall) {
-        const auto file = scratch.write (
-            "rubbed.json", std::string (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
-            "devices": { "tip": { "driver": "sim", "mass": 0.1, "damping": 2, "delay": 1, "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
-            "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
-                "wall": { "type": "deform.plane", "params": )")
-                               + wall + R"( }, "drag": { "type": "friction.elasto_plastic" } },
-            "wires": ["hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
-                "wall.force -> motor.force", "drag.force -> motor.force"] })");
+        const auto file = scratch.write ("rubbed.json", strokedWall (1000, R"("damping": 2, "delay": 1)", wall));
         const auto ran = runTactus ({ "limits", file, "--json" });
         INFO (ran.out << ran.err);
         REQUIRE (ran.status == 0);
         return std::pair (Json::parse (ran.out), runTactus ({ "limits", file }).out);
     };
-    const auto [stiff, text] = limits (R"({ "stiffness": 5000, "damping": 5 })");
+    const auto [stiff, text] = limits (R"("stiffness": 5000, "damping": 5)");
     CHECK (stiff.at ("node") == Json ("wall"));
     CHECK (stiff.at ("weakest").at ("node") == Json ("drag"));
     const double room = stiff.at ("weakest").at ("may_grow").get<double>(), steepest = 0.4 / 1e-4;   // mu over d_max, of 1 N
@@ -139,7 +149,7 @@ TEST_CASE ("`tactus limits` names a weaker loop beside the contact that it varie
     CHECK_FALSE (check::comesToRest (std::array { 1.01 * response[0] }, late, 1e-3));
     CHECK (text.find ("the weakest loop there is that of 'drag': it swings, and would rest with 0.33") != std::string::npos);
 
-    const auto soft = limits (R"({ "stiffness": 1000, "damping": 1 })").first;
+    const auto soft = limits (R"("stiffness": 1000, "damping": 1)").first;
     CHECK (soft.at ("node") == Json ("drag"));
     CHECK (soft.at ("stiffness_param") == Json (""));   // not the wall's
     CHECK_FALSE (soft.contains ("weakest"));
@@ -313,6 +323,46 @@ TEST_CASE ("each point of a table of `tactus limits` is the exact loop of a wall
     compareWithLoop (measured);
     compareWithLoop (tableOf ({ "limits", file, "--x", "rate=300:4000", "--y", "stiffness=100:20000", "--steps", "4" }, scratch.path ("c.csv")));
     compareWithLoop (tableOf ({ "limits", file, "--steps", "3" }, scratch.path ("d.csv")));
+}
+
+TEST_CASE ("a wall has its limits, whatever friction slides on it under its load", "[check][cli]")
+{
+    // The tool of 0.1 kg and 1 N s/m strokes a wall with b = 0.3 N s/m. The wall is passive up to k = 2 (B - b)/T = 5600 N/m, and swings from 10.4 kN/m on,
+    // by an exact simulation of mass, damping and hands. The friction has 4000 N/m, whatever its load, and is passive up to 2 B/T = 8000 N/m.
+    const Scratch scratch;
+    const auto file = scratch.write ("stroked.json", strokedWall (4000, R"("damping": 1)", R"("damping": 0.3)"));
+    for (const double k : { 6000.0, 10'500.0, 11'000.0, 12'000.0, 15'000.0, 20'000.0 })
+    {
+        const auto limits = Json::parse (runTactus ({ "limits", file, "--json", "--set", "wall.stiffness=" + std::to_string (k) }).out);
+        INFO (k << ": " << limits.dump());
+        CHECK (limits.at ("stiffness_param") == Json ("wall.stiffness"));
+        CHECK (limits.at ("stiffness").get<double>() == Approx (k).epsilon (1e-3));
+        CHECK (limits.at ("stable").at ("stiffness").at ("to").get<double>() == Approx (10'400).epsilon (0.01));
+        CHECK (limits.at ("passive").at ("stiffness").at ("to").get<double>() == Approx (5600).epsilon (0.01));
+    }
+    const auto stiffnessOf = [&] (double stiffness, const std::string& mu) {
+        const auto ran = runTactus ({ "check", file, "--json", "--set", "wall.stiffness=" + std::to_string (stiffness), "--set", "drag.mu=" + mu });
+        INFO (ran.err);
+        const auto all = Json::parse (ran.out).at ("conditions").asArray();
+        return *std::ranges::find (all, "stiffness", [] (const Json& one) { return one.at ("id").asString(); });
+    };
+    for (const double k : { 5000.0, 5700.0, 9000.0, 20'000.0 })
+    {
+        const auto c = stiffnessOf (k, "0.4"), without = stiffnessOf (k, "0");
+        INFO (k << ": " << c.dump());
+        const bool is_passive = k < 5600.0;
+        REQUIRE (c.at ("loops").size() == 2);
+        CHECK (c.at ("loops")[0].at ("node") == Json ("wall"));
+        for (const auto& loop : c.at ("loops").asArray())
+        {
+            const bool is_wall = loop.at ("node") == Json ("wall");
+            CHECK (loop.at ("passive_up_to").get<double>() == Approx (is_wall ? 1.0 / (k / 8000.0 + 0.3) : 2.0).epsilon (0.01));
+            if (is_passive)
+                CHECK (loop.at ("may_grow").is_null());
+            else
+                CHECK (loop.at ("may_grow").get<double>() == Approx (is_wall ? without.at ("margin").get<double>() : 2.0).epsilon (0.01));
+        }
+    }
 }
 
 TEST_CASE ("a param is varied at the same force, so the place follows it", "[check][cli]")

@@ -11,7 +11,7 @@ TEST_CASE ("every command that takes a graph file takes the name of a preset", "
     const std::string file = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
     const auto validated = runTactus ({ "validate", "dry_wood", "steel_bar" });
     CHECK (validated.status == 0);
-    CHECK (test::withSlashes (validated.out).find ("graphs/steel_bar.json: ok") != std::string::npos);
+    CHECK (withSlashes (validated.out).find ("graphs/steel_bar.json: ok") != std::string::npos);
 
     const auto by_file = runTactus ({ "render", file, "--duration", "0.01" }), by_name = runTactus ({ "render", "dry_wood", "--duration", "0.01" });
     CHECK (by_file.out.size() > 100);
@@ -60,7 +60,7 @@ TEST_CASE ("a mistyped preset or file gets a suggestion", "[cli]")
 
     const auto several = runTactus ({ "validate", "dry_wod", "steel_bar" });   // one mistake does not hide the other files
     CHECK (several.status == 1);
-    CHECK (test::withSlashes (several.out).find ("graphs/steel_bar.json: ok") != std::string::npos);
+    CHECK (withSlashes (several.out).find ("graphs/steel_bar.json: ok") != std::string::npos);
 }
 
 TEST_CASE ("the version names the program and the C API", "[cli]")
