@@ -4,6 +4,7 @@
 
 #include <host/app/model/face.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
@@ -97,14 +98,13 @@ void sweep (graph::Graph& g)
         });
 }
 
-/// An edit of the whole mixer: `to` is the new position of each layer, or -1 to remove it.
-Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::vector<int>& to, int layers,
-                                 const std::string& name)
+/// Moves the layers of a mixer, with all that belongs to them: `to` is the new position of each layer, or -1 to remove it. If this fails, the graph is of
+/// no use.
+Result<> permute (graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::vector<int>& to, int layers)
 {
-    const auto after = std::make_shared<graph::Graph> (g);
-    auto* patch = at.patch.empty() ? &after->root : const_cast<graph::Patch*> (std::as_const (*after).find (at.patch));
+    auto* patch = at.patch.empty() ? &g.root : const_cast<graph::Patch*> (std::as_const (g).find (at.patch));
     permuteValues (*std::ranges::find (patch->nodes, at.id, &graph::Node::id), catalogue, to, layers);
-    graph::forEachEndpoint (*after, [&] (graph::Endpoint& e, const graph::Waypoint& w) {
+    graph::forEachEndpoint (g, [&] (graph::Endpoint& e, const graph::Waypoint& w) {
         if (w.patch == patch && w.name == at.node && w.end == e.node.size() && e.index >= 0 && e.index < static_cast<int> (to.size()))
             if (const int i = to[static_cast<std::size_t> (e.index)]; i != e.index) e.index = i < 0 ? removed : i;
         return true;
@@ -115,7 +115,22 @@ Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, co
             if (isRemoved (e))
                 return Message::error ("mixer/exposed", {}, filled (TRANS ("the subgraph exposes this layer as its port '%1'"), port).toStdString(),
                                        TRANS ("hide that port first").toStdString());
-    sweep (*after);
+    sweep (g);
+    return {};
+}
+
+/// An edit of the whole mixer, and of what the snapshots hold of it.
+Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::vector<int>& to, int layers,
+                                 const std::string& name)
+{
+    const auto after = std::make_shared<graph::Graph> (g);
+    if (auto done = permute (*after, at, catalogue, to, layers); ! done) return std::move (done).error();
+    auto snapshots = snapshotsAfter (g, [&] (const graph::Graph& held) {
+        const auto moved = std::make_shared<graph::Graph> (held);
+        (void)permute (*moved, at, catalogue, to, layers);   // possible, as above
+        return graph::Command (graph::ReplaceGraph { moved });
+    });
+    if (snapshots.is_object()) after->extra["ui"]["snapshots"] = std::move (snapshots);
     return graph::Command (graph::Batch { name, { graph::ReplaceGraph { after } } });
 }
 

@@ -88,10 +88,10 @@ bool isGated (const graph::Graph&, const MixerPlace&, int layer);
 /// Makes a layer felt only in contact, or always. Ids: mixer/gone, mixer/empty, mixer/no_contact, mixer/gate_elsewhere.
 Result<graph::Command> setGate (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, bool on);
 
-/// Removes a layer and its wires; the layers after it move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
+/// Removes a layer and its wires; the layers after it move up, also in the snapshots. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
 Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
 
-/// Moves a layer to another position, with its name, values, wires and controls.
+/// Moves a layer to another position, with its name, values, wires and controls, and its values in the snapshots.
 graph::Command moveLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, int to);
 
 /// The result of addMixer(). The mixer is inserted between forces and the input where they are summed: a mixer of vectors if one of them

@@ -55,6 +55,20 @@ const Json& nodesIn (const Json& snapshot, const std::string& patch)
     return patch.empty() ? at (snapshot, "nodes") : at (at (snapshot, "graphs"), patch);
 }
 
+/// Calls visit (name of the patch, name of the node, values) for each node of a snapshot that the graph does not have, or that has another type there.
+void forEachMissing (const graph::Graph& g, const Json& then, const std::function<void (const std::string&, const std::string&, const Json&)>& visit)
+{
+    const auto look = [&] (const std::string& patch, const Json& nodes, const graph::Patch* in) {
+        if (! nodes.is_object()) return;
+        for (const auto& [name, values] : nodes.items())
+            if (const auto* n = in != nullptr ? in->find (name) : nullptr; n == nullptr || at (values, "type") != n->type) visit (patch, name, values);
+    };
+    look ({}, at (then, "nodes"), &g.root);
+    if (const auto& graphs = at (then, "graphs"); graphs.is_object())
+        for (const auto& [patch, nodes] : graphs.items())
+            look (patch, nodes, g.find (patch));
+}
+
 /// True if recall() would change nothing. The nodes of a snapshot usually have the order of the patch, so most are found without a search.
 bool isAt (const graph::Patch& patch, const Json& nodes)
 {
@@ -144,17 +158,8 @@ std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
 std::vector<std::string> missingNodes (const graph::Graph& g, int number)
 {
     std::vector<std::string> missing;
-    const auto look = [&] (const Json& nodes, const graph::Patch* patch, const std::string& prefix) {
-        if (! nodes.is_object()) return;
-        for (const auto& [name, values] : nodes.items())
-            if (const auto* n = patch != nullptr ? patch->find (name) : nullptr; n == nullptr || at (values, "type") != n->type)
-                missing.push_back (prefix + name);
-    };
-    const auto& then = snapshot (g, number);
-    look (at (then, "nodes"), &g.root, {});
-    if (const auto& graphs = at (then, "graphs"); graphs.is_object())
-        for (const auto& [name, nodes] : graphs.items())
-            look (nodes, g.find (name), name + "/");
+    forEachMissing (g, snapshot (g, number),
+                    [&] (const std::string& patch, const std::string& name, const Json&) { missing.push_back (patch.empty() ? name : patch + "/" + name); });
     return missing;
 }
 
@@ -189,6 +194,10 @@ Json snapshotsAfter (const graph::Graph& before, const std::function<graph::Comm
             auto& nodes = name.empty() ? values["nodes"] : values["graphs"][name];
             for (const auto& n : patch.nodes)
                 if (others.contains (n.id)) nodes.erase (n.name);
+        });
+        forEachMissing (before, then, [&] (const std::string& name, const std::string& node, const Json& of_node) {
+            auto& nodes = name.empty() ? values["nodes"] : values["graphs"][name];
+            if (! nodes.contains (node)) nodes[node] = of_node;
         });
         all[std::to_string (number)] = std::move (values);
     }

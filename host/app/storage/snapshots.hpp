@@ -32,9 +32,9 @@ std::vector<std::string> missingNodes (const graph::Graph&, int number);
 /// The names of the controls that a snapshot does not hold, because they were added later: what they set stays when it is recalled.
 std::vector<std::string> laterControls (const graph::Graph&, int number);
 
-/// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes, or removes a control: each snapshot goes on holding the
-/// same nodes, under their new names, and the values that it held by the control. `commandFor` returns the command for the graph with the values of a
-/// snapshot. Null if there are no snapshots.
+/// The member "snapshots" of `ui`, as it is after a command that renames, groups or ungroups nodes, moves the layers of a mixer, or removes a control: each
+/// snapshot goes on holding the same nodes, under their new names, the same layers, and the values that it held by the control. `commandFor` returns the
+/// command for the graph with the values of a snapshot. Null if there are no snapshots.
 Json snapshotsAfter (const graph::Graph& before, const std::function<graph::Command (const graph::Graph&)>& commandFor);
 
 /// True if the snapshot exists, and all values are those that it holds, so that recalling it would change nothing.

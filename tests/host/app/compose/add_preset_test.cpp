@@ -6,6 +6,7 @@
 #include <host/app/layers/mixer.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
+#include <host/app/storage/snapshots.hpp>
 
 #include <host/base/assets/file_assets.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -324,6 +325,30 @@ TEST_CASE ("an added preset that is removed takes its layer and its controls alo
     const auto mixers = mixersOf (alone);
     REQUIRE (mixers.size() == 1);
     CHECK (layersOf (*findMixer (alone, mixers.front()), catalogue()) == 1);
+}
+
+TEST_CASE ("a snapshot gives the layers that are left their levels after an added preset is removed, and names what is gone", "[compose][snapshots]")
+{
+    AddedPreset zip;
+    auto g = with (preset ("dry_wood"), preset ("zip"), { .roles = { { "slider", "stylus" } } }, &zip);
+    g = with (g, preset ("bronze_bell"), { .roles = { { rolesIn (preset ("bronze_bell")).front(), "stylus" } } });
+    const auto at = mixersOf (g).front();
+    const auto layers = [&] { return layersOf (*findMixer (g, at), catalogue()); };
+    const auto level = [&] (int layer) { return layerValue (*findMixer (g, at), catalogue(), "gain", layer); };
+    const auto setLast = [&] (double gain) {
+        REQUIRE (graph::apply (g, setLayerValue (*findMixer (g, at), at, catalogue(), "gain", layers() - 1, Json (gain))));
+    };
+    setLast (0.25);
+    REQUIRE (graph::apply (g, storeSnapshot (g, 1)));
+    setLast (0.75);
+    REQUIRE (graph::apply (g, withLeftovers (g, { "delete", { graph::RemoveNode { "", zip.block } } }, catalogue())));
+    REQUIRE (level (layers() - 1) == 0.75);
+    CHECK (std::ranges::count (missingNodes (g, 1), zip.block) == 1);
+    const auto recall = recallSnapshot (g, 1);
+    REQUIRE (recall);
+    REQUIRE (graph::apply (g, *recall));
+    CHECK (level (layers() - 1) == 0.25);
+    CHECK (level (layers() - 2) == 1.0);
 }
 
 TEST_CASE ("a part of a preset is added without its walls, and what rubs keeps its load", "[compose]")

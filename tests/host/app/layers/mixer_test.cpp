@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/layers/mixer.hpp>
+#include <host/app/storage/snapshots.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/history.hpp>
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck.h>
 
+#include <map>
 #include <numeric>
 
 using namespace tactus;
@@ -119,6 +121,60 @@ TEST_CASE ("a moved layer keeps everything that belongs to it, and moving it bac
         RC_ASSERT (history.perform (moveLayer (history.graph(), mixer, catalogue(), to, from)).has_value());
         RC_ASSERT (writeGraph (history.graph()) == before);
     }));
+}
+
+TEST_CASE ("a snapshot gives each layer its own values, whichever layers are removed and moved after it", "[layers][snapshots]")
+{
+    constexpr int layers = 6;
+    const auto check = [] (bool is_inside) {
+        tactus::test::Sketch sketch;
+        auto& patch = is_inside ? sketch.node ("first", "graph:inner").subgraph ("inner") : sketch.graph.root;
+        sketch.add (patch, "desk", "layer.mix", Json::object(), { { "inputs", layers }, { "names", "0, 1, 2, 3, 4, 5" } });
+        graph::History history (sketch.graph);
+        const auto mixer = mixersOf (history.graph()).front();
+        const auto set = [&] (const char* param, int layer, const std::optional<Json>& value) {
+            const auto command = setLayerValue (*findMixer (history.graph(), mixer), mixer, catalogue(), param, layer, value);
+            RC_ASSERT (history.perform (command).has_value());
+        };
+        const auto valuesIn = [&] (const graph::Graph& g) {   // by the name of the layer
+            const auto& node = *findMixer (g, mixer);
+            std::map<std::string, std::string> values;
+            const auto names = layerNames (node, layersOf (node, catalogue()));
+            for (int i = 0; i < static_cast<int> (names.size()); ++i)
+                for (const char* param : { "gain", "mute", "solo" })
+                    values[names[static_cast<std::size_t> (i)]] += Json (layerValue (node, catalogue(), param, i).get<double>()).dump() + ' ';
+            return values;
+        };
+        for (int i = 0; i < layers; ++i)
+            for (const char* param : { "gain", "mute", "solo" })
+                set (param, i, Json (*rc::gen::inRange (0, 2)));
+        const auto stored = valuesIn (history.graph());
+        RC_ASSERT (history.perform (storeSnapshot (history.graph(), 1)).has_value());
+        for (int i = 0; i < layers; ++i)
+            set ("gain", i, Json (0.5));
+        const auto before = writeGraph (history.graph());
+        const auto steps = history.position();
+        for (int left = layers, change = 0; left > 1 && change < 12; ++change)
+        {
+            const bool is_removal = *rc::gen::inRange (0, 3) > 0;
+            const int layer = *rc::gen::inRange (0, left), to = *rc::gen::inRange (0, left);
+            const auto command = is_removal ? removeLayer (history.graph(), mixer, catalogue(), layer)
+                                            : Result<graph::Command> (moveLayer (history.graph(), mixer, catalogue(), layer, to));
+            RC_ASSERT (history.perform (*command).has_value());
+            left -= is_removal ? 1 : 0;
+            auto recalled = history.graph();
+            if (const auto recall = recallSnapshot (recalled, 1)) RC_ASSERT (graph::apply (recalled, *recall).has_value());
+            const auto values = valuesIn (recalled);
+            RC_ASSERT (static_cast<int> (values.size()) == left);
+            for (const auto& [name, value] : values)
+                RC_ASSERT (value == stored.at (name));
+        }
+        while (history.position() > steps)
+            history.undo();
+        RC_ASSERT (writeGraph (history.graph()) == before);
+    };
+    CHECK (rc::check ([&] { check (false); }));
+    CHECK (rc::check ([&] { check (true); }));
 }
 
 TEST_CASE ("every texture and vibration that can be a layer can be added and wired, and compiles", "[layers]")
