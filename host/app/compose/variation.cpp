@@ -70,6 +70,7 @@ bool isPlace (const PortSheet& sheet)
 
 /// A switch is a number that means on or off.
 bool isSwitch (const PortSheet& sheet) { return sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::state; }
+
 /// Gives nodes random numbers, and those inside of subgraphs, each of which it changes once.
 struct Randomiser
 {
@@ -135,7 +136,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
             const auto low = valueOf (held_first, *a, p), high = valueOf (held_last, *b, p);
             if (low == high) continue;
             const auto path = node.name + '.' + p.id;
-            if (isNumber (p) && ! isSetElsewhere (g, path))
+            if (isNumber (p) && ! isSwitch (*p.sheet) && ! isSetElsewhere (g, path))
                 control.to.push_back ({ path, low, high });
             else
                 ++left_out;

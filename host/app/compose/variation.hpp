@@ -21,7 +21,7 @@ struct Morph
     graph::Command command = graph::Batch {};
     std::string control;                    ///< the id of the new control
     int params = 0;                         ///< the number of parameters that it moves
-    int left_out = 0;                       ///< differing values that it cannot move: choices, vectors, values in subgraphs, and what a wire sets
+    int left_out = 0;                       ///< differing values that it cannot move: choices, switches, vectors, values in subgraphs, and what a wire sets
     std::vector<std::string> replaced {};   ///< the names of the controls whose place it takes, because their values differ
 };
 

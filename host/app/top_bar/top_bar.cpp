@@ -392,8 +392,8 @@ void TopBar::morph (int from, int to)
     if (made->left_out == 0 && made->replaced.empty()) return make();
     const auto left = made->left_out == 0 ? juce::String()
                                           : " "
-                                                + filled (TRANS ("Differences that stay as in snapshot %2: %1 (choices, vectors, values in subgraphs, and what "
-                                                                 "a wire sets). To change these as well, recall snapshot %3."),
+                                                + filled (TRANS ("Differences that stay as in snapshot %2: %1 (choices, switches, vectors, values in "
+                                                                 "subgraphs, and what a wire sets). To change these as well, recall snapshot %3."),
                                                           made->left_out, from, to);
     desk.question.ask (filled (TRANS ("Morph from snapshot %1 to %2?"), from, to), text + left,
                        { { TRANS ("Make the control"), make }, { TRANS ("Cancel"), {} } });

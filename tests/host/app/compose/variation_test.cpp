@@ -123,6 +123,26 @@ TEST_CASE ("a morph says what it cannot move, and needs two snapshots that diffe
     CHECK (again->replaced == std::vector<std::string> { "Morph 1-2" });
 }
 
+TEST_CASE ("a morph leaves switches as they are, so that a click on a mute moves nothing else", "[snapshots]")
+{
+    tactus::test::Sketch s;
+    s.node ("desk", "layer.mix", Json::object(), { { "inputs", 3 } });
+    graph::History h (s.graph);
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, graph::SetParam { "", "desk", "gain", Json::array ({ 1.0, 0.5, 1.0 }) });
+    mustPerform (h, graph::SetParam { "", "desk", "mute", Json::array ({ 0.0, 0.0, 1.0 }) });
+    mustPerform (h, graph::SetParam { "", "desk", "solo", Json::array ({ 0.0, 1.0, 0.0 }) });
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    const auto made = morphBetween (h.graph(), 1, 2, catalogue());
+    REQUIRE (made);
+    CHECK (made->params == 1);
+    CHECK (made->left_out == 2);
+    mustPerform (h, made->command);
+    CHECK (controlOf (h.graph(), "desk.gain[1]"));
+    CHECK_FALSE (controlOf (h.graph(), "desk.mute[2]"));
+    CHECK_FALSE (controlOf (h.graph(), "desk.solo[1]"));
+}
+
 TEST_CASE ("a morph moves what knobs have set, takes their place, and follows the keys of its snapshots", "[snapshots]")
 {
     auto g = loud (1.0);
