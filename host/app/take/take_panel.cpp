@@ -470,6 +470,8 @@ void TakePanel::refresh()
     const bool records = now == Take::State::recording, is_ready = now == Take::State::ready && curve.until() > curve.from();
     record.setToggleState (records, juce::dontSendNotification);
     record.setButtonText (records ? TRANS ("Stop") : TRANS ("Record"));
+    record.setTooltip (records ? TRANS ("End the recording, which becomes the take; the run goes on as it is")
+                               : TRANS ("Start the run again and record it, from its first tick on"));
     for (auto* b : { &clip, &test })
         b->setEnabled (is_ready);
     gesture.setEnabled (is_ready && ! recording.role().empty());

@@ -107,7 +107,7 @@ private:
     Traces::Client latest { playback.run().traces() };   // what the curve shows while it is recorded
     Take recording;
     TakePlot curve;
-    ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle, TRANS ("Start the run again and record it, from its first tick on") };
+    ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle };
     ToolButton list { TRANS ("Takes"), ToolButton::Kind::framed, TRANS ("All takes since the window was opened: show, save or open one") };
     ToolButton clip { TRANS ("Make a clip..."), ToolButton::Kind::framed, TRANS ("Save the marked stretch of this port as a clip that signal.clip plays") };
     ToolButton gesture { TRANS ("Make a gesture..."), ToolButton::Kind::framed,

@@ -80,8 +80,14 @@ TEST_CASE ("a take shows its curve while it records, Stop ends the take and not 
     w.desk.chooseFile = [&] (bool, const std::filesystem::path& begin, const auto& chosen) { chosen (w.home / begin.filename().string()); };
     REQUIRE (w.start());
     const auto ticks = [&] { return run.status() ? run.status()->ticks : 0; };
+    const auto says = [&] (const char* button, const char* beginning) {
+        auto* b = OnStage::buttonIn (panel, button);
+        return b != nullptr && b->getTooltip().startsWith (beginning);
+    };
+    CHECK (says ("Record", "Start the run again"));
     w.click ("Record");
     REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > 0.05; }));
+    CHECK (says ("Stop", "End the recording"));
     w.click ("Stop");
     REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
     CHECK (run.isRunning());
