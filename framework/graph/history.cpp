@@ -49,6 +49,7 @@ Result<> History::perform (Command command, Step step)
 {
     if (batch && batch->failure) return *batch->failure;
     identify (edited, command);
+    const auto called = edited.name;
     auto inverse = carryOut (command);
     if (! inverse)
     {
@@ -64,13 +65,14 @@ Result<> History::perform (Command command, Step step)
     if (! batch)
     {
         dropUndone();
-        if (step == Step::own || steps.empty())
+        if (step != Step::joined || steps.empty())
         {
             steps.push_back ({ nameOf (command), {}, {} });
             ++done;
         }
     }
     auto& last = batch ? batch->step : steps.back();
+    if (step == Step::of_another_graph || edited.name != called) last.names_graph = true;
     if (! last.commands.empty() && merge (last.commands.back(), command)) return {};
     last.commands.push_back (std::move (command));
     last.inverses.push_back (*std::move (inverse));
@@ -113,17 +115,22 @@ bool History::removeEmptyStep (std::size_t step)
 bool History::undo()
 {
     if (batch || done == 0) return false;
-    auto& [name, commands, inverses] = steps[--done];
-    for (auto i = inverses.size(); i-- > 0;)
-        commands[i] = *apply (edited, inverses[i], Checks::none);   // redoing it brings back the same ids
+    auto& step = steps[--done];
+    const auto called = edited.name;
+    for (auto i = step.inverses.size(); i-- > 0;)
+        step.commands[i] = *apply (edited, step.inverses[i], Checks::none);   // redoing it brings back the same ids
+    if (! step.names_graph) edited.name = called;
     return true;
 }
 
 bool History::redo()
 {
     if (batch || done == steps.size()) return false;
-    for (const auto& command : steps[done++].commands)
-        (void)apply (edited, command, Checks::none);
+    auto& step = steps[done++];
+    const auto called = edited.name;
+    for (std::size_t i = 0; i < step.commands.size(); ++i)
+        step.inverses[i] = *apply (edited, step.commands[i], Checks::none);   // undoing it brings back the same name
+    if (! step.names_graph) edited.name = called;
     return true;
 }
 

@@ -15,7 +15,8 @@ namespace tactus::graph
 enum class Step
 {
     own,
-    joined
+    joined,
+    of_another_graph   ///< its own, from one graph to another, so undo and redo bring back the name
 };
 
 /// A graph with its undo history. The graph changes only through this class, so undo and redo cannot fail. [main thread]
@@ -78,6 +79,7 @@ private:
     {
         std::string name;
         std::vector<Command> commands, inverses;   ///< by edit of the step: its command and its inverse
+        bool names_graph = false;                  ///< undo and redo bring back the name of the graph
     };
 
     /// The edits so far. After a failure, they have been taken back.

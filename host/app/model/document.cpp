@@ -59,7 +59,7 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
 {
     auto saved = source.is_changed ? std::string() : writeGraph (g);
     const auto to = std::make_shared<const graph::Graph> (std::move (g));
-    (void)edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } });   // cannot be refused
+    (void)edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } }, graph::Step::of_another_graph);   // cannot be refused
     origins.resize (edits.position());
     if (window_steps.size() >= edits.position()) window_steps.resize (edits.position() - 1);
     origins.push_back (std::make_shared<Origin> (Origin { std::move (source), std::move (saved) }));

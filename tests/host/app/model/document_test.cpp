@@ -37,6 +37,36 @@ TEST_CASE ("undoing an open brings back the previous graph with its file and edi
     CHECK (d.graph().name == "Soft pad");
 }
 
+TEST_CASE ("undo and redo keep the name that a graph gets with its file, also where nodes are grouped, but not that of another graph")
+{
+    Document d (graphOf ("dry_wood.json"));
+    REQUIRE (d.perform (graph::CollapseNodes { "", { "drag", "grain" }, "wood", "wood" }));
+    d.undo();
+    d.call ("Kb5");
+    d.redo();
+    CHECK (d.graph().name == "Kb5");
+    d.undo();
+    CHECK (d.graph().name == "Kb5");
+
+    auto other = graphOf ("soft_pad.json");
+    other.name = "Kb5";
+    d.open (std::move (other), {}, "open another Kb5");
+    d.call ("Mine");
+    d.undo();
+    CHECK (d.graph().name == "Kb5");
+    d.call ("Kb6");
+    d.redo();
+    CHECK (d.graph().name == "Mine");
+    d.undo();
+    CHECK (d.graph().name == "Kb6");
+
+    REQUIRE (d.perform (graph::SetHeader { .name = "Typed" }));
+    d.undo();
+    CHECK (d.graph().name == "Kb6");
+    d.redo();
+    CHECK (d.graph().name == "Typed");
+}
+
 TEST_CASE ("the version of a document tells whether more has changed than where nodes are")
 {
     TemporaryFolder folder;
