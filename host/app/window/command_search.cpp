@@ -128,13 +128,14 @@ void CommandSearch::addTabsAndButtons (std::vector<Action>& all)
     });
 }
 
-/// Adds the nodes of all patches that can be shown, in the order of the list of nodes to add. A node is found by its name, and as its type is found there.
+/// Adds the nodes of all patches that can be shown, those of the patch in view first, in the order of the list of nodes to add. A node is found by its name,
+/// and as its type is found there.
 void CommandSearch::addNodes (std::vector<Action>& all)
 {
     if (parts.welcome.isVisible()) return;
     const auto& graph = parts.edited.graph();
     const auto types = paletteTypes (graph, parts.catalogue);
-    std::vector<std::pair<std::size_t, Action>> found;   // with the number of the type
+    std::vector<std::pair<std::pair<bool, std::size_t>, Action>> found;   // out of view, and the number of the type
     std::vector<std::string> patches { {} };
     for (std::size_t i = 0; i < patches.size(); ++i)
     {
@@ -156,7 +157,7 @@ void CommandSearch::addNodes (std::vector<Action>& all)
                 if (const auto* node = canvas.scene().find (id)) canvas.bringIntoView (node->bounds());
             };
             Action way { fromUtf8 (path), about, show, n.type + " (" + path + ')', std::move (searched) };
-            found.emplace_back (static_cast<std::size_t> (type - types.begin()), std::move (way));
+            found.emplace_back (std::pair { in != parts.patching.patch(), static_cast<std::size_t> (type - types.begin()) }, std::move (way));
         }
     }
     std::ranges::stable_sort (found, {}, [] (const auto& f) { return f.first; });

@@ -116,6 +116,29 @@ TEST_CASE ("Ctrl+K finds a node by its name and by its type, in a group, too, an
     CHECK (d.canvas().selection() == Selection { d.id ("board") });
 }
 
+TEST_CASE ("Ctrl+K finds the node with exactly this name first in what the canvas shows", "[app][keyboard]")
+{
+    SearchDesk d ("dry_wood.json");
+    graph::Patch inside;
+    graph::Node grain;
+    grain.name = "grain";
+    grain.type = "contact.impact";   // earlier in the list than a texture
+    inside.nodes.push_back (grain);
+    REQUIRE (d.w.view->document().perform (graph::AddSubgraph { "paper", inside }));
+    graph::Node paper;
+    paper.name = "paper";
+    paper.type = "graph:paper";
+    REQUIRE (d.w.view->document().perform (graph::AddNode { "", paper }));
+    for (const char* first : { "grain", "paper/grain" })
+    {
+        const auto listed = d.listed ("ctrl + k", "grain");
+        REQUIRE_FALSE (listed.empty());
+        CHECK (listed.front().name == first);
+        d.w.key ("escape");
+        d.choose ("ctrl + k", "paper/grain");   // into the group
+    }
+}
+
 TEST_CASE ("the same words find the same nodes in the same order, to add, to wire and to go to", "[app][keyboard]")
 {
     const TemporaryFolder folder;
