@@ -4,6 +4,7 @@
 #include <host/app/canvas/actions.hpp>
 #include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/sinks.hpp>
+#include <host/app/layers/mixer.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
@@ -75,6 +76,22 @@ void addGraph (const Desk& desk, const graph::Graph& added, const compose::Parts
     choices.push_back ({ TRANS ("Cancel"), {} });
     desk.question.ask (filled (TRANS ("Where do you feel '%1'?"), printableName (added.name)),
                        TRANS ("Choose a device of this graph for each of its tools."), std::move (choices));
+}
+
+void pasteLayer (const Desk& desk, const graph::Graph& copied)
+{
+    auto lifted = copied;
+    const auto isSink = [] (const graph::Node& n) { return ! compose::sinkPortsOf (n).empty(); };
+    if (! compose::liftSinks (lifted) || std::ranges::any_of (lifted.root.nodes, isSink)) return addGraph (desk, copied);
+    endTyping();
+    Selection made;
+    const auto layer = addCopiedLayer (desk.document.graph(), desk.canvas.patch(), desk.types, copied, made);
+    if (! layer) return desk.refuse (messageText (layer.error()));
+    if (! desk.canvas.commands().performBeside (layer->command, made)) return;
+    desk.turnToCanvas();
+    desk.canvas.select (made);
+    takeFocus (desk.canvas);
+    desk.notify (layer->missing.empty() ? TRANS ("Pasted as a layer. One undo takes it away.") : filled ("%1.", layer->missing));
 }
 
 void askForAdded (const Desk& desk)

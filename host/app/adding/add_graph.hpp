@@ -13,6 +13,9 @@ void addGraph (const Desk&, const std::filesystem::path&, const compose::Parts& 
 /// The same with a graph that is loaded. Something must be open. [main thread]
 void addGraph (const Desk&, const graph::Graph&, const compose::Parts& = {}, std::optional<juce::Point<float>> at = {});
 
+/// Adds a copied graph with a motor as above. What has none becomes a layer of a mixer of the patch that the canvas shows. [main thread]
+void pasteLayer (const Desk&, const graph::Graph&);
+
 void askForAdded (const Desk&);   ///< asks for the file of the graph to add
 
 }   // namespace tactus::host

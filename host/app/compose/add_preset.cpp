@@ -191,7 +191,7 @@ Result<AddedPreset> addPreset (const graph::Graph& open, graph::Graph added, con
         return Message::error ("compose/no_part", {}, filled (TRANS ("%1 has no effect of this kind"), called).toStdString(),
                                TRANS ("add all of it").toStdString());
     if (sinks->empty())
-        return Message::error ("compose/no_motor", {}, filled (TRANS ("nothing in %1 goes to a motor, so it cannot be a layer"), called).toStdString(),
+        return Message::error ("compose/no_motor", {}, filled (TRANS ("nothing added from %1 goes to a motor, so it cannot be a layer"), called).toStdString(),
                                TRANS ("wire its forces to a motor first").toStdString());
 
     auto taken = subgraphsOf (*after);

@@ -173,7 +173,7 @@ void MainView::connect()
     canvas.onProbe = [this] (const auto& ports) { parts.desk.probe (ports); };
     canvas.onGraphDropped = [this] (const std::filesystem::path& file, juce::Point<float> at) { addGraph (parts.desk, file, {}, at); };
     canvas.completeRemoval = [this] (graph::Batch removal) { return compose::withLeftovers (parts.edited.graph(), std::move (removal), parts.catalogue); };
-    canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (parts.desk, g); };
+    canvas.onLayerPasted = [this] (const graph::Graph& g) { pasteLayer (parts.desk, g); };
     canvas.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (parts.desk, type, request); };
     canvas.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (parts.desk, file); };
 

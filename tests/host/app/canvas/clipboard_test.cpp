@@ -2,7 +2,9 @@
 // The clipboard between two graphs, and text that strangers put there.
 #include "host/app/support/desk_stage.hpp"
 
+#include <host/app/compose/add_preset.hpp>
 #include <host/app/compose/banks.hpp>
+#include <host/app/layers/mixer.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -66,6 +68,49 @@ TEST_CASE ("a graph that is copied in one window becomes a layer in another one,
     OnStage::settle();
     CHECK (std::ranges::count (w.graph().root.nodes, "device.force", &graph::Node::type) == 2);
     CHECK (w.status.text().contains ("Ctrl+Shift+V"));
+}
+
+TEST_CASE ("a copied layer becomes one more layer, with the inputs of the original, in one undo step", "[app][canvas][clipboard]")
+{
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+    const auto pad = loadGraph (TACTUS_SOURCE_DIR "/graphs/soft_pad.json").graph;
+    const auto added = compose::addPreset (g, pad, { .roles = compose::roleMaps (g, pad).front() }, catalogue());
+    REQUIRE (added);
+    REQUIRE (graph::apply (g, added->command));
+    const auto layers = static_cast<std::size_t> (layersOf (*g.root.find ("desk"), catalogue()));
+    DeskStage w (g);
+    const auto before = writeGraph (w.graph());
+    const auto wiresInto = [&] (const std::string& node) {
+        return std::ranges::count (w.graph().root.wires, node, [] (const graph::Wire& wire) { return wire.to.node; });
+    };
+    for (const auto& name : { std::string ("drag"), added->block })   // a node, and a preset
+    {
+        INFO (name);
+        w.canvas.grabKeyboardFocus();
+        w.canvas.select ({ w.graph().root.find (name)->id });
+        w.key ("ctrl + c");
+        w.key ("ctrl + shift + v");
+        OnStage::settle();
+        INFO (w.status.text());
+        const auto* copy = w.graph().root.find (name + "_2");
+        REQUIRE (copy != nullptr);
+        CHECK (hasMotorLayers (w.graph(), layers + 1));
+        CHECK (wiresInto (copy->name) == wiresInto (name));
+        CHECK (w.canvas.selection() == Selection { copy->id });
+        const auto last = mixersOf (w.graph()).front();
+        const auto* wire = wireInto (w.graph(), last, static_cast<int> (layers));
+        REQUIRE (wire != nullptr);
+        CHECK (wire->from.node == copy->name);
+        w.key ("ctrl + z");
+        CHECK (writeGraph (w.graph()) == before);
+    }
+
+    w.canvas.select ({ w.graph().root.find ("hand")->id });
+    w.key ("ctrl + c");
+    w.key ("ctrl + shift + v");
+    OnStage::settle();
+    CHECK (w.status.text().contains ("the copied nodes"));
+    CHECK (writeGraph (w.graph()) == before);
 }
 
 TEST_CASE ("relative files of copied nodes are found from the other graph's folder", "[app][canvas][clipboard]")

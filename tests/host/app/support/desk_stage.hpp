@@ -158,7 +158,7 @@ private:
             host::addNode (desk, type, { canvas.view().toCanvas (canvas.getLocalBounds().getCentre().toFloat()) });
         };
         canvas.completeRemoval = [this] (graph::Batch removal) { return compose::withLeftovers (document.graph(), std::move (removal), catalogue()); };
-        canvas.onLayerPasted = [this] (const graph::Graph& g) { addGraph (desk, g); };
+        canvas.onLayerPasted = [this] (const graph::Graph& g) { pasteLayer (desk, g); };
         inspector.onModulate = [this] (const auto& node, const auto& param, const auto& type) { canvas.commands().addModulator (node, param, type); };
         inspector.messagesNow = [this] { return playback.run().messages(); };
         inspector.valuesNow = [this] (const std::string& param) { return live.valuesOf (param); };
