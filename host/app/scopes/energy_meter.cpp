@@ -4,6 +4,7 @@
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -52,37 +53,79 @@ void EnergyMeter::begin (const Sources& s)
     has_last = was_gap = false;
     last_step = {};
     const auto& reference = *s.position.front();
-    const bool is_same_run = ! read.empty() && read.front().get() == &reference && begun == reference.beginnings();
+    const bool is_same_run = ! read.position.empty() && read.position.front().get() == &reference && begun == reference.beginnings();
     begun = reference.beginnings();
     first = is_same_run ? next : 0;
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
             first = std::max (first, is_reset ? t->end() : t->begin());
     next = first;
+    read = s;
+    lost.assign (s.dissipated.size(), std::nan (""));
+    kept = 0.0;
     is_reset = false;
 }
 
 void EnergyMeter::follow (const Sources& s)
 {
     if (s.position.size() != 3 || s.applied.size() != 3) return;
-    TraceList all;
-    for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
-        all.insert (all.end(), list->begin(), list->end());
-    auto end = all.front()->end();
-    for (const auto& t : all)
-        end = std::min (end, t->end());
-    if (is_reset || all != read || all.front()->beginnings() != begun || all.front()->begin() > next)   // ticks that are no longer stored are lost
-    {
+    const auto& reference = *s.position.front();
+    if (is_reset || s.position != read.position || s.applied != read.applied || reference.beginnings() != begun
+        || reference.begin() > next)   // ticks that are no longer stored are lost
         begin (s);
-        read = std::move (all);
-    }
-    for (; next < end; ++next)
-        add (vectorAt (s.position, next), vectorAt (s.applied, next), sumAt (s.stored, next), sumAt (s.dissipated, next));
+    readOn();   // what nodes that are gone have left
+    takeNodes (s);
+    readOn();
 }
 
-void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 3>& f, double in, double lost)
+void EnergyMeter::readOn()
 {
-    if (! isWhole (p) || ! isWhole (f) || ! std::isfinite (in) || ! std::isfinite (lost))
+    auto end = read.position.front()->end();
+    for (const auto* list : { &read.position, &read.applied, &read.stored, &read.dissipated })
+        for (const auto& t : *list)
+            end = std::min (end, t->end());
+    for (; next < end; ++next)
+        add (vectorAt (read.position, next), vectorAt (read.applied, next), sumAt (read.stored, next));
+}
+
+void EnergyMeter::takeNodes (const Sources& s)
+{
+    std::vector<double> of_these (s.dissipated.size(), std::nan (""));
+    for (std::size_t i = 0; i < read.dissipated.size(); ++i)
+    {
+        const auto same = std::ranges::find (s.dissipated, read.dissipated[i]);
+        if (same != s.dissipated.end())
+            of_these[static_cast<std::size_t> (same - s.dissipated.begin())] = lost[i];
+        else if (std::isfinite (lost[i]))
+            kept += lost[i];
+    }
+    lost = std::move (of_these);
+    read = s;
+}
+
+/// The energy dissipated since the first tick. A node that is new counts from its first value on; one that is bypassed or replaced falls to 0, and what it
+/// has dissipated before stays in the sum.
+double EnergyMeter::dissipatedAt (std::uint64_t tick)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < lost.size(); ++i)
+    {
+        const double value = at (*read.dissipated[i], tick);
+        if (! std::isfinite (value)) return value;
+        if (std::isnan (lost[i]))
+            kept -= value;
+        else if (value == 0.0)
+            kept += lost[i];
+        lost[i] = value;
+        sum += value;
+    }
+    return sum + kept;
+}
+
+void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 3>& f, double in)
+{
+    const double heat = isWhole (p) && isWhole (f) && std::isfinite (in) ? dissipatedAt (next) : std::nan ("");
+    if (! std::isfinite (heat))
     {
         now.gaps += has_last;
         was_gap = true;
@@ -105,12 +148,9 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
         now.worst = std::min (now.worst, now.work);
     }
     else
-    {
         now.stored_first = in;
-        lost_first = lost;
-    }
     now.stored = in;
-    now.dissipated = lost - lost_first;
+    now.dissipated = heat;
     now.seconds = static_cast<double> (next - first + 1) / work->rate();
     has_last = true;
     was_gap = false;

@@ -42,8 +42,8 @@ public:
         TraceList stored, dissipated;
     };
 
-    /// Processes the new ticks. Begins again if it gets different traces, or those of a new run; in the same run, what it has read does not
-    /// count again.
+    /// Processes the new ticks. Begins again if it gets different traces of the hand, or those of a new run; in the same run, what it has read
+    /// does not count again. What nodes have dissipated stays in the sum when they are bypassed or removed.
     void follow (const Sources&);
     void restart();   ///< from zero; what the traces of this run hold already does not count
 
@@ -54,17 +54,21 @@ public:
 
 private:
     void begin (const Sources&);
-    void add (const std::array<double, 3>& position, const std::array<double, 3>& force, double stored_now, double lost_now);
+    void readOn();                     // as far as the traces in `read` go
+    void takeNodes (const Sources&);   // goes on with these traces of nodes
+    double dissipatedAt (std::uint64_t tick);
+    void add (const std::array<double, 3>& position, const std::array<double, 3>& force, double stored_now);
 
     EnergyBalance now;
-    TraceList read;   // the traces that the last follow() read
+    Sources read;   // by the last follow()
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
     std::uint64_t first = 0, next = 0;   // the first tick that counts, and the one to read next
     std::uint64_t begun = 0;             // beginnings of the first trace
     bool has_last = false, was_gap = false, is_reset = false;
     std::array<double, 3> last {}, last_force {}, last_step {};
-    double lost_first = 0.0;
+    std::vector<double> lost;   // the latest value of each trace in `read.dissipated`; nan before the first
+    double kept = 0.0;          // added to their sum
 };
 
 /// "passive over 2.5 s: work of the hand 3.1 mJ, 0.4 mJ stored, 2.7 mJ dissipated"

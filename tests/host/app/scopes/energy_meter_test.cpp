@@ -203,12 +203,55 @@ TEST_CASE ("scopes: a reset counts from now on, and says over what time", "[app]
     CHECK (meter.balance().dissipated == Approx (heat.at (11'999) - heat.at (8000)));
     CHECK (meter.balance().dissipated < 0.75 * heat.at (7999));
     CHECK (describe (meter.balance()).starts_with ("passive over 1.0\u00a0s: "));
+}
 
-    auto with_another = rubbed.r.sources();   // an edit adds a node: another balance begins, and what was before does not count in it
-    with_another.dissipated.push_back (traceOf (std::vector<double> (12'000, 0.0), 0, 4000.0));
-    meter.follow (with_another);
-    CHECK (meter.balance().dissipated == 0.0);
-    CHECK (meter.balance().work == 0.0);
+TEST_CASE ("scopes: what a node has dissipated stays in the sum while it is bypassed, and after that", "[app][scopes]")
+{
+    Rubbed rubbed;
+    auto& meter = rubbed.meter;
+    const bool is_reset = GENERATE (false, true);
+    if (is_reset)
+    {
+        meter.restart();
+        rubbed.more (0);
+    }
+    rubbed.more (4000);
+    const auto before = meter.balance();
+    const Vec3 rest (rubbed.r.position[0]->at (11'999), rubbed.r.position[1]->at (11'999), 0.0);
+    for (int k = 0; k < 400; ++k)
+        rubbed.r.add (rest, Vec3::Zero(), 0.0, 0.0);
+    rubbed.more (0);
+    CHECK (meter.balance().dissipated == Approx (before.dissipated));
+    CHECK (meter.balance().elsewhere() == Approx (before.stored).margin (0.01 * before.moved));   // a bypassed node lets go of what it stored
+    auto again = bristle();                                                                       // a node that is no longer bypassed begins anew
+    rub (rubbed.r, again, 4000);
+    rubbed.more (0);
+    CHECK (meter.balance().dissipated == Approx (before.dissipated + rubbed.r.dissipated->at (16'399)));
+    CHECK (meter.balance().elsewhere() == Approx (before.stored).margin (0.01 * before.moved));
+}
+
+TEST_CASE ("scopes: the balance goes on when an edit adds or removes a node", "[app][scopes]")
+{
+    Rubbed rubbed;
+    auto& meter = rubbed.meter;
+    const auto before = meter.balance();
+    const auto follow = [&] (const TraceList& dissipated) {
+        auto sources = rubbed.r.sources();
+        sources.dissipated = dissipated;
+        meter.follow (sources);
+    };
+    const auto another = traceOf (std::vector<double> (12'000, 7.0), 0, 4000.0);   // has dissipated 7 J before it is seen
+    follow ({ rubbed.r.dissipated, another });
+    rub (rubbed.r, rubbed.node, 2000);
+    follow ({ rubbed.r.dissipated, another });
+    CHECK (meter.balance().dissipated == Approx (rubbed.r.dissipated->at (9999)));
+    CHECK (meter.balance().work > before.work);
+    rub (rubbed.r, rubbed.node, 400);   // not read before the node goes
+    follow ({ another });
+    CHECK (meter.balance().dissipated == Approx (rubbed.r.dissipated->at (10'399)));
+    follow ({});
+    CHECK (meter.balance().dissipated == Approx (rubbed.r.dissipated->at (10'399)));
+    CHECK (describe (meter.balance()).starts_with ("passive over 2.6\u00a0s: "));
 }
 
 TEST_CASE ("scopes: the energy of a run that begins again in the same traces counts from its first tick", "[app][scopes]")
