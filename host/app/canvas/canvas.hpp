@@ -95,7 +95,7 @@ public:
 
     /// Opens a text editor over part of the canvas. If `done` refuses the text, by false, Return leaves it for another try. Tab ends the editor and
     /// calls `next`, Shift+Tab with -1 instead of 1.
-    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+    void openEditor (juce::Rectangle<float> area, const juce::String& text, TextOverlay::Kind kind, std::function<bool (const juce::String&)> done,
                      std::function<void (int step)> next = {});
 
     void showLive (LiveState);   ///< call many times a second; repaints only what has changed

@@ -450,7 +450,8 @@ void CanvasCommands::editNote (std::size_t i)
     const auto& note = canvas.scene().notes()[i];
     const auto area = note.isRegion() ? note.area.withHeight (Box::header_height) : note.area;
     const auto typed = std::make_shared<TypedStep> (document);
-    canvas.openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i, typed] (const juce::String& text) {
+    const auto kind = note.isRegion() ? TextOverlay::Kind::title : TextOverlay::Kind::lines;
+    canvas.openEditor (area, juce::String::fromUTF8 (note.text.c_str()), kind, [this, i, typed] (const juce::String& text) {
         auto notes = canvas.scene().notes();
         if (i >= notes.size() || notes[i].text == text.toStdString()) return true;
         notes[i].text = text.toStdString();
@@ -470,7 +471,7 @@ void CanvasCommands::renameSelection()
         const auto name = asNodeName (text);
         return node == nullptr || name == node->name || perform (graph::RenameNode { canvas.patch(), node->name, name });
     };
-    canvas.openEditor (nodes[0]->bounds().withHeight (Box::header_height), juce::String (nodes[0]->name), false, done);
+    canvas.openEditor (nodes[0]->bounds().withHeight (Box::header_height), juce::String (nodes[0]->name), TextOverlay::Kind::value, done);
 }
 
 bool CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
@@ -500,7 +501,7 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
         }
         return setParam (*param.node, *param.port, *value);
     };
-    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, false, apply, [this, id] (int step) { editParamBeside (id, step); });
+    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, TextOverlay::Kind::value, apply, [this, id] (int step) { editParamBeside (id, step); });
 }
 
 /// Edits the next param of the node that can be typed, or with a step of -1 the previous one.

@@ -242,11 +242,11 @@ bool Canvas::keyPressed (const juce::KeyPress& key)
     return is_known;
 }
 
-void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, TextOverlay::Kind kind, std::function<bool (const juce::String&)> done,
                          std::function<void (int)> next)
 {
     const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
-    text_editor.open (box, text, several_lines, std::move (done), std::move (next));
+    text_editor.open (box, text, kind, std::move (done), std::move (next));
 }
 
 }   // namespace tactus::host

@@ -10,14 +10,15 @@
 namespace tactus::host
 {
 
-void TextOverlay::open (juce::Rectangle<int> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+void TextOverlay::open (juce::Rectangle<int> area, const juce::String& text, Kind kind, std::function<bool (const juce::String&)> done,
                         std::function<void (int)> next)
 {
     close (true);
+    const bool is_value = kind == Kind::value;
     on_edited = std::move (done);
     on_tab = std::move (next);
     editor = std::make_unique<juce::TextEditor>();
-    editor->setMultiLine (several_lines);
+    editor->setMultiLine (kind == Kind::lines);
     editor->setReturnKeyStartsNewLine (false);
     editor->setFont (lookOf (owner).font (13.0f));
     editor->setText (text, false);
@@ -31,11 +32,11 @@ void TextOverlay::open (juce::Rectangle<int> area, const juce::String& text, boo
         editor->setColour (juce::TextEditor::focusedOutlineColourId, themeOf (owner).stop);
         editor->selectAll();
     };
-    editor->onEscapeKey = [this, several_lines] {
-        close (several_lines);
+    editor->onEscapeKey = [this, is_value] {
+        close (! is_value);
         if (onEscape) onEscape();
     };
-    if (several_lines)
+    if (! is_value)
         typing.emplace (*editor, [this] {
             const auto apply = on_edited;
             apply (editor->getText());

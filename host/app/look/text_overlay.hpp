@@ -16,11 +16,19 @@ namespace tactus::host
 class TextOverlay
 {
 public:
+    /// What is edited.
+    enum class Kind
+    {
+        value,   ///< one line, which is used as a whole
+        title,   ///< one line that is also passed on while it is being typed
+        lines    ///< several such lines
+    };
+
     explicit TextOverlay (juce::Component& over) : owner (over) {}
 
-    /// Ends another edit first. If `done` refuses the text, by false, Return leaves the field for another try. Esc discards the text, but keeps one of several
-    /// lines, of which much may have been typed. `next` is for tab().
-    void open (juce::Rectangle<int> area, const juce::String& text, bool several_lines, std::function<bool (const juce::String&)> done,
+    /// Ends another edit first. If `done` refuses the text, by false, Return leaves the field for another try. Esc discards a value, but keeps a title
+    /// or lines, which have been passed on. `next` is for tab().
+    void open (juce::Rectangle<int> area, const juce::String& text, Kind kind, std::function<bool (const juce::String&)> done,
                std::function<void (int step)> next);
     void close (bool keeps_text);
     bool isOpen() const noexcept { return editor != nullptr; }
@@ -31,7 +39,7 @@ public:
 private:
     juce::Component& owner;
     std::unique_ptr<juce::TextEditor> editor;
-    std::optional<TypingTimer> typing;   // of several lines
+    std::optional<TypingTimer> typing;   // unless a value is edited
     std::function<bool (const juce::String&)> on_edited;
     std::function<void (int step)> on_tab;
 };

@@ -47,10 +47,13 @@ TEST_CASE ("F2 renames the selected node where it is, and makes a name of what i
     CHECK (rig.document.history().names().size() == 1);
 }
 
-TEST_CASE ("the text of a note is in the graph while it is typed, as one step of the history", "[app][canvas]")
+TEST_CASE ("the text of a note or of a region is in the graph while it is typed, as one step of the history", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const bool is_region = GENERATE (false, true);
+    if (is_region) rig.hand().click (rig.title ("drag"));
     rig.hand().key ("n");
+    REQUIRE (rig.canvas->scene().notes().at (0).isRegion() == is_region);
     const auto isText = [&] (const std::string& text) { return rig.canvas->scene().notes().at (0).text == text; };
     for (const char* text : { "a thought", "a thought, and another" })
     {
