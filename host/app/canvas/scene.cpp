@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace tactus::host
@@ -57,11 +58,11 @@ Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& s
     const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
     is_routed = ! wires_may_stay || all_nodes.size() <= most_moving || all_nodes.size() > most_routed;
-    layOut (graph, seen, *patch, kept, widthOf, &before);
+    layOut (graph, seen, *patch, kept, widthOf, &before, wires_may_stay);
 }
 
 void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, KeptPlaces& kept, const TextWidth& widthOf,
-                    const Scene* before)
+                    const Scene* before, bool is_dragged)
 {
     all_notes = notesOf (graph, seen.name);
     place (patch, kept);
@@ -71,7 +72,7 @@ void Scene::layOut (const graph::Graph& graph, const SeenPatch& seen, const grap
         w.from = a.at + leaveOf (w);
         w.to = b.at + entryOf (w);
     }
-    routeWires (before);
+    routeWires (before, is_dragged);
     addExposed (patch, widthOf);
 }
 
@@ -298,18 +299,27 @@ void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
     add (patch.expose.outputs, Role::output);
 }
 
+/// The nodes that wires are routed around: all but an unconnected one that is being dragged, because the user may be about to insert it into a wire.
+std::vector<bool> Scene::obstacles (const Scene* before, bool is_dragged) const
+{
+    std::vector<bool> all (all_nodes.size(), true);
+    if (! is_dragged) return all;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = before->all_nodes[i].at == all_nodes[i].at;
+    for (const auto& w : all_wires)
+        all[at (w.start)] = all[at (w.end)] = true;
+    return all;
+}
+
 /// Wires that stay as they were before are routed first, so that the others run beside them.
-void Scene::routeWires (const Scene* before)
+void Scene::routeWires (const Scene* before, bool is_dragged)
 {
     if (all_nodes.size() > most_routed) return;
     const auto stays = [&] (const SceneWire& w) {
         const auto isThere = [&] (int node) { return before->all_nodes[at (node)].at == all_nodes[at (node)].at; };
         return ! is_routed && isThere (w.start) && isThere (w.end);
     };
-    // Wires are not routed around an unconnected node: the user may be about to insert it into one of them.
-    std::vector<bool> joined (all_nodes.size());
-    for (const auto& w : all_wires)
-        joined[at (w.start)] = joined[at (w.end)] = true;
+    const auto is_obstacle = obstacles (before, is_dragged);
     // Parallel wires run side by side.
     constexpr float apart = 6.0f;
     std::map<int, std::vector<std::pair<juce::Point<float>, juce::Point<float>>>> taken;   // by level
@@ -332,7 +342,7 @@ void Scene::routeWires (const Scene* before)
         if (w.has_bends || stays (w)) continue;
         std::vector<juce::Rectangle<float>> others;
         for (std::size_t i = 0; i < all_nodes.size(); ++i)
-            if (joined[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());
+            if (is_obstacle[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());
         w.waypoints = routeAround (w.from, w.to, all_nodes[at (w.start)].bounds(), all_nodes[at (w.end)].bounds(), others);
         for (std::size_t i = 0; i + 1 < w.waypoints.size(); i += 2)
         {
@@ -343,6 +353,7 @@ void Scene::routeWires (const Scene* before)
             taken[levelOf (a)].emplace_back (a, b);
         }
     }
+    if (! std::ranges::all_of (is_obstacle, std::identity())) is_routed = false;
 }
 
 int Scene::indexOf (const std::string& name) const noexcept

@@ -112,8 +112,9 @@ public:
     /// Nodes without a stored position are arranged automatically. They keep their places while nodes and wires stay the same.
     Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, KeptPlaces&, const TextWidth&);
 
-    /// As above, if nothing but places has changed since another scene was made. In a large patch, wires whose ends are where they were may stay as they were,
-    /// though other nodes have come into their way or left it; isRouted() is false then.
+    /// As above, if nothing but places has changed since another scene was made. While nodes are dragged, wires may stay: in a large patch, those whose ends
+    /// are where they were, though other nodes have come into their way or left it; in any patch, those behind a node without wires that has moved.
+    /// isRouted() is false then.
     Scene (const Scene& before, const graph::Graph&, const SeenPatch&, KeptPlaces&, const TextWidth&, bool wires_may_stay);
     bool isRouted() const noexcept { return is_routed; }
 
@@ -152,7 +153,8 @@ public:
 
 private:
     void addNodes (const graph::Graph&, const SeenPatch&, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
-    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, KeptPlaces&, const TextWidth&, const Scene* before = nullptr);
+    void layOut (const graph::Graph&, const SeenPatch&, const graph::Patch&, KeptPlaces&, const TextWidth&, const Scene* before = nullptr,
+                 bool is_dragged = false);
     std::string shapeFor (const std::vector<bool>& placed) const;
     void place (const graph::Patch&, KeptPlaces&);
     void placeAll();
@@ -161,7 +163,8 @@ private:
     void addWires (const graph::Patch&);
     juce::Point<float> leaveOf (const SceneWire&) const;
     juce::Point<float> entryOf (const SceneWire&) const;
-    void routeWires (const Scene* before);
+    std::vector<bool> obstacles (const Scene* before, bool is_dragged) const;
+    void routeWires (const Scene* before, bool is_dragged);
     void addExposed (const graph::Patch&, const TextWidth&);
     int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node
 

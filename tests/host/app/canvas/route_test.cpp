@@ -279,3 +279,31 @@ TEST_CASE ("while a node of a large patch is dragged, only its own wires are rou
     CHECK (rig.canvas->cancelDrag());
     CHECK (isAsMadeAnew());
 }
+
+TEST_CASE ("a wire goes around a node without wires, but not while that is dragged, so that it can be inserted", "[app][route]")
+{
+    const std::string type = GENERATE ("vector.scale", "signal.lfo");   // an LFO has no input: it cannot be inserted
+    auto read = tactus::readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 2000, "wires": ["wall.force -> motor.force"], "nodes": {
+        "wall": { "type": "deform.plane", "ui": { "at": [0, 0] } }, "free": { "type": ")"
+                                   + type + R"(", "ui": { "at": [400, 0] } },
+        "motor": { "type": "device.force", "role": "stylus", "ui": { "at": [800, 0] } } } })");
+    REQUIRE_FALSE (hasErrors (read.messages));
+    CanvasRig rig { std::move (read.graph) };
+    const auto wire = [&]() -> const SceneWire& { return rig.canvas->scene().wires().front(); };
+    const auto isBehindFree = [&] { return touches (wire().path(), rig.node ("free").bounds()); };
+    CHECK_FALSE (isBehindFree());
+
+    auto hand = rig.hand();
+    const auto home = rig.title ("free"), aside = home.translated (0.0f, 400.0f);
+    hand.press (home);
+    hand.dragTo (home.translated (0.0f, 16.0f));
+    CHECK (isBehindFree());
+    hand.dragTo (aside);
+    hand.release (aside);
+    CHECK (wire().waypoints.empty());
+
+    hand.drag (aside, home);
+    CHECK (rig.hasWire ("wall.force -> free.in") == (type == "vector.scale"));
+    CHECK (rig.hasWire ("wall.force -> motor.force") == (type == "signal.lfo"));
+    CHECK_FALSE (isBehindFree());
+}
