@@ -160,17 +160,16 @@ float TakePlot::yAt (double value) const
     return box.getBottom() - static_cast<float> ((value - low) / (high - low)) * box.getHeight();
 }
 
-/// The pinned curve, in grey, with its name.
+/// The pinned curve, in grey.
 void TakePlot::paintPinned (juce::Graphics& g) const
 {
-    const auto& look = lookOf (*this);
     const auto box = area();
     const auto width = static_cast<std::size_t> (std::max (1.0f, box.getWidth()));
     const auto tickAt = [&] (std::size_t x) {   // counted from its first tick
         const double s = begins() + view_from + viewLength() * static_cast<double> (x) / static_cast<double> (width);
         return s * pinned.rate_hz - static_cast<double> (pinned.from);
     };
-    g.setColour (look.theme().dim.withAlpha (0.7f));
+    g.setColour (themeOf (*this).dim.withAlpha (0.7f));
     for (std::size_t c = 0; c < pinned.names.size(); ++c)
         for (std::size_t x = 0; x < width; ++x)
         {
@@ -182,8 +181,20 @@ void TakePlot::paintPinned (juce::Graphics& g) const
                 if (std::isfinite (pinned.value (k, c))) all.include (pinned.value (k, c));
             if (! all.isEmpty()) g.fillRect (box.getX() + static_cast<float> (x), yAt (all.high), 1.2f, std::max (1.2f, yAt (all.low) - yAt (all.high)));
         }
+}
+
+/// The name of the pinned curve, on a ground of its own: the curves are behind it.
+void TakePlot::paintPinnedName (juce::Graphics& g) const
+{
+    const auto& look = lookOf (*this);
+    const auto name = filled (TRANS ("grey: %1"), pinned_name);
+    const auto box = area().reduced (6.0f, 3.0f);
     g.setFont (look.font (11.0f));
-    g.drawText (filled (TRANS ("grey: %1"), pinned_name), box.reduced (6.0f, 3.0f).toNearestInt(), juce::Justification::bottomRight, false);
+    const auto ground = box.withTop (box.getBottom() - 14.0f).removeFromRight (std::min (box.getWidth(), g.getCurrentFont().getStringWidthFloat (name) + 8.0f));
+    g.setColour (look.theme().canvas);
+    g.fillRoundedRectangle (ground, 2.0f);
+    g.setColour (look.theme().text);
+    g.drawText (name, ground.toNearestInt(), juce::Justification::centred, false);
 }
 
 void TakePlot::paintCurves (juce::Graphics& g) const
@@ -259,6 +270,7 @@ void TakePlot::paint (juce::Graphics& g)
         paintCurves (g);
         paintMark (g);
         paintScale (g);
+        if (showsPinned()) paintPinnedName (g);
     }
     g.setColour (hasKeyboardFocus (false) ? theme.accent : theme.hairline);
     g.drawRoundedRectangle (area(), 4.0f, 1.0f);

@@ -63,6 +63,7 @@ private:
     bool showsPinned() const noexcept { return hasPinned() && pinned.unit == shown.unit && pinned.names.size() == shown.names.size(); }
     void findRange();
     void paintPinned (juce::Graphics&) const;
+    void paintPinnedName (juce::Graphics&) const;
     void paintCurves (juce::Graphics&) const;
     void paintMark (juce::Graphics&) const;
     void paintScale (juce::Graphics&) const;

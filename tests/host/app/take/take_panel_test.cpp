@@ -268,3 +268,28 @@ TEST_CASE ("the axis of a take that is longer than what is shown follows", "[tak
     CHECK ((says ("0 s") && says ("10.00 s")));
     plot.setLookAndFeel (nullptr);
 }
+
+TEST_CASE ("the name of a take that is compared can be read where curves cross it", "[app][take]")
+{
+    TakeRig rig;
+    auto& plot = rig.panel->plot();
+    plot.setBounds (0, 0, 400, 120);
+    Stretch dense { .rate_hz = 1000.0, .until = 4000, .names = { "motor.force" }, .unit = "N" };
+    for (int k = 0; k < 4000; ++k)
+        dense.values.push_back (k % 2 == 0 ? 1.0 : -1.0);   // fills the plot
+    plot.show (dense);
+    plot.pin ("Take 1, motor.force");
+    const auto image = plot.createComponentSnapshot (plot.getLocalBounds());
+    const auto like = [&] (juce::Colour wanted) {
+        int count = 0;
+        for (int y = 90; y < 99; ++y)
+            for (int x = 300; x < 390; ++x)
+            {
+                const auto is = image.getPixelAt (x, y);
+                count += std::abs (is.getRed() - wanted.getRed()) + std::abs (is.getGreen() - wanted.getGreen()) + std::abs (is.getBlue() - wanted.getBlue()) < 60;
+            }
+        return count;
+    };
+    CHECK (like (rig.look.theme().text) > 20);
+    CHECK (like (rig.look.theme().canvas) > 200);
+}
