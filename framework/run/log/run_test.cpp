@@ -78,10 +78,11 @@ std::string unpackedHead (const std::string& head)
     return read.root.is_object() && read.root.erase ("packed") > 0 ? read.root.dump() : head;
 }
 
-/// The lines of a log up to a tick, or all of them, with paths relative to another folder, and the hash of the first graph.
+/// The lines of a log up to a tick, or all of them, with paths relative to another folder, the hash of the first graph, and the tick of the last line.
 struct LogPart
 {
     std::string text, hash;
+    std::uint64_t last = 0;
 };
 
 Result<LogPart> partOf (const std::string& log, std::optional<std::uint64_t> until, const fs::path& folder)
@@ -100,6 +101,7 @@ Result<LogPart> partOf (const std::string& log, std::optional<std::uint64_t> unt
         const auto tick = tickOf (*line);
         if (! tick) return wrongTest ("log/missing", log, number, "the line has no \"tick\"", "use the log unchanged, as `tactus play` wrote it");
         if (until && *tick >= *until) break;
+        part.last = *tick;
         if (hasGraph (*line))
         {
             auto read = readJson (*line);
@@ -199,7 +201,7 @@ Result<> writeRunTest (const std::string& log, const fs::path& test, const Stret
     return file->commit();
 }
 
-Result<> copyRunLog (const std::string& log, const fs::path& to)
+Result<std::uint64_t> copyRunLog (const std::string& log, const fs::path& to)
 {
     const auto all = partOf (log, {}, to.parent_path());
     if (! all) return all.error();
@@ -207,7 +209,8 @@ Result<> copyRunLog (const std::string& log, const fs::path& to)
     if (! file) return file.error();
     file->stream() << all->text;
     if (! file->stream()) return file->writeError();
-    return file->commit();
+    if (auto done = file->commit(); ! done) return done.error();
+    return all->last;
 }
 
 Result<RunTestHead> readRunTestHead (std::istream& in, const std::string& name)

@@ -32,9 +32,9 @@ struct RunTestHead
 Result<> writeRunTest (const std::string& log, const std::filesystem::path& test, const Stretch&, const std::vector<std::string>& records,
                        const std::string& program);
 
-/// Copies the log of a run. Paths of files that nodes use are relative to the copy. Ids: file/unreadable, output/unwritable, and those of
-/// RunLogReader. [main thread]
-Result<> copyRunLog (const std::string& log, const std::filesystem::path& to);
+/// Copies the log of a run, and returns the tick of its last line, which is the length of a run that ended. Paths of files that nodes use are relative
+/// to the copy. Ids: file/unreadable, output/unwritable, and those of RunLogReader. [main thread]
+Result<std::uint64_t> copyRunLog (const std::string& log, const std::filesystem::path& to);
 
 /// Reads the first line. Ids: test/not_a_test, test/newer_version, test/unknown_version, test/value.
 Result<RunTestHead> readRunTestHead (std::istream&, const std::string& name);

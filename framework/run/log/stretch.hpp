@@ -50,6 +50,7 @@ public:
     Result<bool> advance (std::uint64_t ticks);
 
     std::uint64_t tick() const noexcept { return now; }                      ///< the next tick to play
+    double rate() const noexcept { return replay->rate(); }                  ///< Hz
     const graph::Graph& graph() const noexcept { return replay->graph(); }   ///< what is played now
     const std::string& name() const noexcept { return replay->name(); }      ///< of the graph
     const std::vector<Tap>& taps() const { return replay->run().engine().plan().taps(); }

@@ -106,9 +106,12 @@ void Take::noteLength()
 Result<graph::Graph> Take::open (const std::filesystem::path& log, bool copies)
 {
     auto opened = copies ? newRecording() : std::make_shared<Recording>();
+    std::uint64_t ticks = 0;
     if (copies)
     {
-        if (auto copied = copyRunLog (log.string(), opened->file); ! copied) return copied.error();
+        const auto copied = copyRunLog (log.string(), opened->file);
+        if (! copied) return copied.error();
+        ticks = *copied;
     }
     else
     {
@@ -118,6 +121,7 @@ Result<graph::Graph> Take::open (const std::filesystem::path& log, bool copies)
     const auto played = StretchReader::open (opened->file.string(), optionsFor ({}));
     if (! played) return played.error();
     opened->hand = (*played)->firstRole();
+    opened->length_s = static_cast<double> (ticks) / (*played)->rate();
     restore (std::move (opened));
     return (*played)->graph();
 }

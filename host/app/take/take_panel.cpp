@@ -210,7 +210,6 @@ juce::String TakePanel::nameOf (std::size_t take) const
 {
     const auto& r = *all[take].recording;
     auto name = filled (r.is_saved ? TRANS ("Take %1: %2 s") : TRANS ("Take %1: %2 s, not saved"), take + 1, juce::String (r.length_s, 1));
-    if (r.length_s <= 0.0) name = filled (TRANS ("Take %1"), take + 1);   // left by a crash, and not shown yet
     if (r.stays) name = fromUtf8 (printableName (r.file.filename().string()));
     const auto& graph = all[take].graph;
     return graph.empty() || graph == document.graph().name ? name : filled ("%1 (%2)", name, printableName (graph));

@@ -293,3 +293,16 @@ TEST_CASE ("the name of a take that is compared can be read where curves cross i
     CHECK (like (rig.look.theme().text) > 20);
     CHECK (like (rig.look.theme().canvas) > 200);
 }
+
+TEST_CASE ("a take that a crash has left has its length in the list before it is played", "[app][take]")
+{
+    TakeRig rig;
+    rig.record (0.1);
+    const double length = rig.panel->take().seconds();
+    const auto left = rig.panel->take().log();
+    REQUIRE (rig.panel->open (left, true));
+    CHECK (rig.panel->take().log() != left);
+    CHECK (rig.panel->take().seconds() == Approx (length).margin (0.01));
+    CHECK (rig.panel->nameOf (1).startsWith ("Take 2: 0."));
+    CHECK (rig.panel->nameOf (1).endsWith (" s, not saved"));
+}
