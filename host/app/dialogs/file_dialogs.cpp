@@ -79,11 +79,12 @@ struct FileDialogs::SaveWords
     static SaveWords of (const std::filesystem::path& begin)
     {
         if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };
-        if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
-        if (begin.filename().string().starts_with ("take")) return { TRANS ("Save take"), "*.jsonl" };
+        const auto name = begin.filename().string();
+        if (extensionOf (begin) == ".csv") return { name.starts_with ("gesture") ? TRANS ("Save gesture") : TRANS ("Save data"), "*.csv" };
+        if (name.starts_with ("take")) return { TRANS ("Save take"), "*.jsonl" };
         if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
-        if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };
+        if (extensionOf (begin) == ".png") return { name.starts_with ("film") ? TRANS ("Save film") : TRANS ("Save image"), "*.png" };
         if (extensionOf (begin) == ".tactus") return { TRANS ("Share the graph as one file, with the files that it names"), "*.tactus" };
         if (begin.extension().empty()) return { TRANS ("Name a folder for the stems"), "*", saves_in };
         return { TRANS ("Save graph"), "*.json" };

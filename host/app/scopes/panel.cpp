@@ -12,6 +12,7 @@ Panel scopesPanel (Desk& desk)
     auto made = std::make_unique<ScopePanel> (desk.document, desk.playback.run().traces(), desk.types);
     auto* scopes = made.get();
     scopes->onHint = [&desk] (const juce::String& text) { desk.hint (text); };
+    scopes->onChoose = [&desk] (const std::string& name, auto chosen) { desk.chooseOwnFile (name, std::move (chosen)); };
     scopes->selectedPorts = [&desk] { return desk.canvas.commands().selectedPorts(); };
     desk.probe = [&desk, scopes] (const Desk::Ports& ports) {
         scopes->probe (ports);

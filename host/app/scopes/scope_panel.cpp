@@ -2,6 +2,7 @@
 #include "scope_panel.hpp"
 #include "scope_file.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/size_in_view.hpp>
 #include <host/app/model/message_text.hpp>
@@ -357,17 +358,17 @@ void ScopePanel::refresh()
 
 void ScopePanel::save (ScopeView& view, juce::Component& below)
 {
-    const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     const auto& graph = document.graph().name;
     const auto time = juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S");
     const auto name = juce::String (graph.empty() ? "scope" : graph) + " " + titleOf (view.shown().kind).toLowerCase() + time;
     juce::PopupMenu menu;
     const auto add = [&] (const juce::String& label, const char* extension, auto write) {
-        const auto file = folder.getChildFile (juce::File::createLegalFileName (name + extension));
+        const auto file = juce::File::createLegalFileName (name + extension).toStdString();
         menu.addItem (label, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file, write] {
-            if (safe == nullptr || which == nullptr) return;
-            file.getParentDirectory().createDirectory();
-            safe->report (write (*which, file.getFullPathName().toStdString()), file);
+            if (safe == nullptr || ! safe->onChoose) return;
+            safe->onChoose (file, [safe, which, write] (const std::filesystem::path& to) {
+                if (safe != nullptr && which != nullptr) safe->report (write (*which, to), to);
+            });
         });
     };
     add (TRANS ("Image (PNG)"), ".png", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveImage (p); });
@@ -375,9 +376,9 @@ void ScopePanel::save (ScopeView& view, juce::Component& below)
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
 }
 
-void ScopePanel::report (const Result<>& written, const juce::File& file)
+void ScopePanel::report (const Result<>& written, const std::filesystem::path& file)
 {
-    if (onHint) onHint (written ? filled (TRANS ("Saved %1"), file.getFullPathName()) : juce::String (messageText (written.error())));
+    if (onHint) onHint (written ? filled (TRANS ("Saved %1"), fromUtf8 (file.string())) : juce::String (messageText (written.error())));
 }
 
 juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }

@@ -38,6 +38,8 @@ public:
     /// The reason why some ports are not shown; "" if all are.
     juce::String warning() const;
 
+    /// Asks for a file to write; `name` is the suggested name.
+    std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
     std::function<void (const juce::String&)> onHint;   ///< for the status line, such as the name of a saved file
 
     const ScopeModel& scopes() const noexcept { return model; }
@@ -78,7 +80,7 @@ private:
     void requestPorts();
     void listPorts();
     void save (ScopeView&, juce::Component& below);
-    void report (const Result<>&, const juce::File&);
+    void report (const Result<>&, const std::filesystem::path&);
     juce::Rectangle<int> emptyArea() const;
 
     Document& document;

@@ -100,3 +100,20 @@ TEST_CASE ("two fingers open without a word about scopes that do not fit", "[app
     CHECK (panel.warning().isEmpty());
     CHECK (run.traces().of ("finger[0]/skin.state").size() == 1);
 }
+
+TEST_CASE ("scopes: where an image or the data of a scope is saved is asked", "[app][scopes]")
+{
+    DeskStage w ("dry_wood.json", 1600, 900);
+    auto& panel = w.show<ScopePanel> (scopesPanel);
+    panel.add (ScopeKind::energy);
+    const auto [steps, ending] = GENERATE (std::pair (1, ".png"), std::pair (2, ".csv"));
+    std::filesystem::path asked;
+    w.desk.chooseFile = [&] (bool saves, const std::filesystem::path& begin, const auto& chosen) {
+        CHECK (saves);
+        asked = begin;
+        chosen (w.home / ("mine" + begin.extension().string()));
+    };
+    w.choose (w.middleOf (*w.titled ("Save as image or data")), steps, juce::ModifierKeys::leftButtonModifier);
+    CHECK (asked.extension() == ending);
+    CHECK (std::filesystem::exists (w.home / (std::string ("mine") + ending)));
+}
