@@ -11,6 +11,8 @@
 #include <host/tools/stems/stems.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <utility>
+
 namespace tactus::host
 {
 
@@ -99,10 +101,28 @@ juce::String folderText (const std::filesystem::path& file)
 
 void FileDialogs::choose (bool saves, const Path& begin, TakePath chosen)
 {
-    if (saves) return save (SaveWords::of (begin), begin, std::move (chosen));
+    if (saves)
+    {
+        const auto words = SaveWords::of (begin);
+        return save (words, words.how == saves_in ? begin : folderFor (words.patterns, begin.parent_path()) / begin.filename(), std::move (chosen));
+    }
     if (extensionOf (begin) == ".jsonl")
         return open (TRANS ("Open take"), "*.jsonl", begin.parent_path(), std::move (chosen));
     open (TRANS ("Open graph or clip"), graphs_and_clips, begin, std::move (chosen));
+}
+
+FileDialogs::Path FileDialogs::folderFor (const juce::String& patterns, const Path& usual) const
+{
+    std::error_code failed;
+    const auto last = folders.find (patterns.toStdString());
+    const bool stays = (usual != ownFolder() && usual != presetFolder()) || last == folders.end() || ! std::filesystem::is_directory (last->second, failed);
+    return stays ? usual : last->second;
+}
+
+void FileDialogs::noteFolder (const juce::String& patterns, const Path& folder)
+{
+    auto& last = folders[patterns.toStdString()];
+    if (std::exchange (last, folder) != folder && onFolder) onFolder();
 }
 
 /// A name without one of the endings gets that of the proposed name: in "film v1.2", the dot is part of the name.
@@ -127,7 +147,7 @@ void FileDialogs::save (const SaveWords& words, const Path& begin, TakePath chos
 void FileDialogs::open (const juce::String& title, const juce::String& patterns, const Path& begin, TakePath chosen)
 {
     std::error_code failed;
-    auto from = begin;   // or the nearest folder that exists: JUCE would take the name of a missing one for that of a file
+    auto from = folderFor (patterns, begin);   // or the nearest folder that exists: JUCE would take the name of a missing one for that of a file
     while (! std::filesystem::exists (from, failed) && from.has_relative_path())
         from = from.parent_path();
     launch (title, patterns, from, opens, std::move (chosen));
@@ -151,8 +171,10 @@ void FileDialogs::launch (const juce::String& title, const juce::String& pattern
     // it has the keyboard at once, whatever the window manager does.
     constexpr bool of_the_desktop = false;
     chooser = std::make_unique<juce::FileChooser> (title, fileAt (begin), patterns, of_the_desktop, false, &window);
-    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
+    chooser->launchAsync (how, [this, patterns, how, chosen = std::move (chosen)] (const juce::FileChooser& c) {
         takeFocus (home);
+        if (const auto file = c.getResult(); file != juce::File() && how != saves_in)
+            noteFolder (patterns, file.getParentDirectory().getFullPathName().toStdString());
         // Later, when the dialog is gone: it gives the focus back, which what `chosen` opens needs.
         if (const auto file = c.getResult(); file != juce::File())
             juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (&window), chosen, path = file.getFullPathName().toStdString()] {

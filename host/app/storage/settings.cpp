@@ -131,6 +131,14 @@ ReadSettings readSettings (const std::string& text)
     });
     reader.take ("recent", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.recent); });
     reader.take ("favourites", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.favourites); });
+    reader.take ("folders", &Json::is_object, [&] (const Json& v) {
+        for (const auto& [patterns, folder] : v.items())
+        {
+            if (! folder.is_string()) return false;
+            s.folders[patterns] = folder.asString();
+        }
+        return true;
+    });
     reader.take ("recordings", &Json::is_string, [&] (const Json& v) {
         s.recordings = v.asString();
         return true;
@@ -161,11 +169,14 @@ std::string writeSettings (const Settings& s)
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },
         { "favourites", pathsToJson (s.favourites) },
+        { "folders", Json::object() },
         { "recordings", s.recordings.string() },
         { "recent_types", s.recent_types }
     };
     for (const auto& [name, size] : s.panels)
         json["panels"][name] = size;
+    for (const auto& [patterns, folder] : s.folders)
+        json["folders"][patterns] = folder.string();
     for (const auto& [key, value] : s.others.items())
         if (! json.contains (key)) json[key] = value;
     return json.dump (2) + '\n';

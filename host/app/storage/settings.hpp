@@ -28,9 +28,10 @@ struct Settings
     std::map<std::string, double> panels;        ///< each panel's share of the window, by name; 0: folded; absent: the usual size
     std::vector<std::filesystem::path> recent;   ///< the latest first
     std::vector<std::filesystem::path> favourites;
-    std::filesystem::path recordings;        ///< the folder of the latest recording that was fitted
-    std::vector<std::string> recent_types;   ///< node types that were added, the latest first
-    Json others = Json::object();            ///< keys of panels, and of other versions of Tactus
+    std::map<std::string, std::filesystem::path> folders;   ///< in which a file was last chosen, by the patterns of its dialog
+    std::filesystem::path recordings;                       ///< the folder of the latest recording that was fitted
+    std::vector<std::string> recent_types;                  ///< node types that were added, the latest first
+    Json others = Json::object();                           ///< keys of panels, and of other versions of Tactus
 
     void noteRecent (const std::filesystem::path&);
     void noteType (const std::string&);

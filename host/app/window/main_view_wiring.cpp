@@ -72,6 +72,7 @@ void MainView::setDesk()
         parts.saver.saveSoon();
         wake();
     };
+    parts.dialogs.onFolder = desk.settingsChanged;
     desk.liveMessages = [this] { return live_nodes ? live_nodes->messages() : Messages(); };
     desk.chooseFile = [this] (bool saves, const Path& begin, auto chosen) { chooseFile (saves, begin, std::move (chosen)); };
     desk.chooseInput = [this] (const juce::String& patterns, const Path& begin, auto chosen) {

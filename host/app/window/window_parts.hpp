@@ -98,7 +98,7 @@ struct WindowParts
     Tour tour;
     Shade shade;
     MenuArea menus;
-    FileDialogs dialogs { window, SafetyStrip::height, patching, question };
+    FileDialogs dialogs { window, SafetyStrip::height, patching, question, settings.folders };
 };
 
 }   // namespace tactus::host

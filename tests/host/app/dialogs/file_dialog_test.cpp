@@ -266,6 +266,38 @@ TEST_CASE ("a recording to fit is chosen in the folder of the last one, or else 
     CHECK (std::filesystem::equivalent (begin(), w.home.path()));
 }
 
+TEST_CASE ("a dialog begins in the folder in which a file of its kind was last chosen, also after a restart", "[app][files]")
+{
+    const TemporaryFolder mine, elsewhere;
+    const Environment own_is { "TACTUS_GRAPHS", mine.path() };
+    WindowRig w ("dry_wood.json");
+    const auto folderOf = [&] (bool saves, const char* name) {
+        w.view->chooseFile (saves, mine / name, [] (const std::filesystem::path&) {});
+        REQUIRE (isDialogOpen());
+        const auto folder = browserIn (*juce::Component::getCurrentlyModalComponent())->getRoot().getFullPathName().toStdString();
+        w.key ("escape");
+        REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+        return std::filesystem::path (folder);
+    };
+    CHECK (std::filesystem::equivalent (folderOf (false, "take.jsonl"), mine.path()));
+    std::filesystem::path chosen;
+    w.view->chooseFile (true, mine / "test.jsonl", [&] (const std::filesystem::path& file) { chosen = file; });
+    w.stage->type ((elsewhere / "press.jsonl").string());
+    w.key ("return");
+    REQUIRE (waitFor ([&] { return chosen == elsewhere / "press.jsonl"; }));
+    for (const bool is_again : { false, true })
+    {
+        if (is_again)
+        {
+            w.view.reset();
+            w.begin ({ .home = w.home.path() });
+        }
+        CHECK (std::filesystem::equivalent (folderOf (false, "take.jsonl"), elsewhere.path()));
+        CHECK (std::filesystem::equivalent (folderOf (true, "test.jsonl"), elsewhere.path()));
+        CHECK (std::filesystem::equivalent (folderOf (true, "gesture.csv"), mine.path()));   // another kind
+    }
+}
+
 TEST_CASE ("an existing folder of stems is chosen by its name, after a question, and not entered", "[app][files][stems]")
 {
     const TemporaryFolder mine;

@@ -21,6 +21,7 @@ Settings some()
     s.panels = { { "left", 0.1875 }, { "bottom", 0.0 } };
     s.recent = { "/a/b.json", "/c.json" };
     s.favourites = { "/presets/wood.json" };
+    s.folders = { { "*.jsonl", "/a/takes" } };
     s.recordings = "/a/strokes";
     s.recent_types = { "signal.lfo", "friction.elasto_plastic" };
     s.others["from a newer version"] = { 1, 2 };
@@ -40,6 +41,7 @@ TEST_CASE ("settings survive a round trip, including unknown keys")
     CHECK (read.settings.panels == some().panels);
     CHECK (read.settings.recent == some().recent);
     CHECK (read.settings.favourites == some().favourites);
+    CHECK (read.settings.folders == some().folders);
     CHECK (read.settings.recordings == some().recordings);
     CHECK (read.settings.recent_types == some().recent_types);
     CHECK (writeSettings (read.settings) == text);
