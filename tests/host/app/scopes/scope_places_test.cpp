@@ -105,7 +105,9 @@ TEST_CASE ("scopes: where an image or the data of a scope is saved is asked", "[
 {
     DeskStage w ("dry_wood.json", 1600, 900);
     auto& panel = w.show<ScopePanel> (scopesPanel);
-    panel.add (ScopeKind::energy);
+    auto& view = panel.add (ScopeKind::energy);
+    REQUIRE (w.start());
+    REQUIRE (waitFor ([&] { return static_cast<bool> (view.saveData (w.home / "trial.csv")); }));   // there is something to save
     const auto [steps, ending] = GENERATE (std::pair (1, ".png"), std::pair (2, ".csv"));
     std::filesystem::path asked;
     w.desk.chooseFile = [&] (bool saves, const std::filesystem::path& begin, const auto& chosen) {
