@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -31,13 +32,14 @@ double taper (std::size_t i, std::size_t n)
     return edge < 1.0 ? 0.5 - 0.5 * math::cos (std::numbers::pi * edge) : 1.0;
 }
 
-void addStretch (std::span<const double> y, Periodogram& p)
+/// The powers of the lines of a stretch without its mean, from line 0 to half the rate, per mean power of a row.
+std::vector<double> linesOf (std::span<const double> y)
 {
     const auto n = y.size();
     double mean = 0.0, squares = 0.0;
     for (const double v : y)
         mean += v / static_cast<double> (n);
-    std::vector<double> windowed (n);
+    std::vector<double> windowed (n), powers;
     for (std::size_t i = 0; i < n; ++i)
     {
         const double h = taper (i, n);
@@ -46,11 +48,26 @@ void addStretch (std::span<const double> y, Periodogram& p)
     }
     std::vector<std::complex<double>> lines;
     Eigen::FFT<double>().fwd (lines, windowed);
-    for (std::size_t j = 2; j < n / 2; ++j)   // the mean was removed
+    for (std::size_t j = 0; j < n / 2; ++j)
+        powers.push_back (std::norm (lines[j]) / squares);
+    return powers;
+}
+
+void addStretch (std::span<const double> y, Periodogram& p)
+{
+    const auto powers = linesOf (y);
+    for (std::size_t j = 2; j < powers.size(); ++j)   // the mean was removed
     {
-        p.frequency.push_back (2.0 * std::numbers::pi * static_cast<double> (j) / static_cast<double> (n));
-        p.power.push_back (std::norm (lines[j]) / squares);
+        p.frequency.push_back (2.0 * std::numbers::pi * static_cast<double> (j) / static_cast<double> (y.size()));
+        p.power.push_back (powers[j]);
     }
+}
+
+/// The largest length up to n whose four highest binary digits may differ from 0, so that its transform is fast.
+std::size_t fastLength (std::size_t n)
+{
+    const int digits = std::max (0, static_cast<int> (std::bit_width (n)) - 4);
+    return n >> digits << digits;
 }
 
 /// Reflection coefficients by Burg's method over all stretches.
@@ -271,6 +288,24 @@ Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches
     }
     p.widening = fourth * n / (squares * squares);
     return p;
+}
+
+double shareOfTones (const std::vector<std::span<const double>>& stretches)
+{
+    constexpr std::size_t first = 8;   // a line with fewer periods in a stretch is a drift
+    double all = 0.0, of_tones = 0.0;
+    for (const auto y : stretches)
+    {
+        const auto powers = linesOf (y.first (fastLength (y.size())));
+        double largest = 0.0;
+        for (std::size_t j = first; j + 1 < powers.size(); ++j)
+        {
+            largest = std::max (largest, powers[j - 1] + powers[j] + powers[j + 1]);
+            all += powers[j];
+        }
+        of_tones += largest;
+    }
+    return all > 0.0 ? of_tones / all : 0.0;
 }
 
 SpectrumModel fitSpectrum (const Periodogram& data, const std::vector<std::span<const double>>& stretches, int most, const FitCourse* course)

@@ -20,6 +20,10 @@ struct Periodogram
 
 Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches);
 
+/// The share of the power that the largest line and its two neighbours hold, in a spectrum as fine as the length of each stretch allows; the mean over
+/// the stretches, by power. Of noise, a line this narrow holds little, and less the longer the stretch; of a tone, at least 80 %.
+double shareOfTones (const std::vector<std::span<const double>>& stretches);
+
 /// An autoregressive model with a white floor.
 struct SpectrumModel
 {

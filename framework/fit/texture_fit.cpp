@@ -183,14 +183,19 @@ void addModel (const Group& group, const detail::SpectrumModel& found, TextureFi
     values.push_back ({ name + " sensor noise", "m2/s4", found.floor, std::max (0.0, found.floor - half), found.floor + half, false });
 }
 
-/// Adds a note if the recorded spectrum differs from the model by more than about 2 dB and more than chance explains.
-void judgeSpectrum (const detail::Periodogram& data, const detail::SpectrumModel& model, TextureFit& result)
+/// Adds a lack if most of the power is in a single tone, or if the recorded spectrum differs from the model by more than about 2 dB and more than chance
+/// explains. In noise, a tone changes too few lines for the second test.
+void judgeSpectrum (const Group& group, const detail::Periodogram& data, const detail::SpectrumModel& model, TextureFit& result)
 {
+    constexpr double most_in_tone = 0.4;                                                      // a tone with half of the power, between two lines
     constexpr double of_noise = 2.0 * std::numbers::egamma, deviation = 1.607, clear = 0.3;   // of the deviance of a line
     const double chance = 3.0 * deviation * std::sqrt (data.widening / static_cast<double> (data.power.size()));
-    if (model.deviance > of_noise + clear + chance)
-        result.report.lacking.push_back ("the spectrum of model " + std::to_string (result.models.size())
-                                         + " is not that of the recording: a tone, or single events, cannot be played as noise");
+    const auto name = "model " + std::to_string (result.models.size());
+    if (const double share = detail::shareOfTones (group.stretches); share > most_in_tone)
+        result.report.lacking.push_back ("a single tone has " + percentText (share) + " of the power in the spectrum of " + name
+                                         + ": a tone cannot be played as noise");
+    else if (model.deviance > of_noise + clear + chance)
+        result.report.lacking.push_back ("the spectrum of " + name + " is not that of the recording: a tone, or single events, cannot be played as noise");
 }
 
 /// The spectrum of the strongest group, averaged over bands, and of its model.
@@ -254,9 +259,11 @@ Result<TextureFit> fitTexture (const RecordedTexture& given, FitCourse* course)
         const auto half =
             detail::fitSpectrum (detail::periodogramOf (first), first, static_cast<int> (std::max<std::size_t> (1, found.coefficients.size())), course);
         if (detail::isCancelled (course)) return detail::fitCancelled();
-        if (found.coefficients.empty()) return fitError ("fit/silent", "the acceleration does not vary at some speed and force", "check which column is read");
+        if (found.coefficients.empty())
+            return fitError ("fit/silent", "the acceleration at some speed and force does not vary, or is a pure tone, which cannot be played as noise",
+                             "check which column is read");
         addModel (group, found, result);
-        judgeSpectrum (data, found, result);
+        judgeSpectrum (group, data, found, result);
         const auto [off, rows] = predictionErrors (group.stretches, found.coefficients);
         const auto [off_left_out, rows_left_out] = predictionErrors (second, half.coefficients);
         sum += off;

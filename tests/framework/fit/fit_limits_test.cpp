@@ -142,6 +142,34 @@ TEST_CASE ("fit of a texture: a tone is not a texture", "[fit]")
     CHECK (lacks (fit->report, "spectrum"));
 }
 
+TEST_CASE ("fit of a texture: a tone in noise is not a texture, at any frequency, and noise with a sharp resonance is one", "[fit]")
+{
+    for (const double hertz : { 50.0, 200.0, 333.0, 1201.3, 2400.0 })
+        for (const double noise : { 0.001, 0.05, 0.2, 0.5 })
+        {
+            CAPTURE (hertz, noise);
+            Random random { 4 };
+            RecordedTexture tone;
+            for (int i = 0; i < 6000; ++i)
+            {
+                tone.time.push_back (i / 5000.0);
+                tone.acceleration.push_back (std::sin (full_circle * hertz * i / 5000.0) + noise * random.normal());
+            }
+            const auto fit = fitTexture (tone);
+            if (! fit)   // too sharp for any model
+            {
+                CHECK (fit.error().id == "fit/silent");
+                continue;
+            }
+            CHECK_FALSE (fit->report.is_good);
+            CHECK (lacks (fit->report, "tone"));
+        }
+    const auto resonant = fitTexture (textureOf ({ { 1.6, -0.98, 1.0, 0.1, 1.0, 6000 } }));
+    REQUIRE (resonant);
+    CHECK_FALSE (lacks (resonant->report, "tone"));
+    CHECK (resonant->report.is_good);
+}
+
 TEST_CASE ("fit of a cut: without the part where the crack grows again, the toughness is unknown", "[fit]")
 {
     for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 6u, 10u })
