@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,7 +28,8 @@ constexpr std::size_t fewest_impact_rows = 8;
 /// The contact around the deepest row, in the order of time.
 struct Contact
 {
-    std::vector<double> d, f, t, rate;   // m, N, s, m/s; t may be empty
+    std::vector<double> d {}, f {}, t {}, rate {};   // m, N, s, m/s; t may be empty
+    std::size_t first_row = 0, last_row = 0;         // of the recording, with a depth above 0
 
     std::size_t size() const noexcept { return d.size(); }
 
@@ -96,7 +98,7 @@ Result<Contact> contactOf (const RecordedLoop& loop)
             "fit/no_loop", "the contact around the deepest row (" + std::to_string (last - first + 1) + " rows) is too short, or does not go both in and out",
             "record the whole contact, with at least " + std::to_string (fewest_impact_rows) + " rows inside the object");
 
-    Contact contact;
+    Contact contact { .first_row = first, .last_row = last };
     if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, first + 1, contact);
     for (auto i = first; i <= last; ++i)
     {
@@ -145,6 +147,54 @@ double massByTime (const Contact& c)
     for (std::size_t i = 1; i < c.size(); ++i)
         impulse += 0.5 * (c.f[i - 1] + c.f[i]) * (c.t[i] - c.t[i - 1]);
     return impulse / (c.rate.front() - c.rate.back());
+}
+
+/// The variance of the errors of the depth, in m^2: how far each row lies from the cubic through the two rows before and the two rows after it.
+/// The touches are left out, because they were not measured.
+double depthVariance (const Contact& c)
+{
+    double sum = 0.0, rows = 0.0;
+    for (std::size_t i = 3; i + 3 < c.size(); ++i)
+    {
+        const std::array around { i - 2, i - 1, i + 1, i + 2 };
+        double off = c.d[i], size = 1.0;
+        for (const auto j : around)
+        {
+            double weight = 1.0;
+            for (const auto k : around)
+                if (k != j) weight *= (c.t[i] - c.t[k]) / (c.t[j] - c.t[k]);
+            off -= weight * c.d[j];
+            size += weight * weight;
+        }
+        sum += off * off / size;
+        rows += 1.0;
+    }
+    return sum / std::max (1.0, rows);
+}
+
+/// The variance of the mass by the errors of the depth. They matter at the touches, where the speeds come from three rows each.
+double massVarianceOfDepth (const RecordedLoop& loop, const Contact& c)
+{
+    constexpr std::size_t reach = 2;
+    const double variance = depthVariance (c), step = std::sqrt (variance);
+    if (! (step > 0.0)) return 0.0;
+    auto moved = loop;
+    const auto massWith = [&] (std::size_t row, double by) {
+        moved.depth[row] = loop.depth[row] + by;
+        auto contact = contactOf (moved);
+        moved.depth[row] = loop.depth[row];
+        if (! contact) return inf;
+        setRatesByTime (*contact);
+        return massByTime (*contact);
+    };
+    double squares = 0.0;
+    for (std::size_t row = c.first_row > 0 ? c.first_row - 1 : 0; row < loop.depth.size() && row <= c.last_row + 1; ++row)
+    {
+        if (row > c.first_row + reach && row + reach < c.last_row) continue;
+        const double slope = (massWith (row, step) - massWith (row, -step)) / (2.0 * step);
+        squares += slope * slope;
+    }
+    return variance * squares;
 }
 
 /// The growth of the damping with depth.
@@ -320,7 +370,8 @@ Eigen::RowVectorXd weightsOf (const std::vector<double>& along)
 
 /// The law as F = K u^n + C u^q d', with u the depth over the largest depth. Of the three directions of (K, n, C), two keep the area, and only these
 /// are fitted; the third one follows from the recorded area.
-void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, ShockFit& fit)
+/// `mass_variance`: that of the mass by the errors of the depth, if the mass is estimated.
+void reportShock (const Contact& x, const Candidate& law, std::optional<double> mass_variance, ShockFit& fit)
 {
     const auto rows = static_cast<Eigen::Index> (x.size());
     const bool as_spring = law.damping == Damping::as_spring;
@@ -363,10 +414,10 @@ void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, S
     }
     const Eigen::MatrixXd lost = detail::covarianceOf (weights, left, 3);
     report.values.push_back (detail::withInterval ("lost energy", "J", fit.recorded_area, std::sqrt (lost (0, 0)), freedom, false));
-    if (estimates_mass)
+    if (mass_variance)
     {
         const Eigen::MatrixXd of_mass = detail::covarianceOf (weightsOf (x.t) / (x.rate.front() - x.rate.back()), left, 3);
-        report.values.push_back (detail::withInterval ("mass", "kg", fit.mass, std::sqrt (of_mass (0, 0)), freedom));
+        report.values.push_back (detail::withInterval ("mass", "kg", fit.mass, std::sqrt (of_mass (0, 0) + *mass_variance), freedom));
     }
 
     // One Gauss-Newton step without the rows that are left out.
@@ -434,7 +485,7 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     if (detail::isCancelled (course)) return detail::fitCancelled();
     detail::setShare (course, 0.8);
     fit.recorded = x.f;
-    reportShock (x, law, estimates_mass, fit);
+    reportShock (x, law, estimates_mass ? std::optional (massVarianceOfDepth (loop, x)) : std::nullopt, fit);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.depth = std::move (x.d);
     return fit;

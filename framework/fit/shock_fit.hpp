@@ -41,8 +41,8 @@ struct ShockFit
 /// d' then follows from the energy that the mass has lost so far, v^2 = 2 (W_deepest - W) / m. `mass` is in kg. If it is 0, the
 /// mass is computed from the times, as impulse over change of speed; this, too, requires a free impact.
 ///
-/// The intervals take the recorded area into account, and include only errors of the force. The cross-validation divides the rows into 50 blocks
-/// and leaves out every fifth block.
+/// The intervals take the recorded area into account, and include only errors of the force; that of the mass also includes those of the depth. The
+/// cross-validation divides the rows into 50 blocks and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring,
 /// fit/cancelled. [any thread]

@@ -156,6 +156,34 @@ TEST_CASE ("fit of a shock: a damping lambda K is never taken for B0 d, under no
     }
 }
 
+TEST_CASE ("fit of a shock: the interval of the mass contains it in spite of noise of the depth", "[kit][shock]")
+{
+    constexpr int draws = 60;
+    for (const double noise : { 20e-9, 200e-9 })
+    {
+        int covered = 0;
+        double width = 0.0;
+        for (unsigned seed = 1; seed <= draws; ++seed)
+        {
+            std::mt19937 random { seed };
+            std::normal_distribution<double> error;
+            auto loop = record ({ .k = 2e6, .n = 1.5, .lambda = 0.35, .m = 0.15, .v = 0.35 });
+            for (double& d : loop.depth)
+                d += noise * error (random);
+            for (double& f : loop.force)
+                f += 0.005 * error (random);
+            const auto fit = fitShock (loop);
+            REQUIRE (fit);
+            const auto& mass = fit->report.at ("mass");
+            if (mass.low <= 0.15 && 0.15 <= mass.high) ++covered;
+            width += (mass.high - mass.low) / draws;
+        }
+        CAPTURE (noise, covered, width);
+        CHECK (covered >= 0.85 * draws);   // right intervals fail in one of 1000 such tests
+        CHECK (width < 5e5 * noise);       // 0.01 kg for 20 nm
+    }
+}
+
 TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
 {
     tactus::test::property ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
