@@ -8,7 +8,8 @@ install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COM
     FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE
     PATTERN "kit/single" EXCLUDE   # exported code has these in place of others
     # Only sources of the library include these. Their matrices get their memory as the flags of the compiler say (tests/structure/layouts.py).
-    PATTERN "fit/least_squares.hpp" EXCLUDE PATTERN "fit/ring_*.hpp" EXCLUDE PATTERN "fit/spectrum_model.hpp" EXCLUDE PATTERN "check/pair.hpp" EXCLUDE)
+    PATTERN "fit/least_squares.hpp" EXCLUDE PATTERN "fit/ring_*.hpp" EXCLUDE PATTERN "fit/smooth_column.hpp" EXCLUDE
+    PATTERN "fit/spectrum_model.hpp" EXCLUDE PATTERN "check/pair.hpp" EXCLUDE)
 install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h host/devices/device_plugins/tactus_device.h
     $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/devices/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")

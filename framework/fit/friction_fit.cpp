@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "friction_fit.hpp"
 #include "least_squares.hpp"
+#include "smooth_column.hpp"
 
 #include <tactus/kit/math/math.hpp>
+#include <tactus/kit/random.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace tactus
@@ -158,6 +161,27 @@ Result<Drag> dragOf (const RecordedDrag& recorded, std::vector<std::string>& not
     return drag;
 }
 
+/// The noise of the load. A contact gives way at once where the load falls, and stretches only with the movement where it rises. So noise of the load
+/// makes the modelled force too small, and mu too large.
+struct LoadNoise
+{
+    double deviation = 0.0;   // relative to the reference load
+    double weight = 0.0;      // of the smoothing; 0: the load is as recorded
+};
+
+/// Takes the noise out of the load.
+LoadNoise smoothLoad (Drag& drag, std::vector<std::string>& notes)
+{
+    constexpr double none = 1e-5;   // relative to the load
+    const auto curve = detail::smoothed (Eigen::Map<const VectorXd> (drag.load.data(), static_cast<Index> (drag.size())));
+    if (! (curve.noise > none)) return {};
+    for (std::size_t i = 0; i < drag.size(); ++i)
+        drag.load[i] = std::max (0.0, curve.values[static_cast<Index> (i)]);
+    notes.push_back ("the load has noise of " + roundedText (curve.noise * drag.reference_load, 2) + " N rms, so it is smoothed over about "
+                     + roundedText (std::round (curve.rows), 3) + " rows; the intervals leave out slower errors of the load");
+    return { curve.noise, curve.weight };
+}
+
 /// The best of a coarse grid: mu and offset by linear least squares for each shape.
 struct DragStart
 {
@@ -228,6 +252,57 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     std::ranges::sort (found, {}, &FoundDrag::score);
     return found;
 }
+/// The fits for the load as recorded, if the force follows what the smoothing takes out of it; else for the smoothed load.
+std::vector<FoundDrag> searchLoads (Drag& drag, const RecordedDrag& recorded, LoadNoise& noise, std::vector<std::string>& notes, FitCourse* course)
+{
+    auto raw = drag;
+    noise = recorded.load.empty() ? LoadNoise {} : smoothLoad (drag, notes);
+    auto found = search (drag, course);
+    if (! (noise.weight > 0.0) || detail::isCancelled (course)) return found;
+    if (! found.empty())
+    {
+        constexpr double clear = 20.0;   // e^10 times as likely
+        const auto& smooth = found.front().fit;
+        const DragSearch same (raw, found.front().adhesion, raw.size(), course);
+        const double sum = detail::minimise (same.problem(), smooth.x).sumToCompare();
+        if (! (static_cast<double> (raw.size()) * math::log (smooth.sumToCompare() / sum) > clear) || detail::isCancelled (course)) return found;
+    }
+    notes.back() = "the load changes from row to row by " + roundedText (noise.deviation * drag.reference_load, 2)
+                   + " N rms, and the force follows it; the intervals leave out errors of the load";
+    noise = {};
+    drag = std::move (raw);
+    return search (drag, course);
+}
+
+/// The mean squares of what the noise that is left in a smoothed load changes in ln mu, ln d_max and ln stiffness: by one step of Gauss & Newton, where
+/// the noise becomes twice as large (Cook & Stefanski 1994).
+Eigen::Vector3d varianceOfLoad (const Drag& drag, const LoadNoise& noise, const FoundDrag& found)
+{
+    constexpr int draws = 8;
+    constexpr double more = std::numbers::sqrt3;   // makes noise twice as large
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+    if (! (noise.weight > 0.0)) return variance;
+    const DragSearch search (drag, found.adhesion, drag.size(), nullptr);
+    const VectorXd modelled = search.modelled (found.fit.x, drag.size());
+    const Eigen::MatrixXd influence = detail::influenceOf (found.fit);
+    Random random { 1 };
+    for (int i = 0; i < draws; ++i)
+    {
+        VectorXd error (modelled.size());
+        for (double& e : error)
+            e = more * noise.deviation * random.normal();
+        error = detail::smoothed (error, noise.weight);
+        auto noisy = drag;
+        for (std::size_t k = 0; k < drag.size(); ++k)
+            noisy.load[k] = std::max (0.0, drag.load[k] + error[static_cast<Index> (k)]);
+        const DragSearch with_noise (noisy, found.adhesion, drag.size(), nullptr);
+        const VectorXd off = influence * (modelled - with_noise.modelled (found.fit.x, drag.size()));
+        const Eigen::Vector3d change { off[0], off[1], off[0] - off[1] };
+        variance += change.cwiseProduct (change) / draws;
+    }
+    return variance;
+}
+
 /// Deviations of ln mu, ln d_max and ln stiffness for one adhesion function; infinite if the recording does not determine them.
 Eigen::Vector3d deviations (const detail::LeastSquaresFit& fit)
 {
@@ -236,7 +311,7 @@ Eigen::Vector3d deviations (const detail::LeastSquaresFit& fit)
 }
 
 /// Adhesion functions that fit almost as well widen the intervals, each weighted by its probability (Buckland, Burnham & Augustin 1997).
-void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFit& result)
+void reportDrag (const Drag& drag, const LoadNoise& noise, const std::vector<FoundDrag>& all, FrictionFit& result)
 {
     const auto& best = all.front();
     const DragSearch search (drag, best.adhesion, drag.size(), nullptr);
@@ -255,7 +330,7 @@ void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFi
         variance += weight * (spread.cwiseProduct (spread) + off.cwiseProduct (off));
         sum += weight;
     }
-    const Eigen::Vector3d deviation = (variance / sum).cwiseSqrt();
+    const Eigen::Vector3d deviation = (variance / sum + varianceOfLoad (drag, noise, best)).cwiseSqrt();
     auto& values = result.report.values;
     values = { detail::withLogInterval ("mu", "", result.mu, deviation[0], freedom),
                detail::withLogInterval ("d_max", "m", result.d_max, deviation[1], freedom),
@@ -307,10 +382,11 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     auto& report = result.report;
     auto read = dragOf (recorded, report.notes);
     if (! read) return read.error();
-    const auto& drag = *read;
+    auto& drag = *read;
     const auto n = drag.size();
 
-    const auto all = search (drag, course);
+    LoadNoise noise;
+    const auto all = searchLoads (drag, recorded, noise, report.notes, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     if (all.empty())
         return fitError ("fit/no_friction", "the force does not depend on the movement as friction does",
@@ -330,7 +406,7 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     result.reference_load = drag.reference_load;
     result.offset = search.offset (x);
 
-    reportDrag (drag, all, result);
+    reportDrag (drag, noise, all, result);
 
     const VectorXd modelled = search.modelled (x, n), predicted = search.modelled (half.x, n);
     const Eigen::Map<const VectorXd> force (drag.force.data(), static_cast<Index> (n));
