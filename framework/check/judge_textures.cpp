@@ -70,7 +70,10 @@ private:
     {
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speed();
         auto& c = add ("scanning", "alpha k v T < 1", "1", wave() + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
-        judgeScanning (c, k, v, period_s, numbers, alpha, "a texture.antialias");
+        const auto guard = std::ranges::find (demand.nodes, "texture.antialias", &MeasuredNode::type);
+        const bool has_guard = guard != demand.nodes.end();
+        if (has_guard && options.speed > t.speed) c.text += ", as if it was still felt at this speed, whatever '" + guard->path + "' fades out";
+        judgeScanning (c, k, v, period_s, numbers, alpha, has_guard ? "a lower f_max of '" + guard->path + "' if it fades this texture" : "a texture.antialias");
     }
 
     void lowSpeed()

@@ -114,7 +114,7 @@ bool isInWords (const std::string& way)
     static const std::set<std::string> all { "weaker forces", "a coarser texture", "a texture.antialias", "a softer contact", "slower strokes",
                                              "a softer onset", "a force that does not step",
                                              "a virtual damping below that of the device and a softer contact" };
-    return all.contains (way) || way.starts_with ("a texture.antialias with f_max ") || way.starts_with ("a filter.butterworth2 at ");
+    return all.contains (way) || way.starts_with ("a texture.antialias with f_max ") || way.starts_with ("a lower f_max of ") || way.starts_with ("a filter.butterworth2 at ");
 }
 
 /// The alternatives of "largest effect on the loop: …; for a contact …: a, b, or c; the steepest node is …".
