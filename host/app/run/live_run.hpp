@@ -157,6 +157,9 @@ public:
     /// device. Empty if no source is connected to a sink.
     std::optional<std::int64_t> delay() const;
 
+    /// The delay of the hand's device, in ticks; 0 if it is not known.
+    double handDelay() const noexcept { return hand_delay; }
+
     /// The stiffness that a wall may have on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is unknown.
     std::optional<double> stiffnessLeft() const;
 

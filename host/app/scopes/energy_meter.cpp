@@ -59,6 +59,10 @@ void EnergyMeter::begin (const Sources& s)
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
             first = std::max (first, is_reset ? t->end() : t->begin());
+    const auto late = static_cast<std::uint64_t> (std::ceil (s.late));
+    for (const auto& t : s.applied)
+        first = std::max (first, t->begin() + late);   // the force that acts then has to be known
+    now.late = s.late;
     next = first;
     read = s;
     lost.assign (s.dissipated.size(), std::nan (""));
@@ -70,7 +74,7 @@ void EnergyMeter::follow (const Sources& s)
 {
     if (s.position.size() != 3 || s.applied.size() != 3) return;
     const auto& reference = *s.position.front();
-    if (is_reset || s.position != read.position || s.applied != read.applied || reference.beginnings() != begun
+    if (is_reset || s.position != read.position || s.applied != read.applied || s.late != read.late || reference.beginnings() != begun
         || reference.begin() > next)   // ticks that are no longer stored are lost
         begin (s);
     readOn();   // what nodes that are gone have left
@@ -85,7 +89,19 @@ void EnergyMeter::readOn()
         for (const auto& t : *list)
             end = std::min (end, t->end());
     for (; next < end; ++next)
-        add (vectorAt (read.position, next), vectorAt (read.applied, next), sumAt (read.stored, next));
+        add (vectorAt (read.position, next), vectorAt (read.applied, next), actingAt (next), sumAt (read.stored, next));
+}
+
+/// The force that acts on the tool until a tick: that of `late` ticks before, or between two ticks.
+EnergyMeter::Vector EnergyMeter::actingAt (std::uint64_t tick) const
+{
+    const double whole = std::floor (read.late), part = read.late - whole;
+    const auto to = tick - static_cast<std::uint64_t> (whole);
+    auto f = vectorAt (read.applied, to);
+    if (part > 0.0)
+        for (std::size_t i = 0; i < 3; ++i)
+            f[i] += part * (vectorAt (read.applied, to - 1)[i] - f[i]);
+    return f;
 }
 
 void EnergyMeter::takeNodes (const Sources& s)
@@ -122,9 +138,9 @@ double EnergyMeter::dissipatedAt (std::uint64_t tick)
     return sum + kept;
 }
 
-void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 3>& f, double in)
+void EnergyMeter::add (const Vector& p, const Vector& f, const Vector& acting, double in)
 {
-    const double heat = isWhole (p) && isWhole (f) && std::isfinite (in) ? dissipatedAt (next) : std::nan ("");
+    const double heat = isWhole (p) && isWhole (f) && isWhole (acting) && std::isfinite (in) ? dissipatedAt (next) : std::nan ("");
     if (! std::isfinite (heat))
     {
         now.gaps += has_last;
@@ -138,10 +154,10 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
         for (std::size_t i = 0; i < 3; ++i)
         {
             // The force at the end of the previous step is known only now. With it, this adds the work of a continuous force (the trapezoid
-            // rule) minus the work of the held force.
-            if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
+            // rule) minus the work of the force that was held, and late.
+            if (! was_gap) now.held -= (0.5 * (f[i] + last_force[i]) - last_acting[i]) * last_step[i];
             last_step[i] = p[i] - last[i];
-            step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
+            step -= (was_gap ? 0.5 * (acting[i] + last_acting[i]) : acting[i]) * last_step[i];
         }
         now.work += step;
         now.moved += std::abs (step);
@@ -156,6 +172,7 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
     was_gap = false;
     last = p;
     last_force = f;
+    last_acting = acting;
     work->add (next, now.work);
     stored->add (next, in - now.stored_first);
     dissipated->add (next, now.dissipated);
@@ -173,11 +190,15 @@ std::string describe (const EnergyBalance& b)
                                     : TRANS ("active over %5: at one moment, %4 more had come out than gone in; by now, work of the hand %1, %2 stored, %3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
                         juce::String (b.seconds, b.seconds < 10.0 ? 1 : 0) + juce::String::fromUTF8 ("\u00a0s"));
-    if (matters (b.held, 0.01)) text << "; " << filled (TRANS ("holding the force between ticks created %1"), joule (b.held));
+    if (matters (b.held, 0.01))
+        text << "; "
+             << filled (b.late > 0.0 ? TRANS ("the delay of the device and holding the force between ticks created %1")
+                                     : TRANS ("holding the force between ticks created %1"),
+                        joule (b.held));
     if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
     if (matters (-b.elsewhere(), 0.02))
         text << "; "
-             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool moves too far in a tick"),
+             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool or its sensor moves too far in a tick"),
                         joule (-b.elsewhere()));
     return text.toStdString();
 }

@@ -15,7 +15,8 @@ struct EnergyBalance
     double stored = 0.0;         ///< currently in springs and bristles, in J
     double stored_first = 0.0;   ///< at the start, in J
     double dissipated = 0.0;     ///< turned into heat, in J
-    double held = 0.0;           ///< created by holding the force between ticks, in J; with a continuous force, the hand would have done that much more work
+    double held = 0.0;           ///< created by holding and delaying the force, in J; with a continuous force, the hand would have done that much more work
+    double late = 0.0;           ///< the delay of the device, in ticks
     double worst = 0.0;          ///< the lowest value of `work` so far, in J
     double moved = 0.0;          ///< the sum of all work in either direction, in J
     double seconds = 0.0;        ///< the time that is summed, in s
@@ -30,16 +31,17 @@ struct EnergyBalance
     double tolerance() const noexcept { return std::max (1e-9, 1e-3 * moved); }
 };
 
-/// Sums the work of the hand tick by tick, W = -sum f . dx, where f is the force of the device on the tool during the step dx. Also follows
-/// the energy that nodes report as stored and dissipated. It continues from call to call, so the traces may be short.
+/// Sums the work of the hand tick by tick, W = -sum f . dx, where f is the force of the device on the tool during the step dx: with a delay of the device,
+/// an earlier one. Also follows the energy that nodes report as stored and dissipated. It continues from call to call, so the traces may be short.
 class EnergyMeter
 {
 public:
     struct Sources
     {
         TraceList position;   ///< position of the tool
-        TraceList applied;    ///< the force held until this tick
+        TraceList applied;    ///< the force held until this tick, but for the delay
         TraceList stored, dissipated;
+        double late = 0.0;   ///< the delay from a force to its effect on the tool in the device, in ticks
     };
 
     /// Processes the new ticks. Begins again if it gets different traces of the hand, or those of a new run; in the same run, what it has read
@@ -57,7 +59,9 @@ private:
     void readOn();                     // as far as the traces in `read` go
     void takeNodes (const Sources&);   // goes on with these traces of nodes
     double dissipatedAt (std::uint64_t tick);
-    void add (const std::array<double, 3>& position, const std::array<double, 3>& force, double stored_now);
+    using Vector = std::array<double, 3>;
+    void add (const Vector& position, const Vector& force, const Vector& acting, double stored_now);   // `acting`: the delayed force
+    Vector actingAt (std::uint64_t tick) const;
 
     EnergyBalance now;
     Sources read;   // by the last follow()
@@ -66,7 +70,7 @@ private:
     std::uint64_t first = 0, next = 0;   // the first tick that counts, and the one to read next
     std::uint64_t begun = 0;             // beginnings of the first trace
     bool has_last = false, was_gap = false, is_reset = false;
-    std::array<double, 3> last {}, last_force {}, last_step {};
+    Vector last {}, last_force {}, last_acting {}, last_step {};
     std::vector<double> lost;   // the latest value of each trace in `read.dissipated`; nan before the first
     double kept = 0.0;          // added to their sum
 };

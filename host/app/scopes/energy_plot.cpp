@@ -19,7 +19,7 @@ void EnergyPlot::show (const Signals& signals)
     repaint();
     if (! spec.is_frozen)
     {
-        EnergyMeter::Sources sources { signals (spec.x), signals (spec.y), {}, {} };
+        EnergyMeter::Sources sources { signals (spec.x), signals (spec.y), {}, {}, context.hand_delay };
         for (const auto& port : context.energies)
             for (const auto& t : signals (port))
                 (port.ends_with ("stored_energy") ? sources.stored : sources.dissipated).push_back (t);

@@ -27,8 +27,11 @@ Panel scopesPanel (Desk& desk)
     return { .name = TRANS ("Scopes"),
              .component = std::move (made),
              .keys = { { "x", NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes"), [scopes] { scopes->freezeAll (! scopes->isFrozen()); } } },
-             .refresh = [scopes] {
-                 if (scopes->isVisible()) scopes->refresh(); },
+             .refresh =
+                 [&desk, scopes] {
+                     scopes->setHandDelay (desk.playback.run().handDelay());
+                     if (scopes->isVisible()) scopes->refresh();
+                 },
              .keep = [scopes] (graph::Graph& graph) { scopes->keepIn (graph); },
              .restore = [scopes] { scopes->showOwn(); } };
 }

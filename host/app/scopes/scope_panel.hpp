@@ -19,6 +19,7 @@ public:
 
     /// Updates the scopes. Call 30 times a second while visible.
     void refresh();
+    void setHandDelay (double ticks) noexcept { context.hand_delay = ticks; }
 
     /// Replaces all scopes with those that the file of the graph keeps, or else with those that suit the graph, which has just been opened.
     void showOwn();

@@ -31,6 +31,7 @@ struct ScopeContext
     PortNames names;                     ///< of all these ports
     std::vector<std::string> energies;   ///< the ports that report energies; none if there are more than can be recorded
     std::size_t energies_left_out = 0;   ///< the number of these ports, if there are more than can be recorded
+    double hand_delay = 0.0;             ///< of the hand's device, in ticks; 0 if it is not known
     bool leaves_out = false;             ///< some ports are not recorded, because the scopes ask for too many
     std::function<void()> onChange;      ///< called when the spec of a scope has changed
     std::uint64_t edits = 0;             ///< counts the changes of the ports

@@ -113,6 +113,38 @@ TEST_CASE ("scopes: the energy created by holding a spring force is half the sti
     CHECK_FALSE (meter.balance().isPassive());   // a bare sampled spring generates energy
 }
 
+TEST_CASE ("scopes: with a delay of the device, the work is that of the forces that act, and a spring gives more energy than it got", "[app][scopes]")
+{
+    constexpr double stiffness = 500.0;
+    for (const double late : { 0.0, 1.0, 1.5, 3.0 })
+    {
+        Recorded r;
+        std::vector<double> x;
+        for (int k = 0; k < 4000; ++k)
+        {
+            x.push_back (0.01 * std::sin (0.07 * k));
+            r.add (Vec3 (x.back(), 0, 0), Vec3 (-stiffness * x.back(), 0, 0), 0.5 * stiffness * x.back() * x.back(), 0.0);
+        }
+        double work = 0.0;   // the force of the step before acts `late` ticks later
+        const auto whole = static_cast<std::size_t> (late);
+        for (std::size_t k = 5; k < x.size(); ++k)
+        {
+            const double at = x[k - 1 - whole] + (late - std::floor (late)) * (x[k - 2 - whole] - x[k - 1 - whole]);
+            work += stiffness * at * (x[k] - x[k - 1]);
+        }
+        EnergyMeter meter;
+        auto sources = r.sources();
+        sources.late = late;
+        meter.follow (sources);
+        const auto& b = meter.balance();
+        INFO (late << ": " << describe (b));
+        CHECK (b.work == Approx (work).margin (2e-3));   // but for the first steps
+        CHECK (std::abs (b.elsewhere()) < 0.01 * b.held);
+        CHECK_FALSE (b.isPassive());
+        CHECK ((describe (b).find ("the delay of the device and holding") != std::string::npos) == (late > 0.0));
+    }
+}
+
 TEST_CASE ("scopes: what nodes report beyond the work of the hand is not blamed on one cause", "[app][scopes]")
 {
     Recorded r;
