@@ -342,7 +342,7 @@ void TopBar::recall (int number)
     juce::StringArray names;
     for (std::size_t i = 0; i < std::min<std::size_t> (3, missing.size()); ++i)
         names.add (valueText (missing[i]));
-    const juce::String more = missing.size() > 3 ? ", …" : "";
+    const juce::String more = missing.size() > 3 ? fromUtf8 (", …") : juce::String();
     desk.notify (filled (TRANS ("Recalled snapshot %1, except for nodes that the graph no longer has: %2."), n, names.joinIntoString (", ") + more));
 }
 
