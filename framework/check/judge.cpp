@@ -227,7 +227,9 @@ private:
 
         const double room = limit - b, held = s->stiffness * period_s;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
+        constexpr double unclaimed = 1.5;
         std::vector<std::string> ways;
+        std::string more;
         if (room > 0.0)
         {
             const double stiffest = stiffestWall (room, period_s, late), rate = (sum - b) / (room * period_s);
@@ -235,10 +237,13 @@ private:
             ways.push_back ("a stiffness of " + atMost (stiffest, "N/m"));
             if (reaches (numbers, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
         }
+        else if (b > unclaimed * role.claimed_damping)
+            more = "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)";
         else
             ways.push_back (sum - b < limit ? "a virtual damping of " + atMost (limit - (sum - b), "N*s/m")
                                             : "a virtual damping below that of the device and a softer contact");
         ways.push_back ("a device with a damping of " + atLeast (value, "N*s/m"));
+        if (! more.empty()) ways.push_back (std::move (more));
         auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, value, limit, remedy);

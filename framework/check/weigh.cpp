@@ -61,12 +61,13 @@ Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
     return shown;
 }
 
-/// True if dry friction of the device or of the graph, or a brake, may hold a tool whose linear loop swings. Without them, a trial in which the tool comes
-/// to rest only began at the wrong place.
+/// True if dry friction of the device or of the graph, a brake or a passivity controller may hold a tool whose linear loop swings. Without them, a trial in
+/// which the tool comes to rest only began at the wrong place.
 bool mayRest (const Demand& demand, const Trials& trials, std::span<const RoleDemand* const> roles)
 {
     const auto brakes = [] (const RoleDemand* role) { return std::ranges::any_of (role->slopes, [] (const Slope& s) { return s.brake > 0.0; }); };
-    return trials.are_dry || ! demand.stretches.empty() || std::ranges::any_of (roles, brakes);
+    const bool is_controlled = std::ranges::find (demand.nodes, "safety.passivity", &MeasuredNode::type) != demand.nodes.end();
+    return trials.are_dry || ! demand.stretches.empty() || is_controlled || std::ranges::any_of (roles, brakes);
 }
 
 /// The reason why a contact with passive slopes is not passive for every motion; empty if it is. `is_here`: it is passive along this one.
@@ -157,11 +158,11 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         c.text = tried + ", somewhere else than where it was let go; " + c.text;
     }
     else if (c.verdict == Verdict::unstable && ! mayRest (demand, *trials, roles))
-        c.text += "; " + tried + " where it was let go, but no dry friction and no brake holds it there";
+        c.text += "; " + tried + " where it was let go, but no dry friction, no brake and no safety.passivity holds it there";
     else if (c.verdict == Verdict::unstable)
     {
         c.verdict = Verdict::stable;
-        c.text = tried + ", because of something that the linear loop leaves out, such as dry friction or a brake; " + c.text;
+        c.text = tried + ", because of something that the linear loop leaves out, such as dry friction, a brake or a safety.passivity; " + c.text;
     }
     else if (c.verdict == Verdict::broken)   // no loop is known
     {

@@ -83,8 +83,11 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
     std::cout << "  varied: " << (contact.stiffnessParam().empty() ? "the whole response" : printableName (contact.stiffnessParam())) << ", "
               << (contact.dampingParam().empty() ? "a damper along all steepest directions" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
+    if (! contact.controller().empty())
+        std::cout << "  " << quote (contact.controller()) << " (safety.passivity) brakes by what was before, so the contact's limits are not known: these are of its "
+                  << "state at this place\n";
     if (const auto& w = contact.weakest())
-        std::cout << "  the weakest loop there is that of " << quote (w->node) << ": "
+        std::cout << "  the weakest other loop there is that of " << quote (w->node) << ": "
                   << (w->may_grow < 1.0 ? "it swings, and would rest with " : "it rests up to ")
                   << number (w->may_grow) << " times its response; what is varied may not change it\n";
     if (const auto& n = device.numbers; std::isfinite (here.stiffest_held))

@@ -187,9 +187,14 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     }
     way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
+    if (const auto at = std::ranges::find (demand.nodes, "safety.passivity", &check::MeasuredNode::type); at != demand.nodes.end()) its_controller = at->path;
     const auto loops = check::nodeLoops (*heaviest, heaviest_response, role.device.numbers, periodOf (role.device.numbers, motion.rate_hz));
-    if (loops.empty()) return;
-    if (const auto& path = demand.nodes[loops.front().along.node].path; path != steepest) its_weakest = { path, loops.front().may_grow };
+    for (const auto& loop : loops)   // the weakest first
+        if (const auto& path = demand.nodes[loop.along.node].path; path != steepest && (&loop == &loops.front() || loop.may_grow < 1.0))
+        {
+            its_weakest = { path, loop.may_grow };
+            break;
+        }
 }
 
 /// Chooses the params to vary: those of the steepest node that has them, if they change the response.

@@ -62,13 +62,14 @@ public:
     double rate() const noexcept { return motion.rate_hz; }
     double time() const noexcept { return t_s; }                    ///< of the contact, in s
     const std::string& node() const noexcept { return steepest; }   ///< the node whose own force is steepest there; its path
-    /// Another node whose loop is nearer to swinging there, which what is varied may not cure, and how many times its response could be as large.
+    /// Another node whose loop swings there, or is nearer to swinging, which what is varied may not cure, and how many times its response could be as large.
     struct Weakest
     {
         std::string node;
         double may_grow = 0.0;
     };
     const std::optional<Weakest>& weakest() const noexcept { return its_weakest; }
+    const std::string& controller() const noexcept { return its_controller; }        ///< a safety.passivity of the graph: the loop depends on its state
     const std::string& stiffnessParam() const noexcept { return stiffness_param; }   ///< varied, as NODE.PARAM; empty: the whole response
     const std::string& dampingParam() const noexcept { return damping_param; }       ///< the same; empty: a damper is added
     const CheckedRole& device() const noexcept { return role; }                      ///< of the role; with the numbers of the axis if the contact is on an axis
@@ -107,6 +108,7 @@ private:
     std::string steepest;
     Eigen::Matrix3d acts = Eigen::Matrix3d::Identity();   // projection on the directions in which the steepest node acts; a param changes these
     std::optional<Weakest> its_weakest;
+    std::string its_controller;
     std::string stiffness_param, damping_param;   // NODE.PARAM; empty: the contact has none
     double stiffness_set = 0.0, damping_set = 0.0;
     std::map<std::vector<double>, Measured> known;

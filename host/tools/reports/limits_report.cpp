@@ -77,6 +77,7 @@ Json LimitsReport::json() const
     if (! contact.axis().empty()) all["axis"] = contact.axis();
     all["node"] = contact.node();
     all["t"] = contact.time();
+    if (! contact.controller().empty()) all["controller"] = contact.controller();
     if (const auto& w = contact.weakest()) all["weakest"] = Json { { "node", w->node }, { "may_grow", w->may_grow } };
     all["stiffness"] = here.stiffness;
     all["damping"] = here.damping;

@@ -112,7 +112,7 @@ const std::vector<std::pair<std::string, Follow>>& remedies()
 bool isInWords (const std::string& way)
 {
     static const std::set<std::string> all { "weaker forces", "a coarser texture", "a texture.antialias", "a softer contact", "slower strokes",
-                                             "a softer onset", "a force that does not step",
+                                             "a softer onset", "a force that does not step", "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)",
                                              "a virtual damping below that of the device and a softer contact" };
     return all.contains (way) || way.starts_with ("a texture.antialias with f_max ") || way.starts_with ("a lower f_max of ") || way.starts_with ("a filter.butterworth2 at ");
 }

@@ -147,7 +147,12 @@ TEST_CASE ("`tactus limits` names a weaker loop beside the contact that it varie
     late.delay = DeviceNumber { .value = 1.0, .source = "made up" };
     CHECK (check::comesToRest (response, late, 1e-3));
     CHECK_FALSE (check::comesToRest (std::array { 1.01 * response[0] }, late, 1e-3));
-    CHECK (text.find ("the weakest loop there is that of 'drag': it swings, and would rest with 0.33") != std::string::npos);
+    // A stiffer wall is the weakest itself; nothing that is varied lets the friction rest.
+    const auto stiffer = limits (R"("stiffness": 20000, "damping": 5)").first;
+    CHECK (stiffer.at ("stable").at ("stiffness").is_null());
+    CHECK (stiffer.at ("weakest").at ("node") == Json ("drag"));
+    CHECK (stiffer.at ("weakest").at ("may_grow").get<double>() < 1.0);
+    CHECK (text.find ("the weakest other loop there is that of 'drag': it swings, and would rest with 0.33") != std::string::npos);
 
     const auto soft = limits (R"("stiffness": 1000, "damping": 1)").first;
     CHECK (soft.at ("node") == Json ("drag"));
@@ -363,6 +368,22 @@ TEST_CASE ("a wall has its limits, whatever friction slides on it under its load
                 CHECK (loop.at ("may_grow").get<double>() == Approx (is_wall ? without.at ("margin").get<double>() : 2.0).epsilon (0.01));
         }
     }
+}
+
+TEST_CASE ("a wall behind a passivity controller is judged by its trials, and its limits are said to be of one state", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("controlled.json", R"({ "format": "tactus-graph", "version": 2, "rate_hz": 600, "devices": { "tip": { "driver": "sim",
+        "mass": 0.1, "damping": 1, "hand": { "stiffness": 100, "damping": 2, "path": "press" } } }, "nodes": {
+        "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": 20000, "damping": 0 } }, "control": { "type": "safety.passivity" } },
+        "wires": ["hand.position -> wall.position", "hand.position -> control.position", "wall.force -> control.force", "control.force -> motor.force"] })");
+    const auto checked = runTactus ({ "check", file }).out;
+    INFO (checked);
+    CHECK (checked.find ("  stable      stiffness") != std::string::npos);
+    CHECK (checked.find ("such as dry friction, a brake or a safety.passivity") != std::string::npos);
+    CHECK (runTactus ({ "limits", file }).out.find ("'control' (safety.passivity) brakes by what was before, so the contact's limits are not known") != std::string::npos);
+    CHECK (Json::parse (runTactus ({ "limits", file, "--json" }).out).at ("controller") == Json ("control"));
 }
 
 TEST_CASE ("a param is varied at the same force, so the place follows it", "[check][cli]")
