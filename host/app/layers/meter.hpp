@@ -9,12 +9,11 @@
 namespace tactus::host
 {
 
-/// A level meter: the recent RMS level, and the peak, which is held for a while.
+/// A level meter: the recent RMS level, and the peak, which is held for a while. The peak is always one that the signal had: it does not fall slowly.
 class Meter
 {
 public:
-    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< the peak is held for hold_s, then falls to a tenth every second
-    static constexpr double falls_from = 1e3;                 ///< at most, so that the peak of a tool that has run away falls in seconds, too
+    static constexpr double hold_s = 2.0;   ///< the peak is held for this long, then the present one takes its place
 
     /// Takes the latest samples, the last `fresh` of which are new, and the time since the last call.
     void take (std::span<const double> latest, std::size_t fresh, double dt_s) noexcept
@@ -31,8 +30,7 @@ public:
         }
         level = n > 0 ? std::sqrt (sum / static_cast<double> (n)) : 0.0;
         held_for += dt_s;
-        if (held_for > hold_s) held = std::max (level, std::min (held, falls_from) * std::pow (fall_per_s, dt_s));
-        if (highest >= held)
+        if (highest >= held || held_for > hold_s)
         {
             held = highest;
             held_for = 0.0;

@@ -92,10 +92,14 @@ bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
         quantity = trace.quantity();
         has_changed = of.lock() != traces.front() || trace.end() < seen;
         of = traces.front();
-        if (is_first) seen = trace.end();
+        if (has_changed)
+        {
+            meter = {};
+            seen = is_first ? trace.end() : trace.begin();
+        }
         fresh = trace.end() > seen ? static_cast<std::size_t> (trace.end() - seen) : 0;
         // Without new samples, the level is zero.
-        if (fresh > 0 || trace.end() < seen) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), 1.0, latest);
+        if (fresh > 0) latestLevels (traces, static_cast<std::size_t> (rms_s * trace.rate()), 1.0, latest);
         for (std::size_t i = latest.size() - std::min (fresh, latest.size()); i < latest.size(); ++i)
             if (std::isfinite (latest[i])) newest = std::max (newest, std::abs (latest[i]));
         for (auto& v : latest)
