@@ -146,12 +146,14 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     LimitList list;
     for (const auto& c : check::judge (demand, devices, { .trials = &trials }))
     {
+        const bool is_weakest_known = c.verdict == check::Verdict::unstable && ! c.loops.empty() && c.loops.front().may_grow < 1.0 && ! std::isnan (c.may_grow);
         const auto addContact = [&] (const std::string& node, double passive_up_to, double may_grow) {
             list.contacts.push_back ({ .node = node,
                                        .device = nameOf (devices, c.role),
                                        .verdict = c.verdict,
                                        .passive_up_to = passive_up_to,
-                                       .stable_up_to = std::isnan (may_grow) ? 0.0 : may_grow });
+                                       .stable_up_to = std::isnan (may_grow) ? 0.0 : may_grow,
+                                       .swinging = is_weakest_known && may_grow >= 1.0 ? c.loops.front().node : std::string() });
         };
         for (const auto& loop : c.loops)
             addContact (loop.node, loop.passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);

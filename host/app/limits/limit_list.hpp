@@ -61,6 +61,7 @@ struct ContactLimit
     check::Verdict verdict = check::Verdict::passive;
     double passive_up_to = 0.0;   ///< by its own force alone; the contact is passive if all its nodes are
     double stable_up_to = 0.0;    ///< without a hand and with the usual ones; 0 if it is not known: the contact is passive, or only trials judge it
+    std::string swinging {};      ///< path of the node whose loop makes the contact swing, if the loop of this node rests; else empty
 
     bool operator== (const ContactLimit&) const = default;
 };

@@ -4,6 +4,7 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,8 @@ std::string factorText (double v)
 /// True if the limit of the linear loop is where it swings: not if only the trials show a swing, or what calms it.
 bool isLimitKnown (const ContactLimit& c)
 {
-    return c.verdict == check::Verdict::stable ? c.stable_up_to >= 1.0 : c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
+    if (c.verdict == check::Verdict::stable || ! c.swinging.empty()) return c.stable_up_to >= 1.0;
+    return c.stable_up_to > 0.0 && c.stable_up_to < 1.0;
 }
 }   // namespace
 
@@ -57,13 +59,17 @@ juce::String LimitBlock::textOf (const ContactLimit& c)
     if (c.verdict == Verdict::stable && ! is_known)
         return filled (TRANS ("It comes to rest in a trial with %1; passive up to %2 times this stiffness and damping"), device, factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable && ! is_known)
-        return filled (TRANS ("It does not come to rest in a trial with %1"), device)
+        return filled (TRANS ("The contact does not come to rest in a trial with %1"), device)
                + (c.passive_up_to < 1.0 ? filled (TRANS ("; passive up to %1 times this stiffness and damping"), factorText (c.passive_up_to))
                                         : juce::String());
     if (c.verdict == Verdict::stable)
         return filled (TRANS ("Stable on %1 with usual hands. The linear loop (no bounces) is stable up to %2 times this stiffness and damping; passive up to "
                               "%3 times"),
                        device, factorText (c.stable_up_to), factorText (c.passive_up_to));
+    if (! c.swinging.empty())
+        return filled (TRANS ("%1 swings on %2, but %3 does not: its linear loop (no bounces) rests up to %4 times this stiffness and damping; passive up to "
+                              "%5 times"),
+                       printableName (c.swinging), device, printableName (c.node), factorText (c.stable_up_to), factorText (c.passive_up_to));
     if (c.verdict == Verdict::unstable)
         return filled (TRANS ("It swings on %1. The linear loop (no bounces) rests up to %2 times this stiffness and damping; passive up to %3 times"),
                        device, factorText (c.stable_up_to), factorText (c.passive_up_to));

@@ -562,7 +562,9 @@ TEST_CASE ("the inspector says how steep the contact of the selected node may be
     CHECK (text (Verdict::stable, 0.5, 2.0).startsWith ("Stable on A with usual hands. The linear loop (no bounces) is stable up to 2 times this stiffness"));
     CHECK (text (Verdict::stable, 0.5, 0.75).startsWith ("It comes to rest in a trial with A"));   // dry friction holds it
     CHECK (text (Verdict::unstable, 0.5, 0.75).startsWith ("It swings on A"));
-    CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("It does not come to rest in a trial with A"));   // it bounces
+    CHECK (text (Verdict::unstable, 0.5, 2.0).startsWith ("The contact does not come to rest in a trial with A"));   // it bounces
+    CHECK (LimitBlock::textOf ({ "wall", "A", Verdict::unstable, 0.5, 1.5, "drag" })
+           == "drag swings on A, but wall does not: its linear loop (no bounces) rests up to 1.5 times this stiffness and damping; passive up to 0.5 times");
     rig.inspector->showLimits ({});
     CHECK (block()->getHeight() == 0);
 }
@@ -582,6 +584,7 @@ TEST_CASE ("the bar of a contact is red only where its sentence says that it swi
     CHECK (is (parts (Verdict::unstable, 0.5, 0.75), 0.5, 0.75, 0.75));
     CHECK (is (parts (Verdict::unstable, 0.5, 2.0), 0.5, 0.5, 1.0));   // only the trial shows it
     CHECK (is (parts (Verdict::unstable, 1.5, 0.0), 0.0, 0.0, 1.0));
+    CHECK (is (LimitBlock::partsOf ({ "wall", "A", Verdict::unstable, 0.5, 1.5, "drag" }), 0.5, 1.5, 1.5));   // drag swings, and wall does not
     CHECK (is (parts (Verdict::broken, 0.5, 0.0), 0.5, 0.5, none));
     CHECK (LimitBlock::textOf ({ "wall", "A", Verdict::unstable, 0.5, 2.0 }).contains ("passive up to 0.5"));
 }

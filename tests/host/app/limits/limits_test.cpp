@@ -194,6 +194,28 @@ TEST_CASE ("each node whose loop swings is listed with its own factor, the weake
     CHECK (list.contacts[1].stable_up_to == Approx (0.724).epsilon (0.01));   // as the wall alone: computed apart from Tactus
 }
 
+TEST_CASE ("a node whose loop rests is not said to swing with that of another node in the same contact", "[app][limits]")
+{
+    const auto read = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+      "devices": { "tip": { "driver": "sim", "mass": "100 g", "damping": 2, "delay": 1,
+          "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
+      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": 2500, "damping": 2.5 } },
+        "drag": { "type": "friction.elasto_plastic" } },
+      "wires": [ "hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
+        "wall.force -> motor.force", "drag.force -> motor.force" ] })");
+    REQUIRE (read.messages.empty());
+    const auto list = checked (read.graph);
+    REQUIRE (list.contacts.size() == 2);
+    CHECK (list.contacts[0].node == "drag");
+    CHECK (list.contacts[0].swinging.empty());
+    CHECK (LimitBlock::textOf (list.contacts[0]).startsWith ("It swings on "));
+    CHECK (list.contacts[1].node == "wall");
+    CHECK (list.contacts[1].stable_up_to == Approx (1.45).epsilon (0.01));   // twice that of a wall of twice the stiffness and damping
+    CHECK (LimitBlock::textOf (list.contacts[1]).startsWith ("drag swings on "));
+    CHECK (LimitBlock::partsOf (list.contacts[1]).swings > 1.0);
+}
+
 TEST_CASE ("the message of a limit is one short sentence with short numbers, and the first remedy", "[app][limits]")
 {
     for (const auto* device : { R"("damping": 0.4)", R"("damping": 0.4, "quantum": "3.21987 um", "coulomb": "1.2345 mN")",
