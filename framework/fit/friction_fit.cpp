@@ -161,16 +161,66 @@ Result<Drag> dragOf (const RecordedDrag& recorded, std::vector<std::string>& not
     return drag;
 }
 
-/// The noise of the load. A contact gives way at once where the load falls, and stretches only with the movement where it rises. So noise of the load
-/// makes the modelled force too small, and mu too large.
-struct LoadNoise
+/// The noise of a column of Drag, in the unit of the column.
+struct ColumnNoise
 {
-    double deviation = 0.0;   // relative to the reference load
-    double weight = 0.0;      // of the smoothing; 0: the load is as recorded
+    double deviation = 0.0;
+    double weight = 0.0;   // of the smoothing; 0: the column is as recorded
 };
 
+/// The noise of the rows. A contact gives way at once where the load falls, and stretches only with the movement where it rises. So noise of the load
+/// makes the modelled force too small, and mu too large. Noise of the position is movement back and forth, which lets a sliding contact relax.
+struct DragNoise
+{
+    ColumnNoise load {}, position {};
+};
+
+/// The standard deviation of the rows around a curve, from the median, so that the corners that the curve cuts do not count.
+double commonDeviation (const VectorXd& off, double rows)
+{
+    constexpr double deviations_per_median = 1.4826;   // of normal noise
+    std::vector<double> sizes;
+    for (const double v : off)
+        sizes.push_back (std::abs (v));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t> (sizes.size() / 2);
+    std::ranges::nth_element (sizes, middle);
+    return deviations_per_median * *middle / std::sqrt (std::max (1e-3, 1.0 - 1.0 / rows));
+}
+
+/// Whether a curve cuts corners of a column: the mean over half of the rows that it smooths over is somewhere farther off than noise explains.
+bool cutsCorners (const VectorXd& off, double rows, double deviation)
+{
+    constexpr double most = 5.5;   // smooth strokes with noise reach 4.7, turns at a constant speed exceed 6.6
+    const auto reach = std::max<Index> (1, static_cast<Index> (std::lround (std::min (rows, static_cast<double> (off.size())) / 2.0)));
+    double sum = off.head (reach).sum(), largest = std::abs (sum);
+    for (Index i = reach; i < off.size(); ++i)
+    {
+        sum += off[i] - off[i - reach];
+        largest = std::max (largest, std::abs (sum));
+    }
+    return largest > most * deviation * std::sqrt (static_cast<double> (reach));
+}
+
+/// Takes the noise out of the position, unless this would cut corners, as those of strokes at a constant speed.
+ColumnNoise smoothPosition (Drag& drag, std::vector<std::string>& notes)
+{
+    constexpr double none = 2e-5;   // share of the range
+    const double first = drag.position[0];
+    const VectorXd from_first = Eigen::Map<const VectorXd> (drag.position.data(), static_cast<Index> (drag.size())).array() - first;
+    const auto curve = detail::smoothed (from_first);
+    const VectorXd off = from_first - curve.values;
+    const double deviation = commonDeviation (off, curve.rows);
+    if (! (deviation > none * drag.range)) return {};
+    if (cutsCorners (off, curve.rows, deviation)) return { deviation, 0.0 };
+    for (std::size_t i = 0; i < drag.size(); ++i)
+        drag.position[i] = first + curve.values[static_cast<Index> (i)];
+    notes.push_back ("the position has noise of " + roundedText (1e6 * curve.noise, 2) + " um rms, so it is smoothed over about "
+                     + roundedText (std::round (curve.rows), 3) + " rows; the intervals leave out slower errors of the position");
+    return { curve.noise, curve.weight };
+}
+
 /// Takes the noise out of the load.
-LoadNoise smoothLoad (Drag& drag, std::vector<std::string>& notes)
+ColumnNoise smoothLoad (Drag& drag, std::vector<std::string>& notes)
 {
     constexpr double none = 1e-5;   // relative to the load
     const auto curve = detail::smoothed (Eigen::Map<const VectorXd> (drag.load.data(), static_cast<Index> (drag.size())));
@@ -252,21 +302,24 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     std::ranges::sort (found, {}, &FoundDrag::score);
     return found;
 }
+
+/// Whether these rows are clearly more likely than those of a fit.
+bool areClearlyBetter (const Drag& drag, const FoundDrag& found, FitCourse* course)
+{
+    constexpr double clear = 20.0;   // e^10 times as likely
+    const DragSearch same (drag, found.adhesion, drag.size(), course);
+    const double sum = detail::minimise (same.problem(), found.fit.x).sumToCompare();
+    return static_cast<double> (drag.size()) * math::log (found.fit.sumToCompare() / sum) > clear;
+}
+
 /// The fits for the load as recorded, if the force follows what the smoothing takes out of it; else for the smoothed load.
-std::vector<FoundDrag> searchLoads (Drag& drag, const RecordedDrag& recorded, LoadNoise& noise, std::vector<std::string>& notes, FitCourse* course)
+std::vector<FoundDrag> searchLoads (Drag& drag, const RecordedDrag& recorded, ColumnNoise& noise, std::vector<std::string>& notes, FitCourse* course)
 {
     auto raw = drag;
-    noise = recorded.load.empty() ? LoadNoise {} : smoothLoad (drag, notes);
+    noise = recorded.load.empty() ? ColumnNoise {} : smoothLoad (drag, notes);
     auto found = search (drag, course);
     if (! (noise.weight > 0.0) || detail::isCancelled (course)) return found;
-    if (! found.empty())
-    {
-        constexpr double clear = 20.0;   // e^10 times as likely
-        const auto& smooth = found.front().fit;
-        const DragSearch same (raw, found.front().adhesion, raw.size(), course);
-        const double sum = detail::minimise (same.problem(), smooth.x).sumToCompare();
-        if (! (static_cast<double> (raw.size()) * math::log (smooth.sumToCompare() / sum) > clear) || detail::isCancelled (course)) return found;
-    }
+    if (! found.empty() && (! areClearlyBetter (raw, found.front(), course) || detail::isCancelled (course))) return found;
     notes.back() = "the load changes from row to row by " + roundedText (noise.deviation * drag.reference_load, 2)
                    + " N rms, and the force follows it; the intervals leave out errors of the load";
     noise = {};
@@ -274,9 +327,28 @@ std::vector<FoundDrag> searchLoads (Drag& drag, const RecordedDrag& recorded, Lo
     return search (drag, course);
 }
 
-/// The mean squares of what the noise that is left in a smoothed load changes in ln mu, ln d_max and ln stiffness: by one step of Gauss & Newton, where
+/// The fits for the position as recorded, if the force follows what the smoothing takes out of it; else for the smoothed position.
+std::vector<FoundDrag> searchColumns (Drag& drag, const RecordedDrag& recorded, DragNoise& noise, std::vector<std::string>& notes, FitCourse* course)
+{
+    auto raw = drag;
+    const auto earlier = notes.size();
+    noise.position = smoothPosition (drag, notes);
+    auto found = searchLoads (drag, recorded, noise.load, notes, course);
+    if (! (noise.position.weight > 0.0) || detail::isCancelled (course)) return found;
+    auto sharp = drag;
+    sharp.position = raw.position;
+    if (! found.empty() && (! areClearlyBetter (sharp, found.front(), course) || detail::isCancelled (course))) return found;
+    notes.resize (earlier);
+    notes.push_back ("the position changes from row to row by " + roundedText (1e6 * noise.position.deviation, 2)
+                     + " um rms, and the force follows it; the intervals leave out errors of the position");
+    drag = std::move (raw);
+    noise = {};
+    return searchLoads (drag, recorded, noise.load, notes, course);
+}
+
+/// The mean squares of what the noise that is left in a smoothed column changes in ln mu, ln d_max and ln stiffness: by one step of Gauss & Newton, where
 /// the noise becomes twice as large (Cook & Stefanski 1994).
-Eigen::Vector3d varianceOfLoad (const Drag& drag, const LoadNoise& noise, const FoundDrag& found)
+Eigen::Vector3d varianceOf (std::vector<double> Drag::*column, const Drag& drag, const ColumnNoise& noise, const FoundDrag& found)
 {
     constexpr int draws = 8;
     constexpr double more = std::numbers::sqrt3;   // makes noise twice as large
@@ -294,7 +366,7 @@ Eigen::Vector3d varianceOfLoad (const Drag& drag, const LoadNoise& noise, const 
         error = detail::smoothed (error, noise.weight);
         auto noisy = drag;
         for (std::size_t k = 0; k < drag.size(); ++k)
-            noisy.load[k] = std::max (0.0, drag.load[k] + error[static_cast<Index> (k)]);
+            (noisy.*column)[k] += error[static_cast<Index> (k)];   // a load below 0 counts as 0
         const DragSearch with_noise (noisy, found.adhesion, drag.size(), nullptr);
         const VectorXd off = influence * (modelled - with_noise.modelled (found.fit.x, drag.size()));
         const Eigen::Vector3d change { off[0], off[1], off[0] - off[1] };
@@ -311,7 +383,7 @@ Eigen::Vector3d deviations (const detail::LeastSquaresFit& fit)
 }
 
 /// Adhesion functions that fit almost as well widen the intervals, each weighted by its probability (Buckland, Burnham & Augustin 1997).
-void reportDrag (const Drag& drag, const LoadNoise& noise, const std::vector<FoundDrag>& all, FrictionFit& result)
+void reportDrag (const Drag& drag, const DragNoise& noise, const std::vector<FoundDrag>& all, FrictionFit& result)
 {
     const auto& best = all.front();
     const DragSearch search (drag, best.adhesion, drag.size(), nullptr);
@@ -330,7 +402,8 @@ void reportDrag (const Drag& drag, const LoadNoise& noise, const std::vector<Fou
         variance += weight * (spread.cwiseProduct (spread) + off.cwiseProduct (off));
         sum += weight;
     }
-    const Eigen::Vector3d deviation = (variance / sum + varianceOfLoad (drag, noise, best)).cwiseSqrt();
+    const Eigen::Vector3d of_noise = varianceOf (&Drag::load, drag, noise.load, best) + varianceOf (&Drag::position, drag, noise.position, best),
+                          deviation = (variance / sum + of_noise).cwiseSqrt();
     auto& values = result.report.values;
     values = { detail::withLogInterval ("mu", "", result.mu, deviation[0], freedom),
                detail::withLogInterval ("d_max", "m", result.d_max, deviation[1], freedom),
@@ -343,6 +416,18 @@ void reportDrag (const Drag& drag, const LoadNoise& noise, const std::vector<Fou
     }
     if (search.offsets() > 0)
         values.push_back (detail::withInterval ("zero of the force", "N", result.offset, std::sqrt (covariance (3, 3)) * drag.reference_load, freedom, false));
+}
+
+/// Tells of noise of a position that was not smoothed. It lets a sliding contact relax, so d_max and the adhesion are biased.
+void reportPosition (const ColumnNoise& noise, double d_max, FitReport& report)
+{
+    constexpr double harmless = 0.002, most = 0.005;   // shares of d_max
+    if (noise.weight > 0.0 || ! (noise.deviation > harmless * d_max)) return;
+    const auto size = "the position has noise of about " + roundedText (1e6 * noise.deviation, 2) + " um rms, " + percentText (noise.deviation / d_max)
+                      + " of d_max";
+    report.notes.push_back (size + "; the intervals and the choice of the adhesion leave it out");
+    if (noise.deviation > most * d_max)
+        report.lacking.push_back (size + ", which biases d_max and the adhesion: smooth the position, use a finer sensor, or stroke without sudden turns");
 }
 
 /// Adds a lack if a force proportional to the speed would explain most of what the fit leaves. A constant speed is no different from dry friction, so
@@ -385,8 +470,8 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     auto& drag = *read;
     const auto n = drag.size();
 
-    LoadNoise noise;
-    const auto all = searchLoads (drag, recorded, noise, report.notes, course);
+    DragNoise noise;
+    const auto all = searchColumns (drag, recorded, noise, report.notes, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     if (all.empty())
         return fitError ("fit/no_friction", "the force does not depend on the movement as friction does",
@@ -416,14 +501,16 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     report.residual = std::sqrt (found.fit.sum() / static_cast<double> (n));
     report.left_out_residual = std::sqrt ((force - predicted).tail (second).squaredNorm() / static_cast<double> (second));
     report.size = detail::rootMeanSquare (drag.force);
-    auto moved = drag.position;   // strokes are often a small part of the distance to the zero of the sensor
-    for (double& at : moved)
-        at -= drag.position[0];
+    auto moved = drag.position, recorded_at = recorded.position;   // strokes are often a small part of the distance to the zero of the sensor
+    for (auto* column : { &moved, &recorded_at })
+        for (double& at : *column)
+            at -= recorded.position[0];
     report.picture = { "displacement",
                        "m",
                        "friction force",
                        "N",
-                       { { "recorded", moved, drag.force, true }, { "fitted", moved, { modelled.begin(), modelled.end() } } } };
+                       { { "recorded", recorded_at, drag.force, true }, { "fitted", moved, { modelled.begin(), modelled.end() } } } };
+    reportPosition (noise.position, result.d_max, report);
     reportSpeed (drag, modelled, report);
     judge (report,
            "Record at least three slow strokes back and forth, each several times longer than the distance that the contact stretches "
