@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -110,7 +111,30 @@ Result<Contact> contactOf (const RecordedLoop& loop)
     return contact;
 }
 
-/// The speed at each row, from a parabola through the row and its neighbours.
+/// The number of rows from a touch over which the speed at the touch is estimated: noise of the depth counts less over more rows, but the speed must
+/// change little.
+std::size_t rowsOfTouch (const Contact& c)
+{
+    constexpr std::size_t share = 30, least = 3, most = 100;   // one row in 30
+    return std::clamp (c.size() / share, least, most);
+}
+
+/// The speed at the first of these rows, or at the last one, from the parabola that is nearest to them.
+double touchRate (const Contact& c, std::size_t first, std::size_t touch)
+{
+    const auto rows = rowsOfTouch (c);
+    const double span = c.t[first + rows - 1] - c.t[first];
+    Eigen::MatrixXd powers (static_cast<Eigen::Index> (rows), 3);
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+        const double u = (c.t[first + i] - c.t[touch]) / span;
+        powers.row (static_cast<Eigen::Index> (i)) << 1.0, u, u * u;
+    }
+    const Eigen::Map<const Eigen::VectorXd> depth (c.d.data() + first, powers.rows());
+    return Eigen::VectorXd (powers.householderQr().solve (depth))[1] / span;
+}
+
+/// The speed at each row, from a parabola through the row and its neighbours; at the touches, from one through more rows.
 void setRatesByTime (Contact& c)
 {
     const auto slope = [&] (std::size_t i) { return (c.d[i + 1] - c.d[i]) / (c.t[i + 1] - c.t[i]); };
@@ -121,8 +145,8 @@ void setRatesByTime (Contact& c)
         const double before = c.t[i] - c.t[i - 1], after = c.t[i + 1] - c.t[i];
         c.rate[i] = (slope (i - 1) * after + slope (i) * before) / (before + after);
     }
-    c.rate[0] = 2.0 * slope (0) - c.rate[1];
-    c.rate[last] = 2.0 * slope (last - 1) - c.rate[last - 1];
+    c.rate[0] = touchRate (c, 0, 0);
+    c.rate[last] = touchRate (c, c.size() - rowsOfTouch (c), last);
 }
 
 /// The speed at each row of a free impact, from the energy that the mass has lost.
@@ -172,29 +196,35 @@ double depthVariance (const Contact& c)
     return sum / std::max (1.0, rows);
 }
 
-/// The variance of the mass by the errors of the depth. They matter at the touches, where the speeds come from three rows each.
-double massVarianceOfDepth (const RecordedLoop& loop, const Contact& c)
+/// Variances by the errors of the depth.
+struct DepthErrors
 {
-    constexpr std::size_t reach = 2;
+    double speed = 0.0, mass = 0.0;   // of the speed at the touch, in (m/s)^2, and of the mass by the times, in kg^2
+};
+
+/// The errors of the depth matter at the touches, where the speeds come from a few rows each.
+DepthErrors depthErrors (const RecordedLoop& loop, const Contact& c)
+{
+    const auto reach = rowsOfTouch (c);
     const double variance = depthVariance (c), step = std::sqrt (variance);
-    if (! (step > 0.0)) return 0.0;
+    if (! (step > 0.0)) return {};
     auto moved = loop;
-    const auto massWith = [&] (std::size_t row, double by) {
+    const auto estimatesWith = [&] (std::size_t row, double by) {
         moved.depth[row] = loop.depth[row] + by;
         auto contact = contactOf (moved);
         moved.depth[row] = loop.depth[row];
-        if (! contact) return inf;
+        if (! contact) return Eigen::Array2d { inf, inf };
         setRatesByTime (*contact);
-        return massByTime (*contact);
+        return Eigen::Array2d { contact->rate.front(), massByTime (*contact) };
     };
-    double squares = 0.0;
+    Eigen::Array2d squares = Eigen::Array2d::Zero();
     for (std::size_t row = c.first_row > 0 ? c.first_row - 1 : 0; row < loop.depth.size() && row <= c.last_row + 1; ++row)
     {
         if (row > c.first_row + reach && row + reach < c.last_row) continue;
-        const double slope = (massWith (row, step) - massWith (row, -step)) / (2.0 * step);
+        const Eigen::Array2d slope = (estimatesWith (row, step) - estimatesWith (row, -step)) / (2.0 * step);
         squares += slope * slope;
     }
-    return variance * squares;
+    return { variance * squares[0], variance * squares[1] };
 }
 
 /// The growth of the damping with depth.
@@ -485,7 +515,9 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     if (detail::isCancelled (course)) return detail::fitCancelled();
     detail::setShare (course, 0.8);
     fit.recorded = x.f;
-    reportShock (x, law, estimates_mass ? std::optional (massVarianceOfDepth (loop, x)) : std::nullopt, fit);
+    const auto errors = has_times ? depthErrors (loop, x) : DepthErrors {};
+    fit.speed_error = std::sqrt (errors.speed);
+    reportShock (x, law, estimates_mass ? std::optional (errors.mass) : std::nullopt, fit);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.depth = std::move (x.d);
     return fit;

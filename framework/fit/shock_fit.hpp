@@ -25,6 +25,7 @@ struct ShockFit
     Law damping;                                   ///< {"dissipation": lambda}: D = lambda K; or {"power": [B0, 1]}: D = B0 d
     double mass = 0.0;                             ///< mass that rebounded, in kg: as given, or estimated from the times
     double speed = 0.0;                            ///< at the touch, on the way in, in m/s
+    double speed_error = 0.0;                      ///< its standard deviation by noise of the depth; 0 without times
     double recorded_area = 0.0;                    ///< of the recorded loop, in J
     double fitted_area = 0.0;                      ///< of the fitted force over the recorded path, in J; equal to recorded_area
     double played_area = 0.0;                      ///< of a free impact of the mass at this speed, m v^2 (1 - e^2) / 2, in J

@@ -195,7 +195,8 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
     if (! fit) return fit.error();
     constexpr double much = 0.1, of_energy = 0.01;   // the second one is for an impact that loses almost nothing
     const double energy = 0.5 * fit->mass * fit->speed * fit->speed;
-    const bool is_free = std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy;
+    const double of_speed = fit->speed_error > 0.0 ? 4.0 * fit->speed_error / fit->speed : 0.0;   // two deviations, of a square
+    const bool is_free = std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy + of_speed * fit->played_area;
     const auto not_free = Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
                                             "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that "
                                             "moves freely; the fitted force over the recorded depth still has the recorded area");

@@ -184,6 +184,30 @@ TEST_CASE ("fit of a shock: the interval of the mass contains it in spite of noi
     }
 }
 
+TEST_CASE ("fit of a shock: the speed at the touch is known in spite of noise of the depth, and so is its error", "[kit][shock]")
+{
+    constexpr int draws = 20;
+    const Blow blow { .k = 2e5, .n = 1.5, .lambda = 0.4, .m = 0.05, .v = 0.5 };
+    int near = 0;
+    for (unsigned seed = 1; seed <= draws; ++seed)
+    {
+        std::mt19937 random { seed };
+        std::normal_distribution<double> error;
+        auto loop = record (blow, 430);
+        for (double& d : loop.depth)
+            d += 5e-7 * error (random);
+        for (double& f : loop.force)
+            f += 0.15 * error (random);
+        const auto fit = fitShock (loop);
+        REQUIRE (fit);
+        CAPTURE (seed, fit->speed, fit->speed_error, fit->mass);
+        CHECK (fit->speed == Approx (blow.v).epsilon (0.06));
+        CHECK (fit->played_area == Approx (fit->recorded_area).epsilon (0.2));
+        if (std::abs (fit->speed - blow.v) < 2.0 * fit->speed_error) ++near;
+    }
+    CHECK (near >= 0.75 * draws);   // right errors fail in one of 1000 such tests
+}
+
 TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
 {
     tactus::test::property ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
