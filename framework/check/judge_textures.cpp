@@ -73,7 +73,8 @@ private:
         const auto guard = std::ranges::find (demand.nodes, "texture.antialias", &MeasuredNode::type);
         const bool has_guard = guard != demand.nodes.end();
         if (has_guard && options.speed > t.speed) c.text += ", as if it was still felt at this speed, whatever '" + guard->path + "' fades out";
-        judgeScanning (c, k, v, period_s, numbers, alpha, has_guard ? "a lower f_max of '" + guard->path + "' if it fades this texture" : "a texture.antialias");
+        const auto other = has_guard ? "a lower f_max of '" + guard->path + "' if it fades this texture" : std::string ("a texture.antialias");
+        judgeScanning (c, k, v, period_s, numbers, alpha, other);
     }
 
     void lowSpeed()

@@ -84,8 +84,8 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
               << (contact.dampingParam().empty() ? "a damper along all steepest directions" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
     if (! contact.controller().empty())
-        std::cout << "  " << quote (contact.controller()) << " (safety.passivity) brakes by what was before, so the contact's limits are not known: these are of its "
-                  << "state at this place\n";
+        std::cout << "  " << quote (contact.controller()) << " (safety.passivity) brakes by what was before, so the contact's limits are not known: "
+                  << "these are of its state at this place\n";
     if (const auto& w = contact.weakest())
         std::cout << "  the weakest other loop there is that of " << quote (w->node) << ": "
                   << (w->may_grow < 1.0 ? "it swings, and would rest with " : "it rests up to ")

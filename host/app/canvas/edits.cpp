@@ -501,7 +501,8 @@ void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)
         }
         return setParam (*param.node, *param.port, *value);
     };
-    canvas.openEditor (socket.row.translated (node.at.x, node.at.y), before, TextOverlay::Kind::value, apply, [this, id] (int step) { editParamBeside (id, step); });
+    const auto area = socket.row.translated (node.at.x, node.at.y);
+    canvas.openEditor (area, before, TextOverlay::Kind::value, apply, [this, id] (int step) { editParamBeside (id, step); });
 }
 
 /// Edits the next param of the node that can be typed, or with a step of -1 the previous one.

@@ -16,7 +16,7 @@ namespace tactus::host
 class TextOverlay
 {
 public:
-    /// What is edited.
+    /// Kinds of texts.
     enum class Kind
     {
         value,   ///< one line, which is used as a whole

@@ -187,7 +187,8 @@ std::string describe (const EnergyBalance& b)
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
     const auto kind = b.isPassive() ? TRANS ("passive over %5: work of the hand %1, %2 stored, %3 dissipated")
-                                    : TRANS ("active over %5: at one moment, %4 more had come out than gone in; by now, work of the hand %1, %2 stored, %3 dissipated");
+                                    : TRANS ("active over %5: at one moment, %4 more had come out than gone in; by now, work of the hand %1, %2 stored, "
+                                             "%3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
                         juce::String (b.seconds, b.seconds < 10.0 ? 1 : 0) + juce::String::fromUTF8 ("\u00a0s"));
     if (matters (b.held, 0.01))
@@ -198,7 +199,8 @@ std::string describe (const EnergyBalance& b)
     if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
     if (matters (-b.elsewhere(), 0.02))
         text << "; "
-             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool or its sensor moves too far in a tick"),
+             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool or its "
+                               "sensor moves too far in a tick"),
                         joule (-b.elsewhere()));
     return text.toStdString();
 }

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -112,9 +113,11 @@ const std::vector<std::pair<std::string, Follow>>& remedies()
 bool isInWords (const std::string& way)
 {
     static const std::set<std::string> all { "weaker forces", "a coarser texture", "a texture.antialias", "a softer contact", "slower strokes",
-                                             "a softer onset", "a force that does not step", "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)",
+                                             "a softer onset", "a force that does not step",
+                                             "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)",
                                              "a virtual damping below that of the device and a softer contact" };
-    return all.contains (way) || way.starts_with ("a texture.antialias with f_max ") || way.starts_with ("a lower f_max of ") || way.starts_with ("a filter.butterworth2 at ");
+    static const std::array begin { "a texture.antialias with f_max ", "a lower f_max of ", "a filter.butterworth2 at " };
+    return all.contains (way) || std::ranges::any_of (begin, [&] (const char* b) { return way.starts_with (b); });
 }
 
 /// The alternatives of "largest effect on the loop: …; for a contact …: a, b, or c; the steepest node is …".
