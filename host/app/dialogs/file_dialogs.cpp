@@ -83,8 +83,7 @@ struct FileDialogs::SaveWords
         if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };
         const auto name = begin.filename().string();
         if (extensionOf (begin) == ".csv") return { name.starts_with ("gesture") ? TRANS ("Save gesture") : TRANS ("Save data"), "*.csv" };
-        if (name.starts_with ("take")) return { TRANS ("Save take"), "*.jsonl" };
-        if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
+        if (extensionOf (begin) == ".jsonl") return { name.starts_with ("take") ? TRANS ("Save take") : TRANS ("Save test"), "*.jsonl" };
         if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
         if (extensionOf (begin) == ".png") return { name.starts_with ("film") ? TRANS ("Save film") : TRANS ("Save image"), "*.png" };
         if (extensionOf (begin) == ".tactus") return { TRANS ("Share the graph as one file, with the files that it names"), "*.tactus" };
@@ -104,7 +103,8 @@ void FileDialogs::choose (bool saves, const Path& begin, TakePath chosen)
     if (saves)
     {
         const auto words = SaveWords::of (begin);
-        return save (words, words.how == saves_in ? begin : folderFor (words.patterns, begin.parent_path()) / begin.filename(), std::move (chosen));
+        const bool stays = words.how == saves_in || words.patterns == "*.json";   // a graph is saved beside the one that is open
+        return save (words, stays ? begin : folderFor (words.patterns, begin.parent_path()) / begin.filename(), std::move (chosen));
     }
     if (extensionOf (begin) == ".jsonl")
         return open (TRANS ("Open take"), "*.jsonl", begin.parent_path(), std::move (chosen));

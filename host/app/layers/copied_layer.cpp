@@ -22,12 +22,15 @@ struct FreeOutput
     wiring::ForceOutput out;
 };
 
-/// The outputs of a node that may carry a force.
+/// The outputs of a node that may carry a force. An oscillator or a constant has a number, which is no force unless its graph makes one of it; a node that
+/// no copied wire feeds makes nothing of anything.
 std::vector<wiring::ForceOutput> forceOutputs (const graph::Graph& g, const graph::Node& n, bool vectors, const Catalogue& catalogue)
 {
     if (n.type.starts_with ("device.")) return {};
     const auto* type = catalogue.find (n.type);
     if (const auto own = type == nullptr ? std::nullopt : wiring::forceOutput (*type, vectors)) return { *own };
+    const auto isFed = [&] (const graph::Wire& w) { return w.to.node == n.name; };
+    if (type != nullptr && std::ranges::none_of (g.root.wires, isFed)) return {};
     std::vector<wiring::ForceOutput> found;
     for (const auto& p : faceOf (g, g.root, n, catalogue).outputs)
         if (const auto q = p.quantity(); (q == Quantity::force || q == Quantity::any) && p.id.find ('[') == std::string::npos && (p.width == 1 || p.width == 3))
@@ -51,17 +54,17 @@ std::optional<FreeOutput> freeOutput (const graph::Graph& copied, bool vectors, 
 }
 
 /// Wires the inputs of copied nodes as those of the nodes of the same names and types, or, where the patch has none, as far as it has sources. Returns
-/// what is missing. `names`: of the copies. `g`: with the copies.
-std::string wireCopies (const graph::Graph& g, const MixerPlace& at, const graph::Patch& copied, const std::vector<std::string>& names,
+/// what is missing. `names`: of the copies. `with`: the graph with the copies, which gets the wires, too.
+std::string wireCopies (graph::Graph& with, const MixerPlace& at, const graph::Patch& copied, const std::vector<std::string>& names,
                         const Catalogue& catalogue, graph::Batch& batch)
 {
-    const auto& patch = *findPatch (g, at.patch);
     const auto isCopied = [&] (const std::string& node) { return copied.find (graph::firstNameOf (node)) != nullptr; };
-    const auto later = wiring::downstreamOf (patch, at.node);
     std::string missing;
     for (std::size_t i = 0; i < names.size(); ++i)
     {
+        const auto& patch = *findPatch (with, at.patch);
         const auto& node = copied.nodes[i];
+        graph::Batch own;
         const auto* original = names[i] == node.name ? nullptr : patch.find (node.name);
         if (original != nullptr && original->type == node.type)
         {
@@ -71,12 +74,14 @@ std::string wireCopies (const graph::Graph& g, const MixerPlace& at, const graph
                 auto in = w;
                 in.id = graph::newId();
                 in.to.node = names[i];
-                batch.commands.push_back (graph::AddWire { at.patch, withBends (std::move (in), {}) });
+                own.commands.push_back (graph::AddWire { at.patch, withBends (std::move (in), {}) });
             }
         }
         else if (const auto* type = catalogue.find (node.type))
-            if (auto wanted = wiring::wireInputs (*type, names[i], g, at.patch, later, catalogue, batch); ! wanted.empty())
+            if (auto wanted = wiring::wireInputs (*type, names[i], with, at.patch, wiring::downstreamOf (patch, at.node), catalogue, own); ! wanted.empty())
                 missing += (missing.empty() ? "" : ". ") + wanted;
+        for (auto& command : own.commands)   // the next node finds what this one has brought
+            if (graph::apply (with, command)) batch.commands.push_back (std::move (command));
     }
     return missing;
 }
@@ -86,6 +91,9 @@ Result<AddedLayer> addCopiedLayer (const graph::Graph& g, const std::string& pat
                                    std::set<graph::Id>& made)
 {
     const auto mixers = mixersOf (g);
+    if (std::ranges::find (mixers, patch, &MixerPlace::patch) == mixers.end())
+        return Message::error ("mixer/none", {}, TRANS ("there is no mixer here that could take a layer").toStdString(),
+                               TRANS ("add a layer or mix the signals first, in the Layers tab; Ctrl+V pastes the nodes as they are").toStdString());
     const auto fits = [&] (const MixerPlace& m) { return m.patch == patch && freeOutput (copied, m.vectors, catalogue); };
     const auto at = std::ranges::find_if (mixers, fits);
     if (at == mixers.end())

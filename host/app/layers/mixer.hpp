@@ -73,7 +73,7 @@ Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catal
 Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& file, std::optional<double> gain = {});
 
 /// Pastes copied nodes into a patch as a layer of its first mixer that can take their one free output. Their inputs are wired as those of the nodes of the
-/// same names and types, or else as far as the patch has sources for them. `made` receives the ids of the new nodes. Ids: mixer/full, mixer/type.
+/// same names and types, or else as far as the patch has sources for them. `made` receives the ids of the new nodes. Ids: mixer/none, mixer/full, mixer/type.
 Result<AddedLayer> addCopiedLayer (const graph::Graph&, const std::string& patch, const Catalogue&, const graph::Graph& copied, std::set<graph::Id>& made);
 
 /// The kinds of layers that the desk adds with one click.

@@ -187,7 +187,7 @@ std::string describe (const EnergyBalance& b)
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
     const auto kind = b.isPassive() ? TRANS ("passive over %5: work of the hand %1, %2 stored, %3 dissipated")
-                                    : TRANS ("active over %5: at one moment, %4 more had come out than gone in; by now, work of the hand %1, %2 stored, "
+                                    : TRANS ("active over %5: at one moment, %4 more had come out than had gone in; by now, work of the hand %1, %2 stored, "
                                              "%3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
                         juce::String (b.seconds, b.seconds < 10.0 ? 1 : 0) + juce::String::fromUTF8 ("\u00a0s"));

@@ -29,7 +29,7 @@ Panel scopesPanel (Desk& desk)
              .keys = { { "x", NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes"), [scopes] { scopes->freezeAll (! scopes->isFrozen()); } } },
              .refresh =
                  [&desk, scopes] {
-                     scopes->setHandDelay (desk.playback.run().handDelay());
+                     if (const auto& run = desk.playback.run(); run.isRunning()) scopes->setHandDelay (run.handDelay());
                      if (scopes->isVisible()) scopes->refresh();
                  },
              .keep = [scopes] (graph::Graph& graph) { scopes->keepIn (graph); },

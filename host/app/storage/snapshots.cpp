@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <utility>
 
 namespace tactus::host
 {
@@ -197,7 +198,9 @@ Json snapshotsAfter (const graph::Graph& before, const std::function<graph::Comm
         });
         forEachMissing (before, then, [&] (const std::string& name, const std::string& node, const Json& of_node) {
             auto& nodes = name.empty() ? values["nodes"] : values["graphs"][name];
-            if (! nodes.contains (node)) nodes[node] = of_node;
+            const auto* patch = name.empty() ? &held.root : std::as_const (held).find (name);
+            const bool is_taken = patch != nullptr && patch->find (node) != nullptr;   // by a node that the snapshot does not hold
+            if (! nodes.contains (node) && ! is_taken) nodes[node] = of_node;
         });
         all[std::to_string (number)] = std::move (values);
     }

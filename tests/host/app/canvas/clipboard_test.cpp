@@ -113,6 +113,36 @@ TEST_CASE ("a copied layer becomes one more layer, with the inputs of the origin
     CHECK (writeGraph (w.graph()) == before);
 }
 
+TEST_CASE ("copied nodes become a layer of another graph, whatever they need there; an oscillator alone does not, as it is no force", "[app][clipboard]")
+{
+    const auto pad = loadGraph (TACTUS_SOURCE_DIR "/graphs/soft_pad.json").graph, beat = loadGraph (TACTUS_SOURCE_DIR "/graphs/heartbeat.json").graph;
+    auto mixed = pad;
+    const auto added = compose::addPreset (mixed, beat, { .roles = compose::roleMaps (mixed, beat).front() }, catalogue());
+    REQUIRE (added);
+    REQUIRE (graph::apply (mixed, added->command));
+    const auto pasted = [] (const Sketch& copied, graph::Graph g) {
+        std::set<graph::Id> made;
+        auto layer = addCopiedLayer (g, {}, catalogue(), copied.graph, made);
+        if (layer) REQUIRE (graph::apply (g, layer->command));   // no name is made twice
+        return std::pair (std::move (layer), std::move (g));
+    };
+    Sketch swelling;   // both want to know of the contact, and there is no window of it
+    swelling.node ("swell", "signal.envelope");
+    swelling.node ("grain", "texture.noise");
+    swelling.wire ("swell.out -> grain.amplitude");
+    const auto [layer, with] = pasted (swelling, mixed);
+    INFO ((layer ? std::string() : layer.error().text));
+    REQUIRE (layer);
+    CHECK (hasMotorLayers (with, static_cast<std::size_t> (layersOf (*with.root.find ("desk"), catalogue()))));
+
+    Sketch lone;
+    lone.node ("lfo", "signal.lfo");
+    CHECK_FALSE (pasted (lone, mixed).first);
+    const auto none = pasted (swelling, pad).first;
+    REQUIRE_FALSE (none);
+    CHECK (none.error().id == "mixer/none");
+}
+
 TEST_CASE ("relative files of copied nodes are found from the other graph's folder", "[app][canvas][clipboard]")
 {
     const TemporaryFolder folder;

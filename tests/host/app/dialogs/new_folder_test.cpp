@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/environment.hpp"
 #include "host/app/support/screen.hpp"
 #include "host/app/support/window_rig.hpp"
 
@@ -6,7 +7,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 
 using namespace tactus::host;
@@ -17,7 +17,7 @@ using tactus::host::test::WindowRig;
 TEST_CASE ("on a screen: where a new folder is named", "[.screen]")
 {
     const TemporaryFolder mine;
-    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    const tactus::host::test::Environment own_graphs { "TACTUS_GRAPHS", mine.path() };
     {
         WindowRig w ("dry_wood.json");
         w.key ("ctrl + shift + s");
@@ -41,7 +41,6 @@ TEST_CASE ("on a screen: where a new folder is named", "[.screen]")
         w.key ("escape");
         CHECK (waitFor ([&] { return asked() == nullptr; }));
     }
-    unsetenv ("TACTUS_GRAPHS");
 }
 
 TEST_CASE ("the name of a new folder is asked for in the window, over the dialog for files", "[app][files]")
