@@ -261,6 +261,8 @@ private:
         const bool is_passive = c.verdict == Verdict::passive || c.verdict == Verdict::passive_here;
         if (! grows && ! is_passive) return;
         auto nodes = passiveNodes();
+        constexpr double explained = 1.05;   // else the steepest direction is no node's own, as in a corner of two walls
+        if (! nodes.empty() && nodes.front().passive_up_to > explained * c.limit / c.value) nodes.clear();
         if (! grows)
         {
             c.loops = std::move (nodes);
@@ -268,20 +270,20 @@ private:
         }
         for (auto& loop : c.loops)
             if (const auto at = std::ranges::find (nodes, loop.node, &Condition::Loop::node); at != nodes.end()) loop.passive_up_to = at->passive_up_to;
-        if (c.verdict == Verdict::stable) std::ranges::stable_sort (c.loops, {}, &Condition::Loop::passive_up_to);
+        if (c.verdict == Verdict::stable && ! nodes.empty()) std::ranges::stable_sort (c.loops, {}, &Condition::Loop::passive_up_to);
     }
 
     /// How many times each node's response could be as large and passive, in its own loop at every place. Empty if not all loops are known.
     std::vector<Condition::Loop> passiveNodes() const
     {
         std::vector<Condition::Loop> nodes;
-        const std::vector<Jacobian>* last = nullptr;   // many places have the same response
+        const Slope* last = nullptr;   // many places have the same response
         for (const auto& s : role.slopes)
         {
             const auto& response = responseAt (s);
             if (isOverdamped() || isSlow (demand, numbers) || (response.empty() && s.stiffness > 0.0)) return {};
-            if (last != nullptr && isLike (*last, response)) continue;
-            last = &response;
+            if (last != nullptr && last->brake == s.brake && isLike (responseAt (*last), response)) continue;
+            last = &s;
             const double limit = loadAt (s).limit;
             for (const auto& one : nodeResponses (s, response))
             {

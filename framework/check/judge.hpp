@@ -60,8 +60,8 @@ struct Condition
     struct Loop
     {
         std::string node;
-        double passive_up_to = 0.0;                                   ///< how many times its response could be as large and passive, at every place
-        double may_grow = std::numeric_limits<double>::quiet_NaN();   ///< before it swings, where the contact is nearest to swinging; NaN: not judged
+        double passive_up_to = std::numeric_limits<double>::quiet_NaN();   ///< how many times its response could be as large and passive, at every place
+        double may_grow = std::numeric_limits<double>::quiet_NaN();        ///< before it swings, where the contact is nearest to swinging; NaN: not judged
     };
     /// Of `stiffness`: the loops of the nodes, the weakest first: for `unstable`, the one that swings first, and else, the one that is passive up to the
     /// least. Empty if they do not explain the verdict.

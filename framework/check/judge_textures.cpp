@@ -19,13 +19,13 @@ double wanted (double factor, double value, double limit) noexcept { return fact
 
 std::string slower (double speed) { return "slower than " + text (threeDigits (speed, false), "m/s"); }
 
-/// Sets the condition `scanning` for ridges of the frequency k, in 1/m, that a hand crosses at v, in m/s. `other`: a further remedy.
+/// Sets the condition `scanning` for ridges of the frequency k, in 1/m, that a hand crosses at v, in m/s. `other`: a further remedy, if there is one.
 void judgeScanning (Condition& c, double k, double v, double period_s, const DeviceNumbers& numbers, double alpha, std::string other)
 {
     const double aim = wanted (alpha, k * v * period_s, 1.0);
     std::vector<std::string> ways { "strokes " + slower (1.0 / (aim * k * period_s)) };
     if (reaches (numbers, aim * k * v)) ways.push_back ("a rate " + above (aim * k * v, "Hz"));
-    ways.push_back (std::move (other));
+    if (! other.empty()) ways.push_back (std::move (other));
     decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha), anyOf (ways));
 }
 
@@ -71,9 +71,10 @@ private:
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speed();
         auto& c = add ("scanning", "alpha k v T < 1", "1", wave() + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
         const auto guard = std::ranges::find (demand.nodes, "texture.antialias", &MeasuredNode::type);
-        const bool has_guard = guard != demand.nodes.end();
-        if (has_guard && options.speed > t.speed) c.text += ", as if it was still felt at this speed, whatever '" + guard->path + "' fades out";
-        const auto other = has_guard ? "a lower f_max of '" + guard->path + "' if it fades this texture" : std::string ("a texture.antialias");
+        const bool has_guard = guard != demand.nodes.end(), is_assumed = options.speed > t.speed;
+        if (has_guard && is_assumed) c.text += ", as if it were still felt at this speed, whatever '" + guard->path + "' fades out";
+        const auto other = ! has_guard ? std::string ("a texture.antialias") : is_assumed ? ""
+                                                                                          : "a lower f_max of '" + guard->path + "' if it fades this texture";
         judgeScanning (c, k, v, period_s, numbers, alpha, other);
     }
 

@@ -54,6 +54,7 @@ public:
     void meet();
 
     std::size_t nodes() const noexcept { return forces.size(); }
+    const Plan& plan() const noexcept { return still.plan(); }
     std::size_t roles() const noexcept { return motion.roles.size(); }
 
     /// The responses of all nodes' own forces to the last shift, one component after another: per metre after respond(), in N after

@@ -43,12 +43,37 @@ Stretched mostStretched (const Matrix& m)
     return { std::sqrt (std::max (0.0, parts.eigenvalues()[2])), parts.eigenvectors().col (2) };
 }
 
+/// By node: true if its vectors reach the motors in the directions of the tool: added, scaled or filtered as a whole, but not turned.
+std::vector<bool> unturned (const Plan& plan)
+{
+    const auto& flat = plan.flat();
+    const auto keepsDirections = [] (std::string_view type) {
+        return type == "vector.add" || type == "vector.scale" || type == "layer.mix_vectors" || type.starts_with ("filter.") || type.starts_with ("safety.");
+    };
+    std::vector<bool> are (flat.nodes.size(), true);
+    for (bool changes = true; changes;)
+    {
+        changes = false;
+        for (const auto& w : flat.wires)
+        {
+            if (! w.from || ! are[at (w.from->node)]) continue;
+            const auto& from = flat.node (w.from->node).type->outputs[at (w.from->port)];
+            const auto& to = flat.node (w.to.node);
+            const bool is_sink = to.type->effort != nullptr, is_whole = w.from->component < 0 && w.to.component < 0;
+            if (from.width != 3 || (is_whole && (is_sink || (keepsDirections (to.type->info.id) && are[at (w.to.node)])))) continue;
+            are[at (w.from->node)] = false;
+            changes = true;
+        }
+    }
+    return are;
+}
+
 /// Does the work of measureSlopes().
 class SlopeSurvey
 {
 public:
     SlopeSurvey (const Subject& subject, const HandMotion& m, const SlopeWork& w)
-        : motion (m), work (w), pair (subject, m, w.without, holdFor (w.longest_delay)), roles (m.roles.size())
+        : motion (m), work (w), pair (subject, m, w.without, holdFor (w.longest_delay)), roles (m.roles.size()), are_unturned (unturned (pair.plan()))
     {
         found.by_role.resize (roles);
         found.directions.assign (roles, Directions (pair.nodes(), Matrix::Zero()));
@@ -70,6 +95,7 @@ private:
     const SlopeWork& work;
     Pair pair;
     std::size_t roles;
+    std::vector<bool> are_unturned;   // by node
     Slopes found {};
 
     static std::size_t holdFor (std::int64_t delay)
@@ -162,6 +188,8 @@ private:
                     {
                         keepPath (all, column, sign, *response);
                         own[at (axis)] = pair.ownResponses();
+                        for (double& v : own[at (axis)])
+                            v *= sign;
                     }
                     most_felt = std::max (most_felt, felt);
                     pair.raise (slope.by_node);
@@ -184,7 +212,7 @@ private:
             for (std::size_t i = 0; i < width; ++i)
                 jacobian.row (static_cast<Eigen::Index> (i)) << own[0][first_of + i], own[1][first_of + i], own[2][first_of + i];
             felt[node] += jacobian.transpose() * jacobian;
-            if (width == 3) slope.pulls[node] += jacobian * jacobian.transpose();
+            if (width == 3 && are_unturned[node] && ! motion.roles[role].axis) slope.pulls[node] += jacobian * jacobian.transpose();
         });
         for (std::size_t n = 0; n < felt.size(); ++n)
         {

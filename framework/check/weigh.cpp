@@ -66,7 +66,7 @@ Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
 bool mayRest (const Demand& demand, const Trials& trials, std::span<const RoleDemand* const> roles)
 {
     const auto brakes = [] (const RoleDemand* role) { return std::ranges::any_of (role->slopes, [] (const Slope& s) { return s.brake > 0.0; }); };
-    const bool is_controlled = std::ranges::find (demand.nodes, "safety.passivity", &MeasuredNode::type) != demand.nodes.end();
+    const bool is_controlled = demand.roles.size() == 1 && std::ranges::find (demand.nodes, "safety.passivity", &MeasuredNode::type) != demand.nodes.end();
     return trials.are_dry || ! demand.stretches.empty() || is_controlled || std::ranges::any_of (roles, brakes);
 }
 

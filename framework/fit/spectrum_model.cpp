@@ -292,16 +292,18 @@ Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches
 
 double shareOfTones (const std::vector<std::span<const double>>& stretches)
 {
-    constexpr std::size_t first = 8;   // a line with fewer periods in a stretch is a drift
+    constexpr std::size_t first = 8;      // a line with fewer periods in a stretch is a drift
+    constexpr std::size_t least = 1000;   // lines; in fewer, a resonance may be as narrow as a tone
     double all = 0.0, of_tones = 0.0;
     for (const auto y : stretches)
     {
         const auto powers = linesOf (y.first (fastLength (y.size())));
+        if (powers.size() < least) return 0.0;
         double largest = 0.0;
-        for (std::size_t j = first; j + 1 < powers.size(); ++j)
+        for (std::size_t j = first; j < powers.size(); ++j)
         {
-            largest = std::max (largest, powers[j - 1] + powers[j] + powers[j + 1]);
             all += powers[j];
+            if (j > first && j + 1 < powers.size()) largest = std::max (largest, powers[j - 1] + powers[j] + powers[j + 1]);
         }
         of_tones += largest;
     }

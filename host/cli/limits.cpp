@@ -81,7 +81,7 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
     row ("virtual damping (N*s/m)", number (here.damping), describe (passive.damping, false), rests (stable.damping, false));
     row ("rate (Hz)", number (contact.rate()), describe (passive.rate, true), rests (stable.rate, true));
     std::cout << "  varied: " << (contact.stiffnessParam().empty() ? "the whole response" : printableName (contact.stiffnessParam())) << ", "
-              << (contact.dampingParam().empty() ? "a damper along all steepest directions" : printableName (contact.dampingParam()))
+              << (contact.dampingParam().empty() ? "a damper along the steepest direction, or all that are as steep" : printableName (contact.dampingParam()))
               << "; the slopes at one place of the motion, without quanta and dry friction: `tactus check` lets go of the tool\n";
     if (! contact.controller().empty())
         std::cout << "  " << quote (contact.controller()) << " (safety.passivity) brakes by what was before, so the contact's limits are not known: "

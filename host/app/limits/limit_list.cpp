@@ -79,6 +79,13 @@ std::string detailsOf (const check::Condition& c, const std::string& device, boo
                       + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString()));
 }
 
+/// Two digits, not above the number.
+std::string roundedDown (double v)
+{
+    const double unit = v > 0.0 ? std::pow (10.0, std::floor (std::log10 (v)) - 1.0) : 1.0;
+    return roundedText (std::floor (v / unit) * unit, 2);
+}
+
 /// The paths of the nodes that push the device of a role.
 std::vector<std::string> sinksOf (const Plan& plan, const std::string& role)
 {
@@ -156,7 +163,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                                        .swinging = is_weakest_known && may_grow >= 1.0 ? c.loops.front().node : std::string() });
         };
         for (const auto& loop : c.loops)
-            addContact (loop.node, loop.passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
+            addContact (loop.node, std::isnan (loop.passive_up_to) ? c.limit / c.value : loop.passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
         if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())   // the steepest node stands for all
             addContact (steepestOf (demand, c.role), c.limit / c.value, c.may_grow);
         const bool is_broken = c.isBroken();
@@ -185,7 +192,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                 if (! (room < 1.0)) continue;
                 auto other = c;
                 other.may_grow = may_grow;
-                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), twoDigits (room)).toStdString();
+                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), roundedDown (room)).toStdString();
                 list.limits.push_back ({ is_broken, std::string (c.id), { node }, limitSentence (other, node, device), remedy, details });
             }
         }

@@ -59,7 +59,7 @@ struct ContactLimit
     std::string node;     ///< its path
     std::string device;   ///< name of the role's device
     check::Verdict verdict = check::Verdict::passive;
-    double passive_up_to = 0.0;   ///< by its own force alone; the contact is passive if all its nodes are
+    double passive_up_to = 0.0;   ///< by its own force alone, or that of the whole contact if the nodes do not explain it
     double stable_up_to = 0.0;    ///< without a hand and with the usual ones; 0 if it is not known: the contact is passive, or only trials judge it
     std::string swinging {};      ///< path of the node whose loop makes the contact swing, if the loop of this node rests; else empty
 

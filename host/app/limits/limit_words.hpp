@@ -15,7 +15,7 @@ bool isPastPassivity (const check::Condition&);
 std::string twoDigits (double);
 
 /// A limit in one sentence, without its laws: "The stiffness of wall is 5.1 times what stylus (simulated) allows". `node` is what the limit is about;
-/// empty: the whole role. A number has two digits.
+/// empty: the whole role. A number has two digits, three near 1.
 std::string limitSentence (const check::Condition&, const std::string& node, const std::string& device);
 
 /// The first of the things that would help, with numbers that need no exponent; empty if nothing is known.

@@ -81,13 +81,13 @@ Response within (const Eigen::Matrix3d& directions, const Response& r)
     return all;
 }
 
-/// A response without a force across some directions that depends on steps along them, but not the other way round, or the reverse. A friction that slides
-/// along a wall has less force the less it is pressed. No energy belongs to that, so a matrix says too much of it.
+/// A response without a coupling that goes only one way: a force across some directions that depends on steps along them, or the reverse, but not both. A
+/// friction that slides along a wall has less force the less it is pressed. The loops along and across have the same eigenvalues without it.
 check::Jacobian withoutOneWay (const Eigen::Matrix3d& along, const check::Jacobian& m)
 {
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along, there = along * m * across, back = (across * m * along).transpose();
-    constexpr double clearly = 0.5;   // relative
-    if (! ((there - back).norm() > clearly * std::max (there.norm(), back.norm()))) return m;
+    constexpr double absent = 0.1;   // relative
+    if (! (std::min (there.norm(), back.norm()) < absent * std::max (there.norm(), back.norm()))) return m;
     return along * m * along + across * m * across;
 }
 
@@ -187,7 +187,8 @@ Contact::Contact (check::Subject s, check::HandMotion m, const std::vector<Check
     }
     way.ticks = way.roles.front().readings.size();
     findParams (demand, *heaviest, plan);
-    if (const auto at = std::ranges::find (demand.nodes, "safety.passivity", &check::MeasuredNode::type); at != demand.nodes.end()) its_controller = at->path;
+    if (const auto at = std::ranges::find (demand.nodes, "safety.passivity", &check::MeasuredNode::type); at != demand.nodes.end() && demand.roles.size() == 1)
+        its_controller = at->path;
     const auto loops = check::nodeLoops (*heaviest, heaviest_response, role.device.numbers, periodOf (role.device.numbers, motion.rate_hz));
     for (const auto& loop : loops)   // the weakest first
         if (const auto& path = demand.nodes[loop.along.node].path; path != steepest && (&loop == &loops.front() || loop.may_grow < 1.0))
@@ -321,6 +322,11 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
     if (base.response.empty()) return models[std::move (key)];
     const double period_s = 1.0 / rate_hz;
     Model m { .stiffness = base.stiffness, .damping = base.damping, .rest = {}, .spring = {}, .damper = {} };
+    const auto ownOf = [&] (const Response& change) {   // of the node, unless most of it is elsewhere
+        constexpr double most = 0.5;
+        auto own = within (acts, change);
+        return sizeOf (own) < most * sizeOf (change) ? change : own;
+    };
     const auto valueOf = [&] (const std::string& param, double set) {   // the one that is varied along an axis, too
         const auto i = std::ranges::find (varied, param) - varied.begin();
         return static_cast<std::size_t> (i) < params.size() ? params[static_cast<std::size_t> (i)] : set;
@@ -331,7 +337,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         const double b = valueOf (damping_param, damping_set), more = 0.1 * damping();
         const auto other = measured (rate_hz, params, { { damping_param, Json (b + more) } });
         if (other.response.empty()) return models[std::move (key)];
-        m.damper = scaled (1.0 / more, within (acts, sum (other.response, -1.0, base.response)));
+        m.damper = scaled (1.0 / more, ownOf (sum (other.response, -1.0, base.response)));
         const double each = stretch (excessOf (m.damper, period_s));
         if (each > 0.0)
         {
@@ -347,7 +353,7 @@ const Contact::Model& Contact::model (double rate_hz, const std::vector<double>&
         {
             const auto other = measured (rate_hz, params, { { stiffness_param, Json (1.01 * k) } });
             if (other.response.empty()) return models[std::move (key)];
-            const auto change = scaled (100.0, within (acts, sum (other.response, -1.0, base.response)));   // of all of the param
+            const auto change = scaled (100.0, ownOf (sum (other.response, -1.0, base.response)));   // of all of the param
             if (const double of_param = change.empty() ? 0.0 : stretch (change.back()); of_param > 0.0)
             {
                 m.spring = scaled (1.0 / of_param, change);

@@ -370,6 +370,61 @@ TEST_CASE ("a wall has its limits, whatever friction slides on it under its load
     }
 }
 
+TEST_CASE ("limits and check agree on walls that are turned, on an axis, in a corner and beside a curl", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto graph = [&] (const char* name, int rate_hz, const std::string& tool, const std::string& nodes, const std::string& wires) {
+        return scratch.write (name, R"({ "format": "tactus-graph", "version": 2, "rate_hz": )" + std::to_string (rate_hz) + R"(, "devices": { "tip": { "driver":
+            "sim", "mass": 0.1, )" + tool
+                                        + R"(, "hand": { "stiffness": 100, "damping": 2, "path": "press" } } }, "nodes": { )" + nodes + R"( }, "wires": [ )"
+                                        + wires + " ] }");
+    };
+    const std::string hand = R"("hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" }, )";
+    const auto limitOf = [] (const std::string& file) {
+        const auto limits = Json::parse (runTactus ({ "limits", file, "--json" }).out);
+        return limits.at ("passive").at ("stiffness").at ("to").get<double>() / limits.at ("stiffness").get<double>();
+    };
+    const auto stiffnessOf = [] (const std::string& file) {
+        const auto all = Json::parse (runTactus ({ "check", file, "--json" }).out).at ("conditions").asArray();
+        return *std::ranges::find (all, "stiffness", [] (const Json& one) { return one.at ("id").asString(); });
+    };
+
+    // B 2 and a delay of 1: passive up to 2B/(3T) = 1333 N/m, however the wall is turned.
+    const auto turned = graph ("turned.json", 1000, R"("damping": 2, "delay": 1)",
+                               hand + R"("to": { "type": "vector.to_frame", "params": { "rotation": [0, -0.6, 0] } },
+            "from": { "type": "vector.from_frame", "params": { "rotation": [0, -0.6, 0] } }, "a": { "type": "deform.plane", "params": { "stiffness": 1000 } })",
+                               R"("hand.position -> to.in", "to.out -> a.position", "a.force -> from.in", "from.out -> motor.force")");
+    CHECK (limitOf (turned) == Approx (1.333).epsilon (0.01));
+    CHECK (stiffnessOf (turned).at ("loops")[0].at ("passive_up_to").get<double>() == Approx (1.333).epsilon (0.01));
+
+    // The same on an axis, without a delay: 4 times.
+    const auto axis = graph ("axis.json", 1000, R"("damping": 2, "axes": { "knob": { "mass": 0.1, "damping": 2 } })",
+                             R"("ax": { "type": "device.axis", "role": "tip", "settings": { "axis": "knob" } }, "j": { "type": "vector.join" },
+            "ef": { "type": "device.effort", "role": "tip", "settings": { "axis": "knob" } }, "s": { "type": "vector.split" },
+            "a": { "type": "deform.plane", "params": { "stiffness": 1000 } })",
+                             R"("ax.axis -> j.z", "j.out -> a.position", "a.force -> s.in", "s.z -> ef.effort")");
+    CHECK (limitOf (axis) == Approx (4.0).epsilon (0.01));
+
+    // The steepest direction of a corner of two walls is no wall's own: no node has a factor.
+    const auto corner = graph ("corner.json", 1000, R"("damping": 2.5, "delay": 1)",
+                               hand + R"("a": { "type": "deform.plane", "params": { "stiffness": 1000, "normal": [0.91, 0, 0.4146] } },
+            "b": { "type": "deform.plane", "params": { "stiffness": 1000 } })",
+                               R"("hand.position -> a.position", "hand.position -> b.position", "a.force -> motor.force", "b.force -> motor.force")");
+    const auto both = stiffnessOf (corner);
+    INFO (both.dump());
+    CHECK (both.at ("margin").get<double>() == Approx (1.178).epsilon (0.01));
+    CHECK_FALSE (both.contains ("loops"));
+
+    // K = 1000 I with a curl of 300 N/m: the eigenvalues of M p^2 + B p + 1100 +- 283i, for a wall of 1200 N/m, have a positive real part.
+    const auto swirl = graph ("swirl.json", 4000, R"("damping": 1)",
+                              hand + R"("s": { "type": "vector.split" }, "j": { "type": "vector.join" }, "ex": { "type": "signal.expression",
+            "settings": { "inputs": 2, "text": "-1000*in0-300*in1" } }, "ez": { "type": "signal.expression", "settings": { "inputs": 1, "text": "300*in0" } },
+            "a": { "type": "deform.plane", "params": { "stiffness": 1200 } })",
+                              R"("hand.position -> s.in", "hand.position -> a.position", "a.force -> motor.force", "s.x -> ex.in[0]", "s.z -> ex.in[1]",
+            "s.x -> ez.in[0]", "ex.out -> j.x", "ez.out -> j.z", "j.out -> motor.force")");
+    CHECK (Json::parse (runTactus ({ "limits", swirl, "--json" }).out).at ("radius").get<double>() > 1.001);
+}
+
 TEST_CASE ("a wall behind a passivity controller is judged by its trials, and its limits are said to be of one state", "[check][cli]")
 {
     const Scratch scratch;
@@ -382,7 +437,8 @@ TEST_CASE ("a wall behind a passivity controller is judged by its trials, and it
     INFO (checked);
     CHECK (checked.find ("  stable      stiffness") != std::string::npos);
     CHECK (checked.find ("such as dry friction, a brake or a safety.passivity") != std::string::npos);
-    CHECK (runTactus ({ "limits", file }).out.find ("'control' (safety.passivity) brakes by what was before, so the contact's limits are not known") != std::string::npos);
+    const auto told = runTactus ({ "limits", file }).out;
+    CHECK (told.find ("'control' (safety.passivity) brakes by what was before, so the contact's limits are not known") != std::string::npos);
     CHECK (Json::parse (runTactus ({ "limits", file, "--json" }).out).at ("controller") == Json ("control"));
 }
 
