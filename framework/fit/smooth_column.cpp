@@ -11,13 +11,12 @@ namespace tactus::detail
 {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
-VectorXd smoothed (const VectorXd& y, double weight)
+Column smoothed (const Column& y, double weight)
 {
     const Index n = y.size();
     if (n < 4) return y;
-    VectorXd pivot (n), next (n), second (n), z = y;   // L D L^T of a band of two
+    Column pivot (n), next (n), second (n), z = y;   // L D L^T of a band of two
     for (Index i = 0; i < n; ++i)
     {
         const bool is_end = i == 0 || i == n - 1, is_beside = i == 1 || i == n - 2;
@@ -63,7 +62,7 @@ double freedomOf (Index n, double weight)
 }
 }   // namespace
 
-SmoothColumn smoothed (const VectorXd& y)
+SmoothColumn smoothed (const Column& y)
 {
     constexpr double caution = 1.4, lightest = 0.1, heaviest = 1e10, finer = 3.0;
     const auto n = static_cast<double> (y.size());
@@ -73,7 +72,7 @@ SmoothColumn smoothed (const VectorXd& y)
     {
         const double freedom = freedomOf (y.size(), weight);
         if (caution * freedom >= n) continue;
-        const VectorXd z = smoothed (y, weight);
+        const Column z = smoothed (y, weight);
         const double sum = (y - z).squaredNorm(), score = sum / ((n - caution * freedom) * (n - caution * freedom));
         if (! (score < least)) continue;
         least = score;
