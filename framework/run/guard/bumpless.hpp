@@ -15,10 +15,10 @@ namespace tactus
 ///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / F)) / 2 for 0 <= t <= F, then 0
 ///
 /// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick adds at most
-/// |e0 - e1| pi T / (2 F) to the steps of e. No component becomes larger than in both e0 and e: the fade into a vibration that begins at
-/// a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the nodes twice. F is fall_s if the effort only
-/// falls: no component of force and torque, and no axis, becomes larger or turns around. Else it is rise_s: within fall_s, a preset that is added
-/// under a pressed tool kicks.
+/// |e0 - e1| pi T / (2 F) to the steps of e. No component becomes larger than in both e0 and e, and no force or torque longer: the fade
+/// into a vibration that begins at a crest would add to the next crests, beyond any ceiling. Unlike a crossfade, this does not tick the
+/// nodes twice. F is fall_s if the effort only falls: no component of force and torque, and no axis, becomes larger or turns around. Else
+/// it is rise_s: within fall_s, a preset that is added under a pressed tool kicks.
 /// If nodes begin with the plan, the device gets e0 for settle_s first: a wall that begins around the tool takes some ticks to push it out.
 class Bumpless
 {
@@ -112,7 +112,9 @@ private:
 
     static Vec3 within (const Vec3& v, const Vec3& a, const Vec3& b) noexcept
     {
-        return { within (v.x(), a.x(), b.x()), within (v.y(), a.y(), b.y()), within (v.z(), a.z(), b.z()) };
+        const Vec3 each { within (v.x(), a.x(), b.x()), within (v.y(), a.y(), b.y()), within (v.z(), a.z(), b.z()) };
+        const double longest = std::max (a.norm(), b.norm()), now = each.norm();
+        return now > longest ? Vec3 (each * (longest / now)) : each;
     }
 
     static Channels within (Channels v, const Channels& a, const Channels& b) noexcept

@@ -87,6 +87,29 @@ TEST_CASE ("no effort of a fade is larger than that of before and that of the ne
         }
 }
 
+TEST_CASE ("no force of a fade is longer than that of before and that of the new plan, so a ceiling of the mix holds", "[engine]")
+{
+    constexpr double rate_hz = 4000.0, turn = 6.283185307 * 50.0 / rate_hz;   // of the new force, per tick
+    for (const double start : { 0.0, 1.0, 2.5, 4.0 })
+    {
+        Bumpless bumpless;
+        bumpless.prepare (1.0 / rate_hz);
+        const Vec3 first { 0.0, 0.6, 0.8 };   // 1 N
+        Vec3 last = first;
+        bumpless (Effort { .force = first, .torque = 0.1 * first });
+        bumpless.begin (false);
+        for (int k = 0; k < 1000; ++k)
+        {
+            const Vec3 wanted { std::cos (start + turn * k), 0.0, std::sin (start + turn * k) };
+            const auto passed = bumpless (Effort { .force = wanted, .torque = 0.1 * wanted });
+            CHECK (passed.force.norm() <= 1.0 + 1e-12);
+            CHECK (passed.torque.norm() <= 0.1 + 1e-12);
+            CHECK ((passed.force - last).norm() <= 2.0 * turn + 2.0 * 3.1416 / (2.0 * Bumpless::rise_s * rate_hz));   // of the wave and of the fade
+            last = passed.force;
+        }
+    }
+}
+
 TEST_CASE ("edits with new nodes that come all the time hold the effort for at most half of the time", "[engine]")
 {
     constexpr double rate_hz = 4000.0;
