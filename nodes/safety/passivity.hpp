@@ -41,7 +41,8 @@ namespace tactus::nodes
 ///    during the fault is not counted.
 ///  - `mass` is the mass of the device as the hand feels it. Too large a value makes the cap unsafe; with a mass of 0 the node
 ///    never brakes.
-///  - T is the sampling period. A device with a delay needs a smaller alpha_max.
+///  - T is the sampling period. A device with a delay needs a smaller alpha_max, and returns energy that the observer does not
+///    see: it counts each force as acting from its own sample on.
 ///  - A change of `pairing` takes effect when `contact` is 0, after a fault, or on a restart.
 ///  - Limit the force after this node; the guard of the role does so in any case.
 struct PassivityObserver
