@@ -222,7 +222,7 @@ DepthErrors depthErrors (const RecordedLoop& loop, const Contact& c)
     {
         if (row > c.first_row + reach && row + reach < c.last_row) continue;
         const Eigen::Array2d slope = (estimatesWith (row, step) - estimatesWith (row, -step)) / (2.0 * step);
-        squares += slope * slope;
+        if (slope.isFinite().all()) squares += slope * slope;   // with this row elsewhere, there may be no contact to estimate from
     }
     return { variance * squares[0], variance * squares[1] };
 }

@@ -193,14 +193,20 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
 {
     auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass, course);
     if (! fit) return fit.error();
-    constexpr double much = 0.1, of_energy = 0.01;   // the second one is for an impact that loses almost nothing
+    constexpr double much = 0.1, of_energy = 0.01, most_uncertain = 0.5;   // the second one is for an impact that loses almost nothing
     const double energy = 0.5 * fit->mass * fit->speed * fit->speed;
-    const double of_speed = fit->speed_error > 0.0 ? 4.0 * fit->speed_error / fit->speed : 0.0;   // two deviations, of a square
+    const double of_speed = fit->speed_error > 0.0 ? 4.0 * fit->speed_error / std::abs (fit->speed) : 0.0;   // two deviations, of a square
     const bool is_free = std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy + of_speed * fit->played_area;
     const auto not_free = Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
                                             "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that "
                                             "moves freely; the fitted force over the recorded depth still has the recorded area");
-    if (! is_free)
+    if (of_speed > most_uncertain)
+    {
+        fit->report.is_good = false;
+        fit->report.lacking.push_back ("noise of the depth leaves the speed at the touch uncertain by " + percentText (fit->speed_error / std::abs (fit->speed))
+                                       + ", so it is not known whether the tool moved freely: smooth the depth, or use a finer sensor");
+    }
+    else if (! is_free)
     {
         fit->report.is_good = false;
         fit->report.lacking.push_back (not_free.text);
@@ -211,7 +217,7 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
     made.details = { "mass       " + roundedText (fit->mass, 3) + " kg, at " + roundedText (fit->speed, 3) + " m/s",
                      "area       " + energyText (fit->recorded_area, 6) + " recorded, " + energyText (fit->fitted_area, 6) + " fitted, "
                          + energyText (fit->played_area, 6) + " when the shock is played at this speed" };
-    if (! is_free) made.warnings.push_back (not_free);
+    if (! is_free && of_speed <= most_uncertain) made.warnings.push_back (not_free);
     made.report = std::move (fit->report);
     return made;
 }

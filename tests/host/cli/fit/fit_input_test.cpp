@@ -226,6 +226,23 @@ TEST_CASE ("fit shock: an elastic impact is a free impact", "[cli][fit]")
     CHECK (printed.find ("fit/not_free") == std::string::npos);
 }
 
+TEST_CASE ("fit shock: if noise of the depth hides the speed at the touch, a free impact is neither confirmed nor denied", "[cli][fit]")
+{
+    const Scratch scratch;
+    for (const double noise : { 0.0, 2e-5 })
+    {
+        const auto csv = table ("depth,force,t", 61, [&] (std::ostream& out, int i) {
+            const double phase = std::numbers::pi * i / 60.0, depth = 1e-3 * std::sin (phase);
+            out << std::max (0.0, depth + (i % 2 == 0 ? noise : -noise)) << "," << 5000.0 * depth * (1.0 + 0.1 * std::cos (phase)) << "," << i * 1e-4;
+        });
+        std::string printed;
+        fitted (scratch, "shock", csv, { "--mass", "18.2 g" }, &printed);
+        INFO (printed);
+        CHECK ((printed.find ("so it is not known whether the tool moved freely") != std::string::npos) == (noise > 0.0));
+        CHECK (printed.find ("fit/not_free") == std::string::npos);
+    }
+}
+
 TEST_CASE ("fit texture: the preset runs at least as fast as the recording, or a note says what it lacks", "[cli][fit]")
 {
     const Scratch scratch;
