@@ -31,8 +31,8 @@ struct Slope
     double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
     std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
     /// By node number: in which directions the node's own force changes, J J^T in N^2/m^2, where J is the Jacobian of this force. A friction that depends on
-    /// the load of a wall feels a displacement towards the wall, but its force is along the surface. Of a node whose forces are no vectors, or turned before they reach the motor: J^T J, the directions in which it feels a
-    /// displacement.
+    /// the load of a wall feels a displacement towards the wall, but its force is along the surface. Of a node whose forces are no vectors, or
+    /// are turned before they reach the motor: J^T J, the directions in which it feels a displacement.
     std::vector<Eigen::Matrix3d> pulls {};
     /// The force that pulls back after a step of the tool, along the step, tick by tick, in N/m: for a step in the steepest direction, and for
     /// one in the direction of the largest excess, if that is another one. Empty if one of them cannot be measured, as if sections do not run

@@ -163,7 +163,10 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                                        .swinging = is_weakest_known && may_grow >= 1.0 ? c.loops.front().node : std::string() });
         };
         for (const auto& loop : c.loops)
-            addContact (loop.node, std::isnan (loop.passive_up_to) ? c.limit / c.value : loop.passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
+        {
+            const double passive_up_to = std::isnan (loop.passive_up_to) ? c.limit / c.value : loop.passive_up_to;
+            addContact (loop.node, passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
+        }
         if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())   // the steepest node stands for all
             addContact (steepestOf (demand, c.role), c.limit / c.value, c.may_grow);
         const bool is_broken = c.isBroken();

@@ -170,18 +170,28 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     CHECK_FALSE (fixOf (read.graph, *told));
 }
 
-TEST_CASE ("each node whose loop swings is listed with its own factor, the weakest first", "[app][limits]")
+namespace
+{
+/// A wall with a friction on it, which a late tool strokes.
+graph::Graph strokedWall (const std::string& stiffness, const std::string& damping)
 {
     const auto read = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
       "devices": { "tip": { "driver": "sim", "mass": "100 g", "damping": 2, "delay": 1,
           "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
       "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
-        "wall": { "type": "deform.plane", "params": { "stiffness": 5000, "damping": 5 } },
+        "wall": { "type": "deform.plane", "params": { "stiffness": )"
+                                 + stiffness + R"(, "damping": )" + damping + R"( } },
         "drag": { "type": "friction.elasto_plastic" } },
       "wires": [ "hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
         "wall.force -> motor.force", "drag.force -> motor.force" ] })");
     REQUIRE (read.messages.empty());
-    const auto list = checked (read.graph);
+    return read.graph;
+}
+}   // namespace
+
+TEST_CASE ("each node whose loop swings is listed with its own factor, the weakest first", "[app][limits]")
+{
+    const auto list = checked (strokedWall ("5000", "5"));
     std::vector<std::string> texts;
     for (const auto& l : list.limits)
         if (l.id == "stiffness") texts.push_back (l.text);
@@ -196,16 +206,7 @@ TEST_CASE ("each node whose loop swings is listed with its own factor, the weake
 
 TEST_CASE ("a node whose loop rests is not said to swing with that of another node in the same contact", "[app][limits]")
 {
-    const auto read = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
-      "devices": { "tip": { "driver": "sim", "mass": "100 g", "damping": 2, "delay": 1,
-          "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
-      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
-        "wall": { "type": "deform.plane", "params": { "stiffness": 2500, "damping": 2.5 } },
-        "drag": { "type": "friction.elasto_plastic" } },
-      "wires": [ "hand.position -> wall.position", "hand.position -> drag.position", "wall.resistance -> drag.normal_force",
-        "wall.force -> motor.force", "drag.force -> motor.force" ] })");
-    REQUIRE (read.messages.empty());
-    const auto list = checked (read.graph);
+    const auto list = checked (strokedWall ("2500", "2.5"));
     REQUIRE (list.contacts.size() == 2);
     CHECK (list.contacts[0].node == "drag");
     CHECK (list.contacts[0].swinging.empty());

@@ -254,8 +254,9 @@ TEST_CASE ("scopes: what a node has dissipated stays in the sum while it is bypa
         rubbed.r.add (rest, Vec3::Zero(), 0.0, 0.0);
     rubbed.more (0);
     CHECK (meter.balance().dissipated == Approx (before.dissipated));
-    CHECK (meter.balance().elsewhere() == Approx (before.stored).margin (0.01 * before.moved));   // a bypassed node lets go of what it stored
-    auto again = bristle();                                                                       // a node that is no longer bypassed begins anew
+    CHECK (meter.balance().elsewhere() == Approx (before.stored).margin (0.01 * before.moved));   // a bypassed node loses what it stored
+
+    auto again = bristle();   // without the bypass, the node starts from zero
     rub (rubbed.r, again, 4000);
     rubbed.more (0);
     CHECK (meter.balance().dissipated == Approx (before.dissipated + rubbed.r.dissipated->at (16'399)));

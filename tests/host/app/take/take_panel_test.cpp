@@ -286,7 +286,9 @@ TEST_CASE ("the name of a take that is compared can be read where curves cross i
             for (int x = 300; x < 390; ++x)
             {
                 const auto is = image.getPixelAt (x, y);
-                count += std::abs (is.getRed() - wanted.getRed()) + std::abs (is.getGreen() - wanted.getGreen()) + std::abs (is.getBlue() - wanted.getBlue()) < 60;
+                count += std::abs (is.getRed() - wanted.getRed()) + std::abs (is.getGreen() - wanted.getGreen())
+                             + std::abs (is.getBlue() - wanted.getBlue())
+                         < 60;
             }
         return count;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds for every control of the window.
+// Checks of every control of the window.
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
