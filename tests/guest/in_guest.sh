@@ -373,12 +373,14 @@ rumble ()
 {
     [ -e $driver ] && [ -d /sys/bus/hid/drivers/"$2" ] || return
     say "a pad that rumbles: $1"
-    $device "$1" --seconds 3000 --log $work/board.csv & sim=$!
+    $device "$1" --seconds 3000 --log $work/board.csv --mark $work/rests & sim=$!
     for _ in $(seq 60); do $tactus devices --json >$work/pads.txt; grep -q rumble $work/pads.txt && break; sleep 0.5; done
     cp $work/pads.txt "/run/results/$1.json"
     $tactus play $work/rumble.json --osc off --device "pad=evdev:$3" --duration 2 2>$work/play.err || fail "the pad $1"
-    sleep 0.5   # the kernel sends the last report of a pad from a thread of its own
+    # The kernel sends the last report of a pad from a thread of its own. `check.py` judges a pad that never rests.
+    for _ in $(seq 600); do [ -e $work/rests ] && break; sleep 0.1; done
     unplug
+    rm -f $work/rests
     keep "$1"
 }
 rumble dualsense playstation "Test DualSense"

@@ -3,7 +3,9 @@
 #include "uhid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdio>
 #include <initializer_list>
 
 namespace tactus::guest
@@ -19,8 +21,12 @@ host::hid::Bytes descriptorOf (std::initializer_list<host::hid::ReportSize> repo
 using Kind = host::hid::DescribedField::Kind;
 constexpr auto in = Kind::input, out = Kind::output;
 
+/// Reports that a pad got. The file --mark is there while the pad rests after it has rumbled, so a script need not guess how long
+/// the kernel takes for its last report.
 struct Log
 {
+    explicit Log (const std::vector<std::string>& args) : mark (text (args, "mark", "")) {}
+
     std::string lines;
 
     void add (std::span<const std::uint8_t> report)
@@ -35,6 +41,20 @@ struct Log
         }
         lines += '\n';
     }
+
+    void rumble (bool strength)
+    {
+        if (strength == rumbles || mark.empty()) return;
+        rumbles = strength;
+        if (rumbles)
+            std::remove (mark.c_str());
+        else if (auto* file = std::fopen (mark.c_str(), "w"))
+            std::fclose (file);
+    }
+
+private:
+    std::string mark;
+    bool rumbles = false;
 };
 
 void put16 (std::vector<std::uint8_t>& to, std::size_t at, int value)
@@ -63,16 +83,26 @@ std::vector<std::uint8_t> featureOfDualSense (std::uint8_t id)
     }
     return {};
 }
+
+/// Whether both sides of a Switch controller rest. It gets zeros before its driver knows how to rumble it.
+bool isNeutral (std::span<const std::uint8_t> sides)
+{
+    constexpr std::array<std::uint8_t, 8> neutral { 0, 1, 0x40, 0x40, 0, 1, 0x40, 0x40 };
+    return std::ranges::equal (sides, neutral) || std::ranges::all_of (sides, [] (auto byte) { return byte == 0; });
+}
 }   // namespace
 
-/// A DualSense at USB: --seconds S --log FILE
+/// A DualSense at USB: --seconds S --log FILE --mark FILE
 int dualSense (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
-    Log log;
+    Log log (args);
     Uhid device ("Test DualSense", "01:02:03:04:05:06", 0x054c, 0x0ce6, descriptorOf ({ { in, 1, 63 }, { out, 2, 47 } }));
     device.answerWith (featureOfDualSense);
-    const auto heard = [&] (std::span<const std::uint8_t> report) { log.add (report); };
+    const auto heard = [&] (std::span<const std::uint8_t> r) {
+        log.add (r);
+        if (r.size() > 4 && r[0] == 0x02 && (r[1] & 0x03) != 0) log.rumble ((r[3] | r[4]) != 0);
+    };
     const double end = now() + option (args, "seconds", 10.0);
     std::array<std::uint8_t, 64> report {};
     report[0] = 1;
@@ -88,11 +118,11 @@ int dualSense (const std::vector<std::string>& args)
     return 0;
 }
 
-/// A Switch Pro controller at USB, which answers commands and subcommands: --seconds S --log FILE
+/// A Switch Pro controller at USB, which answers commands and subcommands: --seconds S --log FILE --mark FILE
 int switchPro (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
-    Log log;
+    Log log (args);
     const auto descriptor = descriptorOf ({ { in, 0x21, 48 }, { in, 0x30, 48 }, { in, 0x81, 63 }, { out, 0x01, 48 }, { out, 0x10, 48 }, { out, 0x80, 63 } });
     Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptor);
     std::array<std::uint8_t, 64> report {};
@@ -111,6 +141,7 @@ int switchPro (const std::vector<std::string>& args)
     const auto send = [&] (std::size_t size) { device.input (std::span (report).first (size)); };
     const auto heard = [&] (std::span<const std::uint8_t> r) {
         log.add (r);
+        if (r.size() >= 10 && (r[0] == 0x01 || r[0] == 0x10)) log.rumble (! isNeutral (r.subspan (2, 8)));
         if (r.size() >= 2 && r[0] == 0x80)   // a command of USB, such as the handshake
         {
             report = {};
