@@ -60,12 +60,14 @@ struct Interval
 
 /// Outside `hard` the model has no meaning: such a value is an error in a file and is clamped on a wire. `usual` is the range of
 /// a slider; values outside it are fine. A latched parameter is read at contact onset, or on the hit, and keeps that value until
-/// the contact, or the response to the hit, ends.
+/// the contact, or the response to the hit, ends. `off_at_zero`: 0 means that there is no limit, so a knob goes from and to 0 without a
+/// ramp through small values, and the node fades.
 struct Limits
 {
     Interval hard {};
     Interval usual = hard;
     bool latch = false;
+    bool off_at_zero = false;
 };
 
 /// The unit of a port: a fixed one, or for generic nodes one that follows from the wires.

@@ -26,7 +26,7 @@ struct DeskOutputs
     double reduction = 0.0;
 };
 
-/// The rows that the mixing desks have in common..
+/// The rows that the mixing desks have in common.
 template <typename Inputs, typename Outputs>
 constexpr auto deskPorts (std::string_view ceiling, std::string_view level)
 {
@@ -37,7 +37,7 @@ constexpr auto deskPorts (std::string_view ceiling, std::string_view level)
         param (&DeskParams::solo, "solo", unit::state, "on above 0.5: only layers in solo are heard", { .hard = { 0, 1 } }),
         param (&DeskParams::priority, "priority", unit::count, "a layer is ducked while one of higher priority sounds", { .usual = { 0, 10 } }),
         param (&DeskParams::duck_db, "duck_db", unit::decibel, "attenuation of a ducked layer", { .hard = { 0, inf }, .usual = { 0, 60 } }),
-        param (&DeskParams::ceiling, "ceiling", sameAs ("in"), ceiling, { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        param (&DeskParams::ceiling, "ceiling", sameAs ("in"), ceiling, { .hard = { 0, inf }, .usual = { 0, 20 }, .off_at_zero = true }),
         inputCount (&DeskSettings::inputs, "number of layers"),
         setting (&DeskSettings::names, "names", unit::count, "labels of the layers, separated by commas"),
         output (&Outputs::out, "out", sameAs ("in"), "the mix"),

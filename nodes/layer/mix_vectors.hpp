@@ -32,6 +32,7 @@ namespace tactus::nodes
 ///  - A channel that is open, not ducked, and below the ceiling passes unchanged, bit for bit.
 ///  - The ceiling has no memory: it cannot overshoot or pump. It limits the length, so a strong layer in one direction also weakens the
 ///    others. If reduction is not 0, turn the gains down.
+///  - A ceiling that is set or taken away while the desk runs fades in or out within 10 ms, as a mute does.
 ///  - Ducking depends on time. A spring that is ducked while it is pressed but not while it is released generates energy.
 ///  - The first tick starts without ramps, and so does the tick after a fault. One component that is not finite silences all channels.
 ///  - `names` are the labels of the channels for people and hosts, separated by commas: "friction, weave, shock".

@@ -53,6 +53,8 @@ public:
     {
         channels = old.channels;
         loudest = old.loudest;
+        limit = old.limit;
+        limiting = old.limiting;
         started = old.started;
     }
 
@@ -72,7 +74,7 @@ public:
     /// The factor on a layer in the last mix, before the ceiling: gain, mute, solo and ducking.
     double factor (int i, const DeskParams& params) const noexcept { return channels[at (i)].duck * channels[at (i)].open * params.gain[i]; }
 
-    void serialize (auto& archive) { archive (channels, loudest, started); }
+    void serialize (auto& archive) { archive (channels, loudest, limit, limiting, started); }
 
 private:
     struct Channel
@@ -110,7 +112,7 @@ private:
     void forget() noexcept
     {
         channels = {};
-        loudest = 0.0;
+        loudest = limit = limiting = 0.0;
         started = false;
     }
 
@@ -121,6 +123,8 @@ private:
 
     std::array<Channel, list_capacity> channels;
     double loudest = 0.0;
+    double limit = 0.0;                                                          // the last ceiling that was one
+    double limiting = 0.0;                                                       // share of the ceiling: it fades as a mute does
     double ramp = 1.0, attack = 1.0, release = 1.0, decay = 0.0, fading = 0.0;   // per tick
     double ducked = 1.0;
     bool any_solo = false;
@@ -165,12 +169,21 @@ bool MixingDesk<Layer>::mixed (const InputList<Layer>& in, const DeskParams& par
     const double loud = magnitude (sum);
     if (! isFinite (sum) || ! isFinite (loud)) return false;
 
+    const double target = params.ceiling > 0.0 ? 1.0 : 0.0;
+    limiting = started ? std::clamp (target, limiting - ramp, limiting + ramp) : target;
+    if (target > 0.0) limit = params.ceiling;
     started = true;
     out.out = sum;
-    if (params.ceiling > 0.0 && loud > params.ceiling)
+    if (limiting > 0.0 && loud > limit)
     {
-        out.out = limited (sum, params.ceiling, loud);
-        out.reduction = 20.0 / std::numbers::ln10 * (math::log (loud) - math::log (params.ceiling));   // the quotient of the two may overflow
+        out.out = limited (sum, limit, loud);
+        double left = limit;
+        if (limiting < 1.0)
+        {
+            out.out = limiting * out.out + (1.0 - limiting) * sum;
+            left = limiting * limit + (1.0 - limiting) * loud;
+        }
+        out.reduction = 20.0 / std::numbers::ln10 * (math::log (loud) - math::log (left));   // the quotient of the two may overflow
     }
     return true;
 }

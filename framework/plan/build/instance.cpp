@@ -23,7 +23,11 @@ KnobPlace placeOf (const NodeType& type, std::size_t knob) noexcept
 }
 }   // namespace
 
-bool isChoice (const NodeType& type, std::size_t knob) noexcept { return ! placeOf (type, knob).sheet->choices.empty(); }
+bool jumps (const NodeType& type, std::size_t knob, double from, double to) noexcept
+{
+    const auto& sheet = *placeOf (type, knob).sheet;
+    return ! sheet.choices.empty() || (sheet.limits.off_at_zero && (from == 0.0 || to == 0.0));
+}
 
 void turn (const ParamRef& param, double value) noexcept
 {

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Knobs turn the parameters of a running node. Any thread may set a target; the tick thread ramps each parameter to its
-/// target in a straight line. Choices apply immediately.
+/// target in a straight line. Choices apply immediately, and so does a limit that is set or taken away.
 
 #include "inline_array.hpp"
 #include "knob_board.hpp"
@@ -84,7 +84,8 @@ struct Knobs
     bool hasStarted() const noexcept { return continues || board->started; }
 };
 
-bool isChoice (const NodeType&, std::size_t knob) noexcept;
+/// True if a knob changes at once: a choice, and a limit that is set or taken away.
+bool jumps (const NodeType&, std::size_t knob, double from, double to) noexcept;
 
 /// A handle for turning a parameter. If the node is no longer in the plan, turning does nothing.
 struct ParamRef

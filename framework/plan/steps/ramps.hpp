@@ -35,7 +35,7 @@ private:
 };
 
 /// Moves the knobs of a plan's nodes to their targets, in a straight line that takes ramp_s. A new target during a ramp starts
-/// a new ramp from the current value. Choices, and nodes that have not ticked yet, change immediately.
+/// a new ramp from the current value. Choices, limits that are set or taken away, and nodes that have not ticked yet, change immediately.
 ///
 /// No function visits all nodes. The cost depends only on the number of knobs that were turned or are moving.
 class Ramps

@@ -71,6 +71,13 @@ bool isPlace (const PortSheet& sheet)
 /// A switch is a number that means on or off.
 bool isSwitch (const PortSheet& sheet) { return sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::state; }
 
+/// True if a limit would be set or taken away between two values: 0 means that there is none, so nothing lies between.
+bool setsLimit (const PortSheet& sheet, const Json& from, const Json& to)
+{
+    const auto isOff = [&] (const Json& value) { const auto q = readQuantity (value, sheet); return q && q->si() == 0.0; };
+    return sheet.limits.off_at_zero && (isOff (from) || isOff (to));
+}
+
 /// Gives nodes random numbers, and those inside of subgraphs, each of which it changes once.
 struct Randomiser
 {
@@ -83,7 +90,8 @@ struct Randomiser
         for (const auto& p : faceOf (g, in, node, catalogue).params)
         {
             if (! isNumber (p) || isSwitch (*p.sheet) || isPlace (*p.sheet)) continue;
-            const auto& [hard, usual, latch] = p.sheet->limits;
+            const auto& hard = p.sheet->limits.hard;
+            const auto& usual = p.sheet->limits.usual;
             const double low = std::max (hard.min, usual.min), high = std::min (hard.max, usual.max);
             const double share = random.uniform();   // taken even if it is not used, so that a value depends on the seed alone
             if (! std::isfinite (low) || ! std::isfinite (high) || low >= high || node.type.starts_with (subgraph)) continue;
@@ -136,7 +144,7 @@ Result<Morph> morphBetween (const graph::Graph& g, int from, int to, const Catal
             const auto low = valueOf (held_first, *a, p), high = valueOf (held_last, *b, p);
             if (low == high) continue;
             const auto path = node.name + '.' + p.id;
-            if (isNumber (p) && ! isSwitch (*p.sheet) && ! isSetElsewhere (g, path))
+            if (isNumber (p) && ! isSwitch (*p.sheet) && ! setsLimit (*p.sheet, low, high) && ! isSetElsewhere (g, path))
                 control.to.push_back ({ path, low, high });
             else
                 ++left_out;

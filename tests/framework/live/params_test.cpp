@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -59,6 +60,27 @@ struct Bench
 
 std::string refusal (const Result<>& result) { return result ? "" : result.error().id; }
 }   // namespace
+
+TEST_CASE ("a ceiling that is set or taken away lets through no less than before and after, and no step", "[live]")
+{
+    const auto sketch = Sketch {}.node ("one", "signal.constant", { { "value", 2.5 } }).node ("amp", "layer.mix", { { "ceiling", 0.5 } });
+    Bench bench (Sketch { sketch }.wire ("one.out -> amp.in[0]"));
+    double before = bench.tick (10);
+    REQUIRE (before == 0.5);
+    for (const double ceiling : { 0.0, 0.5, 0.25, 0.0 })
+    {
+        const double after = ceiling == 0.0 ? 2.5 : ceiling, low = std::min (before, after), most = 1.01 * std::abs (after - before) / (ramp / 2);
+        bench.set ("amp.ceiling", ceiling);
+        for (int k = 0; k < ramp + 10; ++k)
+        {
+            const double now = bench.tick();
+            CHECK (now >= low - 1e-12);
+            CHECK (std::abs (now - before) <= most);
+            before = now;
+        }
+        CHECK (before == after);
+    }
+}
 
 TEST_CASE ("a parameter ramps to its target in a straight line of 20 ms, and jumps there before the first tick", "[live]")
 {

@@ -241,7 +241,7 @@ std::optional<std::string> playRandomGraph (unsigned seed)
         {
             const auto i = below (each.plan->instances().size());
             const auto &a = each.plan->instances()[i].knobs, &b = settled.plan->instances()[i].knobs;
-            if (a && ! a->all.empty() && ! plan::isChoice (a->type, 0))
+            if (a && ! a->all.empty() && ! plan::jumps (a->type, 0, 1.0, 2.0))
                 for (const auto& knobs : { a, b })
                     plan::turn ({ knobs, 0, &knobs->type.params.front() }, 0.1 * static_cast<double> (k % 17));
         }

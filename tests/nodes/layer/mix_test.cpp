@@ -213,6 +213,27 @@ TEST_CASE ("layer: the ceiling is never exceeded, and below it nothing changes",
     CHECK (desk.mix ({ -10.0, -10.0 }).reduction == Approx (20.0));
 }
 
+TEST_CASE ("layer: a ceiling that is set or taken away fades in 10 ms", "[nodes][layer]")
+{
+    Desk desk { 1, params ([] (auto& p) { p.ceiling = 0.5; }) };
+    double before = desk.mix ({ 2.5 }).out;
+    REQUIRE (before == 0.5);
+    for (const double ceiling : { 0.0, 0.5 })
+    {
+        desk.change ([&] (auto& p) { p.ceiling = ceiling; });
+        const double way = ceiling == 0.0 ? 2.0 : -2.0;
+        for (int k = 1; k <= 10; ++k)
+        {
+            const auto mixed = desk.mix ({ 2.5 });
+            CHECK (mixed.out - before == Approx (way * T / 10e-3));
+            CHECK (mixed.reduction == Approx (20.0 * std::log10 (2.5 / mixed.out)).margin (1e-9));
+            before = mixed.out;
+        }
+        CHECK (before == Approx (ceiling == 0.0 ? 2.5 : 0.5));
+        CHECK (desk.mix ({ 2.5 }).out == (ceiling == 0.0 ? 2.5 : 0.5));
+    }
+}
+
 TEST_CASE ("layer: it mixes millinewtons as well as newtons", "[nodes][layer]")
 {
     tactus::test::property ("a thousandth in, a thousandth out", [] {
