@@ -111,45 +111,4 @@ Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, co
     return addLayer (g, at, catalogue, std::string (clip_type), file, ClipPlays::in_a_loop, gain);
 }
 
-Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
-{
-    const auto* patch = findPatch (g, at.patch);
-    const auto* w = wireInto (g, at, layer);
-    if (patch == nullptr || findMixer (g, at) == nullptr) return mixing::mixerIsGone();
-    if (w == nullptr)
-        return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
-                               TRANS ("wire something into it first").toStdString());
-    const auto* product = wiring::gateOf (*patch, *w);
-    if (on == isGated (g, at, layer)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
-
-    if (! on && product == nullptr)
-        return Message::error ("mixer/gate_elsewhere", {}, TRANS ("the gate of this layer and its contact window are not in one group").toStdString(),
-                               TRANS ("expand the group between them").toStdString());
-
-    graph::Batch batch { on ? NEEDS_TRANS ("gate a layer by contact") : NEEDS_TRANS ("open the gate of a layer"), {} };
-    auto changed = *w;
-    if (on)
-    {
-        const bool is_vector = at.vectors && w->to.component < 0;
-        changed.from = wiring::gated (w->from, is_vector, g, at.patch, wiring::downstreamOf (*patch, at.node), catalogue, batch);
-        if (changed.from == w->from)
-            return Message::error ("mixer/no_contact", {}, TRANS ("nothing in this patch says how deep the tool presses").toStdString(),
-                                   TRANS ("add a surface, such as deform.plane").toStdString());
-    }
-    else
-    {
-        const graph::Wire* source = nullptr;
-        for (const auto& in : patch->wires)
-            if (const auto* from = patch->find (in.from.node); in.to.node == product->name && (from == nullptr || from->type != "contact.window")) source = &in;
-        if (source == nullptr)
-            return Message::error ("mixer/empty", {}, TRANS ("only the gate is wired into this layer").toStdString(),
-                                   filled (TRANS ("wire something into %1"), product->name).toStdString());
-        changed.from = source->from;
-    }
-    batch.commands.push_back (graph::ChangeWire { at.patch, w->id, std::move (changed) });
-    const auto uses = on ? 0 : std::ranges::count (patch->wires, product->name, [] (const graph::Wire& v) { return v.from.node; });
-    if (uses == 1) batch.commands.push_back (graph::RemoveNode { at.patch, product->name });
-    return graph::Command (std::move (batch));
-}
-
 }   // namespace tactus::host

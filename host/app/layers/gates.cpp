@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which layers are felt only in contact, also if the gate or the contact window is in a group.
 #include "mixer.hpp"
+#include "mixer_parts.hpp"
 
 #include <host/app/model/face.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/inside.hpp>
 
@@ -40,16 +42,18 @@ Source sourceOf (graph::Inside in, graph::Endpoint from)
     return {};
 }
 
+bool isTouchGain (const graph::Inside& in, const graph::Endpoint& from)
+{
+    const auto source = sourceOf (in, from);
+    return source.node != nullptr && source.node->type == "contact.window" && source.port == "gain";
+}
+
 /// True if the gain of a contact window reaches this input of a node, which may come from outside of its group. Without a port: any input.
 bool getsTouchGain (const graph::Inside& in, const std::string& node, const std::string& port, int depth)
 {
     const auto isMeant = [&] (const graph::Endpoint& end) { return end.node == node && (port.empty() || end.port == port); };
-    const auto isTouchGain = [&] (const graph::Wire& w) {
-        const auto source = sourceOf (in, w.from);
-        return source.node != nullptr && source.node->type == "contact.window" && source.port == "gain";
-    };
     for (const auto& w : in.patch->wires)
-        if (isMeant (w.to) && isTouchGain (w)) return true;
+        if (isMeant (w.to) && isTouchGain (in, w.from)) return true;
     if (depth == deepest_subgraph) return false;
     for (const auto& [name, end] : in.patch->expose.inputs)
     {
@@ -63,6 +67,87 @@ bool getsTouchGain (const graph::Inside& in, const std::string& node, const std:
     }
     return false;
 }
+
+bool isProduct (const graph::Node* n) { return n != nullptr && (n->type == "signal.multiply" || n->type == "vector.scale"); }
+
+/// How often the patch of this subgraph is played, at any depth of the graph; 2 means more than once.
+int timesPlayed (const graph::Graph& g, const std::string& name)
+{
+    int times = 0;
+    const auto count = [&] (const graph::Patch& patch) {
+        for (const auto& n : patch.nodes)
+            if (n.type == "graph:" + name) times += n.extra.contains ("count") ? 2 : 1;   // or more
+    };
+    count (g.root);
+    for (const auto& [_, patch] : g.graphs)
+        count (patch);
+    return times;
+}
+
+/// The place where a layer gets its signal from: a wire in the patch of the mixer, or, if this comes from groups, what the innermost one exposes.
+struct Feed
+{
+    std::string patch;
+    graph::Endpoint from;
+    const graph::Wire* wire = nullptr;
+    std::string exposed {};   ///< the output of the group; "" if `wire` is the place
+
+    graph::Command changedTo (const graph::Graph& g, graph::Endpoint to) const
+    {
+        if (exposed.empty())
+        {
+            auto changed = *wire;
+            changed.from = std::move (to);
+            return graph::ChangeWire { patch, wire->id, std::move (changed) };
+        }
+        auto shown = findPatch (g, patch)->expose;
+        std::ranges::find (shown.outputs, exposed, &std::pair<std::string, graph::Endpoint>::first)->second = std::move (to);
+        return graph::ChangeExpose { patch, std::move (shown) };
+    }
+};
+
+/// The innermost one that an edit changes for this layer only.
+Feed feedOf (const graph::Graph& g, const MixerPlace& at, const graph::Wire& w)
+{
+    Feed feed { at.patch, w.from, &w };
+    for (int depth = 0; depth < deepest_subgraph; ++depth)
+    {
+        const auto* node = findPatch (g, feed.patch)->find (feed.from.node);
+        if (node == nullptr || ! node->type.starts_with ("graph:")) break;
+        const auto group = node->type.substr (6);
+        const auto* inner = findPatch (g, group);
+        if (inner == nullptr || timesPlayed (g, group) != 1) break;
+        const auto shown = std::ranges::find (inner->expose.outputs, feed.from.port, &std::pair<std::string, graph::Endpoint>::first);
+        if (shown == inner->expose.outputs.end()) break;
+        feed = { group, shown->second, nullptr, feed.from.port };
+    }
+    return feed;
+}
+
+/// Opens the gate of a layer, wherever it is.
+Result<graph::Command> withoutGate (const graph::Graph& g, const Feed& feed)
+{
+    const auto& patch = *findPatch (g, feed.patch);
+    const auto* product = patch.find (feed.from.node);
+    const graph::Wire* source = nullptr;
+    for (const auto& in : patch.wires)
+        if (product != nullptr && in.to.node == product->name && ! isTouchGain ({ &g, &patch }, in.from)) source = &in;
+    const auto comesFromOutside = [&] (const auto& input) { return product != nullptr && input.second.node == product->name; };
+    if (isProduct (product) && source == nullptr && std::ranges::none_of (patch.expose.inputs, comesFromOutside))
+        return Message::error ("mixer/empty", {}, TRANS ("only the gate is wired into this layer").toStdString(),
+                               filled (TRANS ("wire something into %1"), product->name).toStdString());
+    if (! isProduct (product) || source == nullptr)
+        return Message::error ("mixer/gate_elsewhere", {},
+                               TRANS ("the gate of this layer is in a group that is used more than once, or that gets the signal from outside").toStdString(),
+                               TRANS ("ungroup it").toStdString());
+    graph::Batch batch { NEEDS_TRANS ("open the gate of a layer"), { feed.changedTo (g, source->from) } };
+    const auto isUse = [&] (const graph::Endpoint& end) { return end.node == product->name; };
+    const auto uses = std::ranges::count_if (patch.wires, isUse, &graph::Wire::from)
+                      + std::ranges::count_if (patch.expose.outputs, isUse, &std::pair<std::string, graph::Endpoint>::second);
+    const bool is_fed_from_outside = std::ranges::any_of (patch.expose.inputs, comesFromOutside);   // then wires outside lead to it, so it stays
+    if (uses == 1 && ! is_fed_from_outside) batch.commands.push_back (graph::RemoveNode { feed.patch, product->name });
+    return graph::Command (std::move (batch));
+}
 }   // namespace
 
 bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)
@@ -71,8 +156,29 @@ bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)
     const auto* w = wireInto (g, at, layer);
     if (patch == nullptr || w == nullptr) return false;
     const auto product = sourceOf ({ &g, patch }, w->from);
-    const bool multiplies = product.node != nullptr && (product.node->type == "signal.multiply" || product.node->type == "vector.scale");
-    return multiplies && getsTouchGain (product.in, product.node->name, {}, 0);
+    return isProduct (product.node) && getsTouchGain (product.in, product.node->name, {}, 0);
+}
+
+Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
+{
+    const auto* patch = findPatch (g, at.patch);
+    const auto* w = wireInto (g, at, layer);
+    if (patch == nullptr || findMixer (g, at) == nullptr) return mixing::mixerIsGone();
+    if (w == nullptr)
+        return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
+                               TRANS ("wire something into it first").toStdString());
+    if (on == isGated (g, at, layer)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
+    if (! on) return withoutGate (g, feedOf (g, at, *w));
+
+    graph::Batch batch { NEEDS_TRANS ("gate a layer by contact"), {} };
+    auto changed = *w;
+    const bool is_vector = at.vectors && w->to.component < 0;
+    changed.from = wiring::gated (w->from, is_vector, g, at.patch, wiring::downstreamOf (*patch, at.node), catalogue, batch);
+    if (changed.from == w->from)
+        return Message::error ("mixer/no_contact", {}, TRANS ("nothing in this patch says how deep the tool presses").toStdString(),
+                               TRANS ("add a surface, such as deform.plane").toStdString());
+    batch.commands.push_back (graph::ChangeWire { at.patch, w->id, std::move (changed) });
+    return graph::Command (std::move (batch));
 }
 
 }   // namespace tactus::host

@@ -214,16 +214,6 @@ std::string wireInputs (const NodeType& type, const std::string& name, const gra
     return missing;
 }
 
-const graph::Node* gateOf (const graph::Patch& patch, const graph::Wire& w)
-{
-    const auto* product = patch.find (w.from.node);
-    if (product == nullptr || (product->type != "signal.multiply" && product->type != "vector.scale")) return nullptr;
-    for (const auto& in : patch.wires)
-        if (const auto* from = patch.find (in.from.node); in.to.node == product->name && from != nullptr && from->type == window_type && in.from.port == "gain")
-            return product;
-    return nullptr;
-}
-
 graph::Endpoint gated (graph::Endpoint source, bool is_vector, const graph::Graph& g, const std::string& in, const std::set<std::string>& excluded,
                        const Catalogue& catalogue, graph::Batch& batch)
 {

@@ -51,9 +51,6 @@ std::string wireInputs (const NodeType&, const std::string& node, const graph::G
 graph::Endpoint gated (graph::Endpoint source, bool is_vector, const graph::Graph&, const std::string& patch, const std::set<std::string>& excluded,
                        const Catalogue&, graph::Batch&);
 
-/// The node that multiplies the source of a wire by the gain of a contact window; null if there is none.
-const graph::Node* gateOf (const graph::Patch&, const graph::Wire&);
-
 /// The obvious wires of a node of the patch. Wires that it has stay. A hand goes to all that has no position yet, forces
 /// that go nowhere go to a motor, and any other node gets its sources and goes to the motor, a texture through a contact window. What rubs and has no
 /// load yet gets that of a surface. Empty if the node has its wires, or if nothing fits.

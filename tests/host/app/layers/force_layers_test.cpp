@@ -43,7 +43,9 @@ struct MixedForces
     {
         if (! c) UNSCOPED_INFO (c.error().text);
         REQUIRE (c);
-        REQUIRE (history.perform (*c));
+        const auto done = history.perform (*c);
+        if (! done) UNSCOPED_INFO (done.error().text);
+        REQUIRE (done);
     }
 
     bool hasWire (const std::string& text) const
@@ -174,10 +176,37 @@ TEST_CASE ("a layer is gated by contact wherever the gate and the contact window
         CHECK (isGated (wood.history.graph(), wood.mixer, 3));
         CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 1));   // friction
         CHECK (wood.compiles());
-        const auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
-        REQUIRE_FALSE (off);
-        CHECK (off.error().id == "mixer/gate_elsewhere");
+        const auto before = writeGraph (wood.history.graph());
+        auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
+        if (members.front() == "desk")   // what the gate multiplies comes from outside of the group
+        {
+            REQUIRE_FALSE (off);
+            CHECK (off.error().id == "mixer/gate_elsewhere");
+            continue;
+        }
+        wood.perform (std::move (off));
+        CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 3));
+        CHECK (wireInto (wood.history.graph(), wood.mixer, 3) != nullptr);
+        const bool is_window_outside = members.size() == 2;   // then a wire from outside still leads to the product
+        CHECK ((writeGraph (wood.history.graph()).find ("grating_felt") != std::string::npos) == is_window_outside);
+        CHECK (wood.compiles());
+        REQUIRE (wood.history.undo());
+        CHECK (writeGraph (wood.history.graph()) == before);
     }
+}
+
+TEST_CASE ("the gate in a group that plays twice stays", "[layers]")
+{
+    MixedForces wood ("dry_wood.json");
+    wood.add ("texture.grating");
+    REQUIRE (wood.history.perform (graph::CollapseNodes { {}, { "grating", "grating_felt" }, "box", "box" }));
+    graph::Node twin;
+    twin.name = "twin";
+    twin.type = "graph:box";
+    REQUIRE (wood.history.perform (graph::AddNode { {}, twin }));
+    const auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
+    REQUIRE_FALSE (off);
+    CHECK (off.error().id == "mixer/gate_elsewhere");
 }
 
 TEST_CASE ("without a surface, a layer cannot have a contact gate", "[layers]")
