@@ -322,6 +322,7 @@ private:
             const auto& node = flat.nodes[n];
             if (! its[n] || node.type->bind != nullptr) continue;   // a source or a sink
             const auto claims = node.type->claims != nullptr ? node.type->claims (plan->instances()[n].node.get()) : Claims {};
+            d.dampers += claims.damping;
             double gain = 1.0;
             bool counts = claims.passive && node.section == 0;
             for (const auto& w : flat.wires)

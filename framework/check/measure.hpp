@@ -84,6 +84,7 @@ struct RoleDemand
     std::vector<std::string> claims_nothing {};   ///< paths of the nodes between hand and motor that do not claim to be passive, as they are wired here
     double claimed_stiffness = 0.0;               ///< sum of what the others claim, in N/m
     double claimed_damping = 0.0;                 ///< the same, in N s/m
+    double dampers = 0.0;                         ///< sum of the damping that all nodes between hand and motor claim, however they are wired, in N s/m
     double given = 0.0;                           ///< most energy given by the graph along the motion beyond what it took before, in J, without players
 };
 

@@ -78,3 +78,65 @@ TEST_CASE ("the remedy of the weakest node holds with all nodes", "[check]")
             CHECK (now.may_grow < 1.0);   // no single change suffices
     }
 }
+
+namespace
+{
+/// The number after these words in a remedy, if they are there before `end`.
+std::optional<double> numberAfter (const std::string& remedy, const std::string& words, std::size_t begin = 0, std::size_t end = std::string::npos)
+{
+    const auto at = remedy.find (words, begin);
+    if (at >= std::min (end, remedy.size())) return std::nullopt;
+    return std::strtod (remedy.c_str() + at + words.size(), nullptr);
+}
+
+/// Does what the remedy says first of the wall, and of the friction. Returns false if it says nothing that has a number.
+bool follow (WallAndDrag& both, const std::string& remedy)
+{
+    const auto from = remedy.find ("whatever the hand does: "), start = from == remedy.npos ? 0 : from;
+    const auto of_wall = remedy.find ("for 'deform", start), of_drag = remedy.find ("for 'friction", start);
+    const auto endOf = [&] (std::size_t at) { return std::min (remedy.find ("for '", at + 1), remedy.find ("; or for all", at)); };
+    const bool are_both = of_wall != remedy.npos && of_drag != remedy.npos;
+    const auto longer = are_both ? numberAfter (remedy, "a d_max at least ", of_drag, endOf (of_drag)) : numberAfter (remedy, "a d_max at least ", start);
+    const bool is_wall = are_both || ! longer;
+    const auto wall = are_both ? of_wall : start, end = are_both ? endOf (of_wall) : remedy.npos;
+    const auto softer = numberAfter (remedy, "a stiffness of at most ", wall, end), damped = numberAfter (remedy, "a virtual damping of at most ", wall, end);
+    if (longer) both.d_max *= *longer;
+    if (is_wall && softer)
+        both.stiffness = *softer;
+    else if (is_wall && damped)
+        both.damping = *damped;
+    return (! are_both || longer) && (! is_wall || softer || damped);
+}
+}   // namespace
+
+TEST_CASE ("who follows the remedies of a wall and a friction makes the contact passive", "[check]")
+{
+    constexpr double rounding = 1.002;
+    int both_broken = 0, faster = 0, followed = 0;
+    test::property ("a wall and a friction", [&] {
+        const auto pick = [] (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); };
+        WallAndDrag case_ { .stiffness = pick (300.0, 9000.0), .damping = pick (0.2, 3.0), .d_max = pick (4e-5, 1e-3) };
+        case_.tool.delay = *rc::gen::inRange (0, 3);
+        const auto c = case_.judged();
+        if (! c.isKnown() || c.value <= 1.01 * c.limit) return;
+        auto changed = case_;
+        if (follow (changed, c.remedy))
+        {
+            ++followed;
+            both_broken += c.remedy.find ("for 'deform") != std::string::npos ? 1 : 0;
+            const auto after = changed.judged();
+            if (after.value > rounding * after.limit) RC_FAIL (c.remedy + " gives " + std::to_string (after.value) + ": " + after.text);
+        }
+        if (const auto rate = numberAfter (c.remedy, "a rate of at least "))
+        {
+            ++faster;
+            auto other = case_;
+            other.rate_hz = *rate;
+            const auto after = other.judged();
+            if (after.value > rounding * after.limit) RC_FAIL (c.remedy + " gives " + std::to_string (after.value) + " at the rate");
+        }
+    });
+    CHECK (followed > 10);
+    CHECK (both_broken > 3);
+    CHECK (faster > 3);
+}
