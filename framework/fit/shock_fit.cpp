@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "shock_fit.hpp"
 #include "least_squares.hpp"
+#include "smooth_column.hpp"
 
 #include <tactus/kit/free_impact.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -194,6 +196,22 @@ double depthVariance (const Contact& c)
         rows += 1.0;
     }
     return sum / std::max (1.0, rows);
+}
+
+/// Noise of the depth would be in the speed and in the way at the same time, so that a weak damping would have the recorded area. If the rows of the contact
+/// are evenly spaced, takes their depth from a smooth curve; then returns its noise, in m.
+std::optional<double> smoothDepth (RecordedLoop& loop, const Contact& c)
+{
+    constexpr double evenly = 0.01, nothing = 3e-5, followed = 1.5;
+    const auto first = c.first_row, rows = c.last_row - first + 1;
+    const double spacing = (loop.time[c.last_row] - loop.time[first]) / static_cast<double> (rows - 1), variance = depthVariance (c);
+    for (std::size_t i = first; i < c.last_row; ++i)
+        if (std::abs (loop.time[i + 1] - loop.time[i] - spacing) > evenly * spacing) return std::nullopt;
+    if (! (std::sqrt (variance) > nothing * c.d[c.deepest()])) return std::nullopt;
+    const auto curve = detail::smoothed (Eigen::Map<const Eigen::VectorXd> (&loop.depth[first], static_cast<Eigen::Index> (rows)));
+    if (curve.noise * curve.noise > followed * followed * variance) return std::nullopt;   // it cuts corners
+    std::ranges::copy (curve.values, &loop.depth[first]);
+    return curve.noise;
 }
 
 /// Variances by the errors of the depth.
@@ -473,9 +491,13 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     if (auto checked = checkImpact (loop); ! checked) return checked.error();
     auto found = contactOf (loop);
     if (! found) return found.error();
+    const bool has_times = ! loop.time.empty();
+    auto smooth = loop;
+    const auto noise = has_times ? smoothDepth (smooth, *found) : std::nullopt;
+    const auto recorded = *found;
+    if (auto again = noise ? contactOf (smooth) : found) found = std::move (again);
     auto& x = *found;
 
-    const bool has_times = ! x.t.empty();
     if (has_times) setRatesByTime (x);
     const bool estimates_mass = ! (mass > 0.0) && has_times;
     if (estimates_mass) mass = massByTime (x);
@@ -515,8 +537,11 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     if (detail::isCancelled (course)) return detail::fitCancelled();
     detail::setShare (course, 0.8);
     fit.recorded = x.f;
-    const auto errors = has_times ? depthErrors (loop, x) : DepthErrors {};
+    const auto errors = has_times ? depthErrors (loop, recorded) : DepthErrors {};
     fit.speed_error = std::sqrt (errors.speed);
+    if (noise)
+        fit.report.notes.push_back ("the depth has noise of " + roundedText (1e6 * *noise, 2)
+                                    + " um rms, so it is smoothed; the intervals leave out slower errors of the depth");
     reportShock (x, law, estimates_mass ? std::optional (errors.mass) : std::nullopt, fit);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.depth = std::move (x.d);

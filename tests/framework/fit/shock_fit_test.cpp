@@ -208,6 +208,36 @@ TEST_CASE ("fit of a shock: the speed at the touch is known in spite of noise of
     CHECK (near >= 0.75 * draws);   // right errors fail in one of 1000 such tests
 }
 
+TEST_CASE ("fit of a shock: noise of the depth does not hide a part of the dissipation", "[kit][shock]")
+{
+    constexpr int draws = 40;
+    const Blow blow { .k = 3e5, .n = 1.5, .lambda = 0.4, .m = 0.1, .v = 0.5 };
+    for (const double noise : { 0.8e-6, 1.5e-6, 3e-6, 7e-6 })   // to half a percent of the depth
+    {
+        int covered = 0;
+        double mean = 0.0;
+        for (unsigned seed = 1; seed <= draws; ++seed)
+        {
+            std::mt19937 random { seed };
+            std::normal_distribution<double> error;
+            auto loop = record (blow, 480);
+            const double peak = *std::ranges::max_element (loop.force);
+            for (double& d : loop.depth)
+                d += noise * error (random);
+            for (double& f : loop.force)
+                f += 0.01 * peak * error (random);
+            const auto fit = fitShock (loop);
+            REQUIRE (fit);
+            const auto& lambda = fit->report.at ("dissipation");
+            mean += lambda.value / draws;
+            if (lambda.low <= blow.lambda && blow.lambda <= lambda.high) ++covered;
+        }
+        CAPTURE (noise, covered, mean);
+        if (noise < 5e-6) CHECK (mean == Approx (blow.lambda).epsilon (0.02));
+        CHECK (covered >= 0.8 * draws);
+    }
+}
+
 TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
 {
     tactus::test::property ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
