@@ -183,7 +183,7 @@ void run (const FakeOptions& o)
     BoundedLog bounded (log, static_cast<std::uint64_t> (1e6 * o.log_megabytes));
     if (! o.log.empty())
     {
-        log.open (o.log);
+        log.open (o.log, std::ios::binary);   // the line ends of Linux in Windows, too
         if (! log) fail (Message::error ("output/unwritable", o.log, "the log cannot be written", "name a file in a folder that you may write to"));
         fake->on_line = [&o, &bounded] (const FakeDevice::Line& line) {
             if (bounded.add (textOf (line)))

@@ -19,7 +19,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from wine import restart   # noqa: E402
+from wine import add_port, restart   # noqa: E402
 
 READINGS = 10000
 MOST_N = 2.0001   # of the profile of the board, and a rounding
@@ -34,7 +34,7 @@ def board(tactus, wine, work, port):
     fake = subprocess.Popen([tactus, "fake-device", "tactus_board", "--wire", "serial", "--link", link, "--log", heard], stdout=subprocess.PIPE, text=True)
     try:
         fake.stdout.readline()   # it is there
-        subprocess.run([wine, "reg", "add", "HKLM\\Software\\Wine\\Ports", "/v", port, "/d", link, "/f"], check=True, capture_output=True)
+        add_port(wine, port, link)
         restart(wine)   # it looks for ports when it starts
         yield heard
     finally:

@@ -13,6 +13,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from left_out import FEWER, LEFT_OUT   # noqa: E402
+from wine import add_port, restart   # noqa: E402
 
 RESULT = re.compile(r"All tests passed \(.* in (\d+) test case|test cases: +(\d+) \|(?: +(\d+) passed)?")
 LONGEST = 900   # seconds for a file
@@ -53,9 +54,12 @@ def main():
     tactus.parent.mkdir(parents=True, exist_ok=True)
     tactus.write_text(f'#!/bin/sh\nexec {wine} {windows}/bin/tactus.exe "$@"\n')
     tactus.chmod(0o755)
+    line = tactus.with_name("line_COM20")
+    add_port(wine, "COM20", line)
+    restart(wine)
     wrong = 0
     for part in sys.argv[4:] or [name for name, program in programs.items() if pathlib.Path(program[-1]).exists()]:
-        more = {"TACTUS_TESTED_PROGRAM": str(tactus)} if part == "cli" else {}
+        more = {"TACTUS_TESTED_PROGRAM": str(tactus), "TACTUS_TESTED_LINE": str(line)} if part == "cli" else {}
         files = files_of(programs[part], environment)
         count = passed = 0
         run = [file for file in files if "" not in LEFT_OUT.get(file, {})]

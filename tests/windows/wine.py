@@ -12,5 +12,10 @@ def restart(wine, environment=None):
         subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, check=False)
 
 
+def add_port(wine, name, link):
+    """Lets the file `link` be the serial port of this name. Wine looks for ports when it starts."""
+    subprocess.run([wine, "reg", "add", "HKLM\\Software\\Wine\\Ports", "/v", name, "/d", link, "/f"], check=True, capture_output=True)
+
+
 def end(wine, environment=None):
     subprocess.run([pathlib.Path(wine).with_name("wineserver64"), "-k"], env=environment, check=False)

@@ -10,6 +10,7 @@
 #include <host/devices/hid_link/hid_device.hpp>
 #include <host/devices/hid_link/open_device.hpp>
 #include <host/devices/hid_link/profile_library.hpp>
+#include <host/devices/hid_link/serial_ports.hpp>
 #include <host/devices/hid_link/udev_rule.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
@@ -106,11 +107,13 @@ ChosenDevice chooseDevice (const std::string& text, const hid::LoadedProfiles& p
     };
     const auto connected = eachOnce (thisComputer().connected(), profiles);
     std::error_code unseen;
-    if (text.find ('@') == text.npos && (text.find ('/') != text.npos || std::filesystem::exists (text, unseen)))
+    const auto ports = serialPorts();
+    const bool is_port = std::ranges::find (ports, text, &SerialPort::path) != ports.end();   // in Windows, it is no file
+    if (is_port || (text.find ('@') == text.npos && (text.find ('/') != text.npos || std::filesystem::exists (text, unseen))))
     {
         const auto at = std::ranges::find (connected, text, &ConnectedDevice::path);
         if (at != connected.end()) return { *at, profileFor (*at) };
-        if (! std::filesystem::exists (text, unseen)) failWithoutDevice (quote (text) + ": there is no such device");
+        if (! is_port && ! std::filesystem::exists (text, unseen)) failWithoutDevice (quote (text) + ": there is no such device");
         ChosenDevice port;
         port.device.wire = Wire::serial;
         port.device.path = text;

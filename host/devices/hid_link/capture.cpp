@@ -198,7 +198,7 @@ Result<std::unique_ptr<CaptureFile>> CaptureFile::createForMessages (const std::
 
 Result<std::unique_ptr<CaptureFile>> CaptureFile::begin (const std::string& path, const Json& head, bool is_text)
 {
-    std::ofstream file (path, std::ios::trunc);
+    std::ofstream file (path, std::ios::trunc | std::ios::binary);
     file << head.dump() << '\n'
          << std::flush;
     if (! file) return Message::error ("output/unwritable", path, "the capture cannot be written", "name a file in a folder that you may write to");

@@ -24,6 +24,7 @@
 #include <vector>
 
 using namespace tactus;
+using test::playOn;
 using test::Running;
 using test::runProgram;
 using test::runTactus;
@@ -53,22 +54,25 @@ const std::string drives = "< 54 01 01 00", rests = "< 54 01 00 00";
 struct Fake
 {
     explicit Fake (const std::string& wire, const std::string& profile = "tactus_board")
-        : log (scratch.path ("log")), program (words (wire, profile)), is_there (soon ([this] { return program.out().find ('\n') != std::string::npos; }))
+        : log (scratch.path ("log")), program (wire == "serial" ? TACTUS_PROGRAM : test::testedProgram(), words (wire, profile)),
+          is_there (soon ([this] { return program.out().find ('\n') != std::string::npos; }))
     {
         const auto told = program.out();
         const auto at = told.find ("ROLE=");
         device = at == told.npos ? std::string() : told.substr (at + 5, told.find ('\n', at) - at - 5);
+        if (const auto link = device.find (line.link); link != device.npos) device.replace (link, line.link.size(), line.name);
     }
 
     std::vector<std::string> words (const std::string& wire, const std::string& profile) const
     {
         std::vector<std::string> all { "fake-device", profile, "--wire", wire, "--log", log };
         all.insert (all.end(), { "--hand", scratch.write ("hand.json", R"({ "driver": "sim", "mass": "1000 kg" })") });   // it does not move away
-        if (wire == "serial") all.insert (all.end(), { "--link", scratch.path ("board") });
+        if (wire == "serial") all.insert (all.end(), { "--link", line.link });
         return all;
     }
 
     const test::Scratch scratch;
+    const test::SerialLine line = test::serialLine (scratch);
     const std::string log;
     Running program;
     const bool is_there;
@@ -78,11 +82,11 @@ struct Fake
 
 TEST_CASE ("a program that is killed while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
 {
-    const auto wire = GENERATE (from_range (test::playedWires()));
+    const auto wire = GENERATE (as<std::string> {}, "serial", "udp");
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto graph = fake.scratch.write ("push.json", pushing);
-    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    Running play { playOn (fake.device, graph) };
     REQUIRE (play.says ("Ctrl-C stops"));
     // 0.5 N are 500000 uN, 0007a120.
     REQUIRE (soon (
@@ -100,20 +104,19 @@ TEST_CASE ("a second program cannot drive a device over UDP that a first one dri
     Fake fake { "udp" };
     REQUIRE (fake.is_there);
     const auto graph = fake.scratch.write ("push.json", pushing);
-    Running first { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    Running first { playOn (fake.device, graph) };
     REQUIRE (first.says ("Ctrl-C stops"));
     REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
     const auto port = fake.device.substr (fake.device.rfind (':'));
     for (const auto* name : { "127.0.0.1", "0.0.0.0", "127.1.2.3", "[::ffff:127.0.0.1]" })
     {
-        const auto second =
-            runTactus ({ "play", graph, "--device", "stylus=udp:tactus_board@" + (name + port), "--session", "off", "--osc", "off", "--duration", "0.1" });
+        const auto second = runTactus (playOn ("udp:tactus_board@" + (name + port), graph, { "--duration", "0.1" }));
         INFO (name << ": " << second.err);
         CHECK (second.status != 0);
         CHECK (second.err.find ("another role or another instance of Tactus is using it") != std::string::npos);
     }
     CHECK (first.stop().status == 0);
-    const auto next = runTactus ({ "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "0.1" });
+    const auto next = runTactus (playOn (fake.device, graph, { "--duration", "0.1" }));
     INFO (next.err);
     CHECK (next.status == 0);
 }
@@ -169,7 +172,7 @@ TEST_CASE ("a program that is killed while it pushes an arm without a watchdog l
     auto sideways = std::string (pushing);
     sideways.replace (sideways.find ("force.z"), 7, "force.x");
     const auto graph = fake.scratch.write ("push.json", sideways);
-    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    Running play { playOn (fake.device, graph) };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto at_rest = std::string (arm.force) + arm.zeros;
     const auto isPushed = [&] {
@@ -184,11 +187,11 @@ TEST_CASE ("a program that is killed while it pushes an arm without a watchdog l
 
 TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
 {
-    const auto wire = GENERATE (from_range (test::playedWires()));
+    const auto wire = GENERATE (as<std::string> {}, "serial", "udp");
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto graph = fake.scratch.write ("push.json", pushing);
-    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    Running play { playOn (fake.device, graph) };
     REQUIRE (play.says ("Ctrl-C stops"));
     REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
     play.signal (SIGSTOP);
@@ -200,10 +203,10 @@ TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire
 
 TEST_CASE ("play on a wire accounts for its reports, and ends with the device at rest", "[cli][wires]")
 {
-    const auto wire = GENERATE (from_range (test::playedWires()));
+    const auto wire = GENERATE (as<std::string> {}, "serial", "udp");
     Fake fake { wire };
     REQUIRE (fake.is_there);
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "1" });
+    const auto ran = runTactus (playOn (fake.device, "dry_wood", { "--duration", "1" }));
     INFO (ran.err);
     CHECK (ran.status == 0);
     CHECK (ran.err.find (" taken") != std::string::npos);
@@ -215,11 +218,11 @@ TEST_CASE ("play on a wire accounts for its reports, and ends with the device at
 TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault ends without a warning", "[cli][wires]")
 {
     const test::Scratch scratch;
-    const auto link = scratch.path ("board");
-    Running fake { { "fake-device", "tactus_board", "--link", link } };
+    const auto line = test::serialLine (scratch);
+    const auto device = "serial:tactus_board@" + line.name;
+    Running fake { TACTUS_PROGRAM, { "fake-device", "tactus_board", "--link", line.link } };
     REQUIRE (soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
-    const auto ran = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + link, "--duration", "2",
-                                  "--session", "off", "--osc", "off", "--out", scratch.path ("out.csv"), "--record", "drag.force" });
+    const auto ran = runTactus (playOn (device, dry_wood, { "--duration", "2", "--out", scratch.path ("out.csv"), "--record", "drag.force" }));
     INFO (ran.out + ran.err);
     CHECK (ran.status == 0);
     const std::string age = "readings up to ";
@@ -229,11 +232,10 @@ TEST_CASE ("the usual hand of fake-device gives way, and a run without a fault e
         CHECK (ran.err.find ("no valid reading") == std::string::npos);             // what every run on a device begins with
 
     // A device that never answers: its stop at the start is the news.
-    const auto silent = scratch.path ("silent");
-    Running mute { { "fake-device", "tactus_board", "--link", silent, "--fault", "stall" } };
+    fake.stop();
+    Running mute { TACTUS_PROGRAM, { "fake-device", "tactus_board", "--link", line.link, "--fault", "stall" } };
     REQUIRE (soon ([&] { return mute.out().find ("ROLE=") != std::string::npos; }));
-    const auto waited = runTactus ({ "play", dry_wood, "--device", "stylus=serial:tactus_board@" + silent, "--duration", "0.5",
-                                     "--session", "off", "--osc", "off" });
+    const auto waited = runTactus (playOn (device, dry_wood, { "--duration", "0.5" }));
     INFO (waited.out + waited.err);
     CHECK (waited.err.find ("stylus: warning: the guard withheld the force: ") != std::string::npos);
 }
@@ -269,14 +271,15 @@ TEST_CASE ("a role gets one device", "[cli][wires]")
 TEST_CASE ("a line that carries only garbage is told from one that carries nothing", "[cli][wires]")
 {
     const test::Scratch scratch;
-    const auto link = scratch.path ("board"), device = "serial:tactus_board@" + link;
-    Running fake { { "fake-device", "tactus_board", "--link", link, "--fault", "garbage" } };
+    const auto line = test::serialLine (scratch);
+    const auto device = "serial:tactus_board@" + line.name;
+    Running fake { TACTUS_PROGRAM, { "fake-device", "tactus_board", "--link", line.link, "--fault", "garbage" } };
     REQUIRE (soon ([&] { return fake.out().find ("ROLE=") != std::string::npos; }));
     const std::string told = " bytes arrived, but no frame: check baud, framing and CRC";
     const auto captured = runTactus ({ "devices", "--capture", scratch.path ("board.jsonl"), "--device", device, "--duration", "1" });
     INFO (captured.out + captured.err);
     CHECK (captured.out.find (told) != std::string::npos);
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=" + device, "--session", "off", "--osc", "off", "--duration", "1" });
+    const auto ran = runTactus (playOn (device, "dry_wood", { "--duration", "1" }));
     INFO (ran.err);
     CHECK (ran.err.find ("stylus: warning: ") != std::string::npos);
     CHECK (ran.err.find ("[device/no_frame]") != std::string::npos);
@@ -299,14 +302,14 @@ TEST_CASE ("a board whose rate is not that of its profile is told, with the spee
     change (R"("vid": "0x16c0")", R"("vid": "0x1234")");
     profiles.write ("slow_board.json", slow);
     setenv ("TACTUS_PROFILES", profiles.path ("").c_str(), 1);
-    Fake fake { test::playedWires().front(), "slow_board" };
+    Fake fake { "serial", "slow_board" };
     unsetenv ("TACTUS_PROFILES");
     INFO (fake.program.err());
     REQUIRE (fake.is_there);
-    auto device = "stylus=" + fake.device;
+    auto device = fake.device;
     device.replace (device.find ("slow_board"), 10, "tactus_board");
     // Longer than two spans of 2 s.
-    const auto ran = runTactus ({ "play", "dry_wood", "--device", device, "--session", "off", "--osc", "off", "--duration", "9" });
+    const auto ran = runTactus (playOn (device, "dry_wood", { "--duration", "9" }));
     INFO (ran.err);
     CHECK (ran.err.find (" reports/s, its profile says 1000: the graph runs at ") != std::string::npos);
     CHECK (ran.err.find ("[device/rate]") != std::string::npos);
@@ -344,7 +347,7 @@ TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires
 
 TEST_CASE ("tactus devices --capture records what a device on a wire has sent, byte for byte", "[cli][wires][capture]")
 {
-    const auto wire = GENERATE (from_range (test::playedWires()));
+    const auto wire = GENERATE (as<std::string> {}, "serial", "udp");
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto file = fake.scratch.path ("board.jsonl");
@@ -378,7 +381,7 @@ TEST_CASE ("tactus devices --capture records what a device on a wire has sent, b
 
 TEST_CASE ("tactus devices --probe shows the readings of a board on a wire", "[cli][wires]")
 {
-    const auto wire = GENERATE (from_range (test::playedWires()));
+    const auto wire = GENERATE (as<std::string> {}, "serial", "udp");
     Fake fake { wire };
     REQUIRE (fake.is_there);
     const auto ran = runTactus ({ "devices", "--probe", "--device", fake.device, "--duration", "1" });
@@ -399,10 +402,11 @@ TEST_CASE ("tactus devices --capture reads no serial port that a run drives", "[
 {
     Fake fake { "serial" };
     REQUIRE (fake.is_there);
-    Running play { { "play", dry_wood, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    Running play { playOn (fake.device, dry_wood) };
     REQUIRE (play.says ("Ctrl-C stops"));
     REQUIRE (soon ([&] { return linesOf (fake.log, drives).size() > 100; }));
-    for (const auto& port : { fake.scratch.path ("board"), std::filesystem::canonical (fake.scratch.path ("board")).string() })
+    const auto other = test::isOfWindows() ? fake.line.name : std::filesystem::canonical (fake.line.link).string();
+    for (const auto& port : { fake.line.name, other })
     {
         const auto ran = runTactus ({ "devices", "--capture", fake.scratch.path ("taken.jsonl"), "--device", port, "--duration", "0.1" });
         INFO (ran.out + ran.err);
@@ -419,7 +423,7 @@ TEST_CASE ("tactus devices --capture records a serial port without a profile, an
     Fake fake { "serial" };
     REQUIRE (fake.is_there);
     const auto file = fake.scratch.path ("bytes.jsonl");
-    const auto ran = runTactus ({ "devices", "--capture", file, "--device", fake.scratch.path ("board"), "--duration", "0.5" });
+    const auto ran = runTactus ({ "devices", "--capture", file, "--device", fake.line.name, "--duration", "0.5" });
     INFO (ran.out + ran.err);
     CHECK (ran.status == 0);
     const auto capture = host::hid::readCapture (*readTextFile (file));
@@ -440,7 +444,7 @@ TEST_CASE ("tactus devices --capture records a serial port without a profile, an
     CHECK (refused ({ "--device", fake.scratch.path ("nothing") }, "there is no such device"));
     CHECK_FALSE (refused ({ "--device", "nothing" }, "ROLE"));
     CHECK (refused ({ "--device", "nothing" }, "there is no such device"));
-    CHECK (refused ({ "--device", "/dev/null" }, "name a serial port"));
+    if (! test::isOfWindows()) CHECK (refused ({ "--device", "/dev/null" }, "name a serial port"));   // in wine, it is a file
     CHECK (refused ({ "--probe" }, "--probe"));
     CHECK (runTactus ({ "devices", "--duration", "1" }).status == 2);
     CHECK (runTactus ({ "devices", "--device", fake.device }).status == 2);

@@ -54,7 +54,21 @@ std::string testedProgram()
 
 bool isOfWindows() { return std::getenv ("TACTUS_TESTED_PROGRAM") != nullptr; }
 
-std::vector<std::string> playedWires() { return isOfWindows() ? std::vector<std::string> { "udp" } : std::vector<std::string> { "serial", "udp" }; }
+SerialLine serialLine (const Scratch& scratch)
+{
+    const char* known = std::getenv ("TACTUS_TESTED_LINE");
+    if (isOfWindows() && known != nullptr) return { known, "COM20" };
+    const auto link = scratch.path ("line");
+    return { link, link };
+}
+
+std::vector<std::string> playOn (const std::string& device, const std::string& graph, const std::vector<std::string>& more)
+{
+    std::vector<std::string> words { "play", graph, "--device", "stylus=" + device, "--session", "off", "--osc", "off" };
+    if (isOfWindows()) words.push_back ("--untried");
+    words.insert (words.end(), more.begin(), more.end());
+    return words;
+}
 
 std::string withSlashes (std::string text)
 {

@@ -30,11 +30,21 @@ struct Ran
 /// `tactus`, or the program that TACTUS_TESTED_PROGRAM names: ./test.sh --windows tests tactus.exe in wine by the same tests.
 std::string testedProgram();
 
-/// True if the tested program is one of Windows: it prints paths with a \, and has no pseudo-terminal that could be the far end of a serial line.
+/// True if the tested program is one of Windows: it prints paths with a \, has no guardian, and opens serial lines by names such as COM20.
 bool isOfWindows();
 
-/// The wires on which the tested program can play a device to itself.
-std::vector<std::string> playedWires();
+/// A serial line: a pseudo-terminal of Linux.
+struct SerialLine
+{
+    std::string link;   ///< the path of its far end, which a fake device makes
+    std::string name;   ///< its name for the tested program
+};
+
+/// In wine, a line has to be known before the first program starts, so there is only one.
+SerialLine serialLine (const Scratch&);
+
+/// The arguments that play a graph on the device of the stylus, without the bindings of the user. With --untried for Windows, which has no guardian.
+std::vector<std::string> playOn (const std::string& device, const std::string& graph, const std::vector<std::string>& more = {});
 
 /// The text with the paths as on Linux.
 std::string withSlashes (std::string text);

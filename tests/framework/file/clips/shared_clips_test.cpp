@@ -26,7 +26,7 @@ std::vector<fs::path> filesOf (const std::string& extension)
     const fs::path data = TACTUS_SHARED_DATA;
     if (fs::exists (data))
         for (const auto& entry : fs::recursive_directory_iterator (data))
-            if (entry.path().extension() == extension && entry.path().string().find ("/haptic_") != std::string::npos) files.push_back (entry.path());
+            if (entry.path().extension() == extension && entry.path().generic_string().find ("/haptic_") != std::string::npos) files.push_back (entry.path());
     if (files.empty()) WARN ("skipped: there are no " << extension << " files in " << data.string());
     std::ranges::sort (files);
     return files;
