@@ -101,7 +101,8 @@ Result<QuantityText> readQuantity (const Json& typed, const PortSheet& sheet)
     const std::string id (sheet.id);
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && *n.dimension != sheet.unit.unit.dimension)
         return Message::error ("param/unit", {},
-                               filled (TRANS ("%1 does not fit %2, which is in %3"), unitShown (symbolOf (*n.dimension)), id,
+                               filled (TRANS ("%1 does not fit %2, which is in %3"),
+                                       typed.is_string() ? typed.asString() : unitShown (symbolOf (*n.dimension)), id,
                                        unitShown (std::string (sheet.unit.unit.symbol)))
                                    .toStdString());
     if (plan::miscounts (n, sheet.unit)) return Message::error ("param/unit", {}, plan::miscount (value, sheet.unit));

@@ -190,7 +190,7 @@ std::string describe (const EnergyBalance& b)
                                     : TRANS ("active over %5: at one moment, %4 more had come out than had gone in; by now, work of the hand %1, %2 stored, "
                                              "%3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
-                        juce::String (b.seconds, b.seconds < 10.0 ? 1 : 0) + juce::String::fromUTF8 ("\u00a0s"));
+                        (b.seconds < 10.0 ? juce::String (b.seconds, 1) : juce::String (juce::roundToInt (b.seconds))) + juce::String::fromUTF8 ("\u00a0s"));
     if (matters (b.held, 0.01))
         text << "; "
              << filled (b.late > 0.0 ? TRANS ("the delay of the device and holding the force between ticks created %1")
