@@ -95,7 +95,8 @@ TEST_CASE ("fit modes: a WAV is a recording, at its rate, with its channels", "[
         for (int i = 0; i < rate; ++i)
         {
             const double t = i / rate;
-            const double samples[] { std::exp (-4.0 * t) * std::sin (full_circle * 440.0 * t), 0.5 * std::exp (-9.0 * t) * std::sin (full_circle * 1234.0 * t) };
+            const double samples[] { std::exp (-4.0 * t) * std::sin (full_circle * 440.0 * t),
+                                     0.5 * std::exp (-9.0 * t) * std::sin (full_circle * 1234.0 * t) };
             REQUIRE (wav->frame (samples));
         }
         REQUIRE (wav->commit());
