@@ -141,7 +141,12 @@ TEST_CASE ("how long a force on a Falcon outlives its program, measured at the f
                              test::End { "emergency stop", 12.0, SIGUSR1 } })
         CHECK (test::keepsPromise (
             { "play", (folder / "wall.json").string(), "--device", "stylus=falcon:" + address }, end,
-            [&] { return falcon.pushes > 100 && ! falcon.isAtRest(); }, [&] (std::int64_t) { return falcon.isAtRest() ? falcon.zero_at.load() : 0; }));
+            [&] { return falcon.pushes > 100 && ! falcon.isAtRest(); },
+            [&] (std::int64_t begin) -> std::int64_t {
+                if (! falcon.isAtRest()) return 0;
+                const auto at = falcon.zero_at.load();
+                return at > begin ? at : -1;
+            }));
 }
 
 TEST_CASE ("a program plays on the Falcon that fake-device offers", "[falcon]")
