@@ -92,7 +92,7 @@ void MixStrip::paint (juce::Graphics& g)
     };
     g.setColour (theme.text);
     drawLine (filled (TRANS ("peak %1"), peak));
-    if (motor_peak.isNotEmpty()) drawLine (filled (TRANS ("before the guard %1"), motor_peak));
+    if (motor_peak.isNotEmpty()) drawLine (filled (TRANS ("asked %1"), motor_peak));
     auto state = limits ? TRANS ("below the ceiling") : TRANS ("no ceiling");
     if (limits && feed.meter.peak() > 0.99 * ceiling.shown().si()) state = TRANS ("at the ceiling");
     if (limits && over) state = filled (TRANS ("over by %1 dB"), juce::String (over_db, 1));

@@ -304,7 +304,7 @@ TEST_CASE ("the strip of the mix shows each number with its unit", "[app][layers
     desk.refresh();
     int lines = 0;
     for (const auto& t : readTexts (*desk.mix()))
-        if (t.text.startsWith ("peak ") || t.text.startsWith ("motor "))
+        if (t.text.startsWith ("peak ") || t.text.startsWith ("asked "))
         {
             INFO (t.text);
             ++lines;
