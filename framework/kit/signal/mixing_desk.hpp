@@ -55,6 +55,9 @@ public:
         loudest = old.loudest;
         limit = old.limit;
         limiting = old.limiting;
+        limits = old.limits;
+        earlier = old.earlier;
+        way = old.way;
         started = old.started;
     }
 
@@ -74,7 +77,7 @@ public:
     /// The factor on a layer in the last mix, before the ceiling: gain, mute, solo and ducking.
     double factor (int i, const DeskParams& params) const noexcept { return channels[at (i)].duck * channels[at (i)].open * params.gain[i]; }
 
-    void serialize (auto& archive) { archive (channels, loudest, limit, limiting, started); }
+    void serialize (auto& archive) { archive (channels, loudest, limit, limiting, limits, earlier, way, started); }
 
 private:
     struct Channel
@@ -112,8 +115,8 @@ private:
     void forget() noexcept
     {
         channels = {};
-        loudest = limit = limiting = 0.0;
-        started = false;
+        loudest = limit = limiting = earlier = way = 0.0;
+        limits = started = false;
     }
 
     /// A decaying peak. It becomes 0 before it becomes subnormal.
@@ -123,8 +126,13 @@ private:
 
     std::array<Channel, list_capacity> channels;
     double loudest = 0.0;
-    double limit = 0.0;                                                          // the last ceiling that was one
-    double limiting = 0.0;                                                       // share of the ceiling: it fades as a mute does
+    double limit = 0.0;      // the last ceiling that was one
+    double limiting = 0.0;   // share of the ceiling: it fades as a mute does
+    bool limits = false;     // in the last tick, there was a ceiling
+
+    // Another ceiling came while one faded: the limit at that time, and the share of the way from there that is left.
+    double earlier = 0.0, way = 0.0;
+
     double ramp = 1.0, attack = 1.0, release = 1.0, decay = 0.0, fading = 0.0;   // per tick
     double ducked = 1.0;
     bool any_solo = false;
@@ -170,8 +178,18 @@ bool MixingDesk<Layer>::mixed (const InputList<Layer>& in, const DeskParams& par
     if (! isFinite (sum) || ! isFinite (loud)) return false;
 
     const double target = params.ceiling > 0.0 ? 1.0 : 0.0;
+    if (target > 0.0)
+    {
+        if (! limits)
+        {
+            way = started && limiting > 0.0 ? 1.0 : 0.0;
+            earlier = limit;
+        }
+        way = std::max (0.0, way - ramp);
+        limit = (1.0 - way) * params.ceiling + way * earlier;
+    }
+    limits = target > 0.0;
     limiting = started ? std::clamp (target, limiting - ramp, limiting + ramp) : target;
-    if (target > 0.0) limit = params.ceiling;
     started = true;
     out.out = sum;
     if (limiting > 0.0 && loud > limit)

@@ -101,7 +101,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
     auto& knobs = *instance.knobs;
     auto& knob = knobs.all[k];
     knob.to = to;
-    if (at_once || ! knobs.hasStarted() || jumps (knobs.type, k, knob.value, to))
+    if (at_once || ! knobs.hasStarted() || (! instance.isDriven (k) && jumps (knobs.type, k, knob.value, to)))
     {
         knob.left = 0;
         knob.value = to;

@@ -137,9 +137,10 @@ struct Parameter
 {
     void* place = nullptr;   ///< the member of the node: a double, or the int of a choice
     bool is_choice = false;
-    bool is_driven = false;   ///< a wire sets the member; the value here is what it replaces or adds to
-    bool asked = false;       ///< a new target was set since the last tick
-    int left = 0;             ///< ticks left in the ramp
+    bool off_at_zero = false;   ///< 0 means that there is no limit, so no ramp leads there or away
+    bool is_driven = false;     ///< a wire sets the member; the value here is what it replaces or adds to
+    bool asked = false;         ///< a new target was set since the last tick
+    int left = 0;               ///< ticks left in the ramp
     double min = 0.0, max = 0.0;
     double target = 0.0, to = 0.0, value = 0.0;
 
@@ -193,10 +194,10 @@ public:
     }
 
     /// Places the next parameter of this node: its member, value and hard range.
-    void place (double& member, double value, double min, double max) noexcept
+    void place (double& member, double value, double min, double max, bool off_at_zero = false) noexcept
     {
         member = value;
-        add ({ .place = &member, .min = min, .max = max, .target = value, .to = value, .value = value });
+        add ({ .place = &member, .off_at_zero = off_at_zero, .min = min, .max = max, .target = value, .to = value, .value = value });
     }
 
     /// The same for a choice, whose value is the number of the alternative.
@@ -252,7 +253,8 @@ private:
     {
         p.asked = false;
         p.to = p.target;
-        if (! is_started || p.is_choice)
+        const bool jumps = p.off_at_zero && ! p.is_driven && (p.value == 0.0 || p.to == 0.0);
+        if (! is_started || p.is_choice || jumps)
         {
             p.left = 0;
             p.value = p.to;

@@ -234,6 +234,49 @@ TEST_CASE ("layer: a ceiling that is set or taken away fades in 10 ms", "[nodes]
     }
 }
 
+TEST_CASE ("layer: another ceiling before the last one has faded makes no step", "[nodes][layer]")
+{
+    for (const int later : { 1, 5, 9 })
+        for (const double next : { 0.25, 5.0, 20.0 })
+        {
+            Desk desk { 1, params ([] (auto& p) { p.ceiling = 0.5; }) };
+            double before = desk.mix ({ 10.0 }).out;
+            const auto follow = [&] (double ceiling, int ticks) {
+                desk.change ([&] (auto& p) { p.ceiling = ceiling; });
+                for (int k = 0; k < ticks; ++k)
+                {
+                    const double out = desk.mix ({ 10.0 }).out;
+                    CHECK (std::abs (out - before) <= (10.0 + std::max (0.5, next)) * T / 10e-3 + 1e-9);
+                    before = out;
+                }
+            };
+            follow (0.0, later);
+            follow (next, 10);
+            CHECK (before == Approx (std::min (10.0, next)));
+        }
+}
+
+TEST_CASE ("layer: a ceiling that comes holds after 10 ms, and one that the force does not reach changes nothing", "[nodes][layer]")
+{
+    const double earlier = GENERATE (0.0, 0.5, 20.0, 100.0), force = GENERATE (4.9, 30.0), next = GENERATE (0.1, 0.5, 5.0);
+    const int without = GENERATE (0, 1, 5, 9, 10, 30);   // ticks
+    Desk desk { 1, params ([&] (auto& p) { p.ceiling = earlier; }) };
+    const auto after = [&] (double ceiling, int ticks) {
+        desk.change ([&] (auto& p) { p.ceiling = ceiling; });
+        double out = 0.0;
+        for (int k = 0; k < ticks; ++k)
+        {
+            out = desk.mix ({ force }).out;
+            if ((earlier == 0.0 || force < earlier) && force < next) CHECK (out == force);
+        }
+        return out;
+    };
+    after (earlier, 3);
+    if (without > 0) after (0.0, without);
+    CHECK (after (next, 10) == Approx (std::min (force, next)));
+    CHECK (after (next, 1) == std::min (force, next));
+}
+
 TEST_CASE ("layer: it mixes millinewtons as well as newtons", "[nodes][layer]")
 {
     tactus::test::property ("a thousandth in, a thousandth out", [] {

@@ -276,7 +276,8 @@ std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& 
             text += std::to_string (static_cast<int> (p.value)) + ", " + std::to_string (p.sheet->choices.size()) + ");   // "
                     + std::string (p.sheet->choices[static_cast<std::size_t> (p.value)]) + "\n";
         else
-            text += literal (p.value) + ", " + literal (p.sheet->limits.hard.min) + ", " + literal (p.sheet->limits.hard.max) + ");" + sourceOf (e, p) + "\n";
+            text += literal (p.value) + ", " + literal (p.sheet->limits.hard.min) + ", " + literal (p.sheet->limits.hard.max)
+                    + (p.sheet->limits.off_at_zero ? ", true);" : ");") + sourceOf (e, p) + "\n";
         if (instance.isDriven (p.knob)) text += "    parameters.drive (" + std::to_string (i) + ");\n";
     }
     for (std::size_t i = 0; i < flat.settings.size(); ++i)

@@ -155,6 +155,11 @@ private:
     void turnParams (std::size_t k)
     {
         constexpr std::size_t most = 12;
+        const auto turn = [&] (std::size_t number, double value) {
+            const auto& p = e.parameters[number];
+            run.engine().set ({ plan.instances()[e.wiring.nodes[p.node].instance].knobs, p.knob, p.sheet }, value);
+            test.events.push_back ({ k, SelfTestEvent::Kind::param, number, value });
+        };
         for (std::size_t i = 0; i < std::min (most, e.parameters.size()); ++i)
         {
             const auto number = i * e.parameters.size() / std::min (most, e.parameters.size());
@@ -165,9 +170,10 @@ private:
                 value = static_cast<double> ((static_cast<std::size_t> (p.value) + 1) % p.sheet->choices.size());
             else
                 value = hard.clamp (value);
-            run.engine().set ({ plan.instances()[e.wiring.nodes[p.node].instance].knobs, p.knob, p.sheet }, value);
-            test.events.push_back ({ k, SelfTestEvent::Kind::param, number, value });
+            turn (number, value);
         }
+        for (std::size_t number = 0; number < e.parameters.size(); ++number)   // limits that are set or taken away
+            if (const auto& p = e.parameters[number]; p.sheet->limits.off_at_zero) turn (number, p.value == 0.0 ? 0.01 : 0.0);
     }
 
     void turnControls (std::size_t k, double position)

@@ -105,6 +105,15 @@ host::ExportedFolder exportedPad()
     options.compile.records.push_back ("pad.force");
     return host::exportGraph (s.graph, options);
 }
+/// A mixer whose ceiling is set and taken away.
+host::ExportedFolder exportedMixer()
+{
+    test::Sketch s;
+    s.node ("wave", "signal.lfo", { { "frequency", 30.0 }, { "amplitude", 50.0 } }).node ("mix", "layer.mix").wire ("wave.out -> mix.in[0]");
+    host::ExportOptions options { .file = "mixer.json", .program = "tactus", .compile = {}, .open = {} };
+    options.compile.records.push_back ("mix.out");
+    return host::exportGraph (s.graph, options);
+}
 }   // namespace
 
 TEST_CASE ("exported graphs give the bits of the engine while parameters move", "[export]")
@@ -118,6 +127,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
         require (program, all.emplace_back (test::exportedRandomGraph (seed, 12)), "random graph " + std::to_string (seed));
     require (program, exportedContacts(), "contacts");
     require (program, exportedPad(), "pad");
+    require (program, exportedMixer(), "mixer");
 
     // A graph with a fault in its code: its self-test has to notice.
     auto broken = test::exportedPreset ("soft_pad");
@@ -138,7 +148,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
         is_right ? ++right : ++wrong;
         CHECK (is_right != line.starts_with ("soft_pad:"));
     }
-    CHECK (right == 22);
+    CHECK (right == 23);
     CHECK (wrong == 1);
     CHECK (linesWith (said, "moves before prepare()").empty());
     for (const auto* name : { "liver", "padded_bench", "pad" })   // a long text of a setting takes some
