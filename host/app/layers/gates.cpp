@@ -117,6 +117,11 @@ Feed feedOf (const graph::Graph& g, const MixerPlace& at, const graph::Wire& w)
         const auto group = node->type.substr (6);
         const auto* inner = findPatch (g, group);
         if (inner == nullptr || timesPlayed (g, group) != 1) break;
+        const auto comesFromThere = [&] (const graph::Endpoint& end) { return end.node == feed.from.node && end.port == feed.from.port; };
+        const auto& outer = *findPatch (g, feed.patch);
+        const auto uses = std::ranges::count_if (outer.wires, comesFromThere, &graph::Wire::from)
+                          + std::ranges::count_if (outer.expose.outputs, comesFromThere, &std::pair<std::string, graph::Endpoint>::second);
+        if (uses != 1) break;   // or something else would get another signal, too
         const auto shown = std::ranges::find (inner->expose.outputs, feed.from.port, &std::pair<std::string, graph::Endpoint>::first);
         if (shown == inner->expose.outputs.end()) break;
         feed = { group, shown->second, nullptr, feed.from.port };
@@ -124,28 +129,51 @@ Feed feedOf (const graph::Graph& g, const MixerPlace& at, const graph::Wire& w)
     return feed;
 }
 
-/// Opens the gate of a layer, wherever it is.
+/// True if the signal at the end of a wire is the one at its start.
+bool isPlain (const graph::Wire& w)
+{
+    return w.gain.is_null() && w.delay == 0 && w.enabled.value_or (true) && w.to.component < 0;
+}
+
+/// Opens the gate of a layer, wherever it is: the layer gets what the gate multiplies or, if this is more than one plain wire, the wire of the gate goes.
 Result<graph::Command> withoutGate (const graph::Graph& g, const Feed& feed)
 {
     const auto& patch = *findPatch (g, feed.patch);
     const auto* product = patch.find (feed.from.node);
-    const graph::Wire* source = nullptr;
-    for (const auto& in : patch.wires)
-        if (product != nullptr && in.to.node == product->name && ! isTouchGain ({ &g, &patch }, in.from)) source = &in;
-    const auto comesFromOutside = [&] (const auto& input) { return product != nullptr && input.second.node == product->name; };
-    if (isProduct (product) && source == nullptr && std::ranges::none_of (patch.expose.inputs, comesFromOutside))
+    std::vector<const graph::Wire*> gates, sources;
+    if (isProduct (product))
+        for (const auto& in : patch.wires)
+            if (in.to.node == product->name) (isTouchGain ({ &g, &patch }, in.from) ? gates : sources).push_back (&in);
+    const auto isInput = [&] (const auto& input) { return isProduct (product) && input.second.node == product->name; };
+    const auto from_outside = std::ranges::count_if (patch.expose.inputs, isInput);
+    if (! gates.empty() && sources.empty() && from_outside == 0)
         return Message::error ("mixer/empty", {}, TRANS ("only the gate is wired into this layer").toStdString(),
                                filled (TRANS ("wire something into %1"), product->name).toStdString());
-    if (! isProduct (product) || source == nullptr)
-        return Message::error ("mixer/gate_elsewhere", {},
-                               TRANS ("the gate of this layer is in a group that is used more than once, or that gets the signal from outside").toStdString(),
-                               TRANS ("ungroup it").toStdString());
-    graph::Batch batch { NEEDS_TRANS ("open the gate of a layer"), { feed.changedTo (g, source->from) } };
-    const auto isUse = [&] (const graph::Endpoint& end) { return end.node == product->name; };
+
+    graph::Batch batch { NEEDS_TRANS ("open the gate of a layer"), {} };
+    const auto factors = static_cast<std::ptrdiff_t> (gates.size()) + from_outside;
+    const bool is_simple = factors == 1 && sources.size() == 1 && isPlain (*sources.front()) && feed.from.component < 0;
+    const auto isUse = [&] (const graph::Endpoint& end) { return isProduct (product) && end.node == product->name; };
     const auto uses = std::ranges::count_if (patch.wires, isUse, &graph::Wire::from)
                       + std::ranges::count_if (patch.expose.outputs, isUse, &std::pair<std::string, graph::Endpoint>::second);
-    const bool is_fed_from_outside = std::ranges::any_of (patch.expose.inputs, comesFromOutside);   // then wires outside lead to it, so it stays
-    if (uses == 1 && ! is_fed_from_outside) batch.commands.push_back (graph::RemoveNode { feed.patch, product->name });
+    if (is_simple)
+    {
+        batch.commands.push_back (feed.changedTo (g, sources.front()->from));
+        if (uses == 1 && from_outside == 0) batch.commands.push_back (graph::RemoveNode { feed.patch, product->name });   // else wires outside lead to it
+        return graph::Command (std::move (batch));
+    }
+    if (gates.empty())
+        return Message::error ("mixer/gate_elsewhere", {},
+                               TRANS ("the gate of this layer is in a group that something else uses, too, or that gets the signal from outside").toStdString(),
+                               TRANS ("open the group, and remove the wire of the gate").toStdString());
+    if (uses > 1)
+    {
+        const auto text = filled (TRANS ("%1 has the gate of this layer, and not only this layer gets its output"), product->name);
+        return Message::error ("mixer/gate_shared", {}, text.toStdString(),
+                               TRANS ("remove the wire of the gate there, or multiply for this layer apart").toStdString());
+    }
+    for (const auto* gate : gates)
+        batch.commands.push_back (graph::RemoveWire { feed.patch, gate->id });
     return graph::Command (std::move (batch));
 }
 }   // namespace

@@ -209,6 +209,61 @@ TEST_CASE ("the gate in a group that plays twice stays", "[layers]")
     CHECK (off.error().id == "mixer/gate_elsewhere");
 }
 
+TEST_CASE ("an open gate leaves the gain of a wire into it, and what else gets the signal", "[layers]")
+{
+    MixedForces wood ("dry_wood.json");
+    wood.add ("texture.grating");
+    SECTION ("a wire that turns the force around")
+    {
+        const auto& wires = wood.history.graph().root.wires;
+        const auto at = std::ranges::find_if (wires, [] (const graph::Wire& w) { return w.from.node == "grating" && w.to.node == "grating_felt"; });
+        REQUIRE (at != wires.end());
+        auto turned = *at;
+        turned.gain = -1.0;
+        REQUIRE (wood.history.perform (graph::ChangeWire { {}, at->id, turned }));
+        wood.perform (setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false));
+        CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 3));
+        CHECK (wireInto (wood.history.graph(), wood.mixer, 3)->from.node == "grating_felt");
+        const auto& left = wood.history.graph().root.wires;
+        CHECK (std::ranges::any_of (left, [] (const graph::Wire& w) { return w.to.node == "grating_felt" && w.gain == Json (-1.0); }));
+        CHECK (wood.compiles());
+    }
+    SECTION ("another node that gets the output of the product")
+    {
+        graph::Node other;
+        other.name = "other";
+        other.type = "vector.scale";
+        REQUIRE (wood.history.perform (graph::AddNode { {}, other }));
+        graph::Wire tap;
+        tap.from = { "grating_felt", "out" };
+        tap.to = { "other", "in" };
+        wood.perform (graph::Command (graph::AddWire { {}, tap }));
+        const auto& wires = wood.history.graph().root.wires;
+        auto turned = *std::ranges::find_if (wires, [] (const graph::Wire& w) { return w.from.node == "grating" && w.to.node == "grating_felt"; });
+        turned.gain = -1.0;
+        REQUIRE (wood.history.perform (graph::ChangeWire { {}, turned.id, turned }));
+        const auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
+        REQUIRE_FALSE (off);
+        CHECK (off.error().id == "mixer/gate_shared");
+    }
+    SECTION ("another node that gets the output of the group")
+    {
+        REQUIRE (wood.history.perform (graph::CollapseNodes { {}, { "grating", "grating_felt" }, "box", "box" }));
+        wood.mixer = mixersOf (wood.history.graph()).front();
+        graph::Node other;
+        other.name = "other";
+        other.type = "vector.scale";
+        REQUIRE (wood.history.perform (graph::AddNode { {}, other }));
+        graph::Wire tap;
+        tap.from = wireInto (wood.history.graph(), wood.mixer, 3)->from;
+        tap.to = { "other", "in" };
+        wood.perform (graph::Command (graph::AddWire { {}, tap }));
+        const auto off = setGate (wood.history.graph(), wood.mixer, catalogue(), 3, false);
+        REQUIRE_FALSE (off);
+        CHECK (off.error().id == "mixer/gate_elsewhere");
+    }
+}
+
 TEST_CASE ("without a surface, a layer cannot have a contact gate", "[layers]")
 {
     tactus::test::Sketch sketch;
