@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "contact_changes.hpp"
 #include "judging.hpp"
 #include "sampled_loop.hpp"
 #include "spring_and_damper.hpp"
-#include "strongest_change.hpp"
 
 #include <tactus/text/list_text.hpp>
 
@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -228,13 +229,15 @@ private:
 
         const double held = s->stiffness * period_s;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
-        auto broken = brokenContacts (limit > 0.0 ? value / limit : inf);
+        const auto* const steepest = s;                                                                                       // clang 14 does not capture structured bindings
+        const bool has_all = std::ranges::any_of (role.slopes, [steepest] (const Slope& own) { return &own == steepest; });   // else without the textures
+        auto broken = has_all ? brokenContacts (limit > 0.0 ? value / limit : inf) : std::vector<Contact> {};
         if (broken.empty())
         {
             const auto load = [ticks = 0.5 + late] (double k, double d, double T) { return k * ticks * T + d; };
             broken.push_back ({ {}, isDragged (*s), s->stiffness, b, limit, load });
         }
-        auto remedy = passiveRemedy (broken, value);
+        auto remedy = passiveRemedy (broken, value, role.dampers, numbers, period_s);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, value, limit, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c);
@@ -244,44 +247,61 @@ private:
         blame (c);
     }
 
-    /// A contact that is not passive, along the force of one node or of all together.
-    struct Contact
+    /// A place that no place before is like, and the responses of the nodes there, along the force of each.
+    struct Place
     {
-        std::string node;   // its path; "" for all together
-        bool is_friction = false;
-        double stiffness = 0.0, damping = 0.0;                    // sigma and b
-        double limit = 0.0;                                       // B, and the brake there, or a part of it
-        std::function<double (double, double, double)> load {};   // what the device has to dissipate, by sigma, b and T
-
-        double share (double period_s) const { return load (stiffness, damping, period_s) / std::max (limit, 1e-12); }
+        const Slope* slope;
+        std::vector<NodeResponse> nodes;
     };
 
+    /// Empty if not all responses are known.
+    std::vector<Place> places() const
+    {
+        std::vector<Place> all;
+        for (const auto& s : role.slopes)
+        {
+            const auto& response = responseAt (s);
+            if (isOverdamped() || isSlow (demand, numbers) || (response.empty() && s.stiffness > 0.0)) return {};
+            if (! all.empty() && all.back().slope->brake == s.brake && isLike (responseAt (*all.back().slope), response)) continue;
+            all.push_back ({ &s, nodeResponses (s, response) });
+        }
+        return all;
+    }
+
+    static bool areAtRightAngles (const std::vector<NodeResponse>& nodes)
+    {
+        constexpr double right = 0.05;   // cosine
+        for (auto a = nodes.begin(); a != nodes.end(); ++a)
+            for (auto b = nodes.begin(); b != a; ++b)
+                if (std::abs (std::inner_product (a->direction.begin(), a->direction.end(), b->direction.begin(), 0.0)) > right) return false;
+        return true;
+    }
+
     /// Each node's contact that is not passive on its own, where it is worst, the worst one first. Empty if they do not explain the whole, of which
-    /// `share` is the part of what the device has to dissipate to what it can.
+    /// `share` is the part of what the device has to dissipate to what it can; if they do not act at right angles; and if one pushes.
     std::vector<Contact> brokenContacts (double share) const
     {
         constexpr double explained = 1.05, together = 0.95;   // of the limit: nodes change each other a little, as a wall changes the load of a friction
         std::vector<Contact> all;
         double largest = 0.0;
-        const Slope* last = nullptr;   // many places have the same response
-        for (const auto& s : role.slopes)
+        const auto known_places = places();
+        const bool are_several = std::ranges::any_of (known_places, [] (const Place& p) { return p.nodes.size() > 1; });
+        for (const auto& place : known_places)
         {
-            const auto& response = responseAt (s);
-            if (isOverdamped() || isSlow (demand, numbers) || (response.empty() && s.stiffness > 0.0)) return {};
-            if (last != nullptr && last->brake == s.brake && isLike (responseAt (*last), response)) continue;
-            last = &s;
-            const auto nodes = nodeResponses (s, response);
-            const double own = loadAt (s).limit, limit = (nodes.size() > 1 ? together : 1.0) * own;
-            for (const auto& one : nodes)
+            if (! areAtRightAngles (place.nodes)) return {};
+            const double own = loadAt (*place.slope).limit, limit = (are_several ? together : 1.0) * own;
+            for (const auto& one : place.nodes)
             {
                 const double its = one.passivityLoad (numbers, period_s);
                 largest = std::max (largest, its / std::max (own, 1e-12));
                 if (its <= limit) continue;
-                auto parts = springAndDamper (one.response, period_s);
+                const auto parts = springAndDamper (one.response, period_s);
+                if (parts.stiffness < 0.0 || parts.damping < 0.0) return {};
                 const auto load = [this, n = one.node, parts] (double stiffness, double damping, double T) {
                     return NodeResponse { n, parts.response (stiffness, damping * period_s / T) }.passivityLoad (numbers, T);
                 };
-                Contact contact { demand.nodes[one.node].path, drags (demand, one.node), parts.stiffness, parts.damping, limit, load };
+                const auto& path = demand.nodes[one.node].path;
+                Contact contact { are_several ? path : std::string(), drags (demand, one.node), parts.stiffness, parts.damping, limit, load };
                 const auto known = std::ranges::find (all, contact.node, &Contact::node);
                 if (known == all.end())
                     all.push_back (std::move (contact));
@@ -292,66 +312,6 @@ private:
         if (explained * largest < share) return {};
         std::ranges::stable_sort (all, std::ranges::greater {}, [&] (const Contact& c) { return c.share (period_s); });
         return all;
-    }
-
-    /// The largest part of 1 with which a contact is passive, if it is so with less; 0 if it never is. What the device has to dissipate is convex in the
-    /// stiffness, the damping and the period.
-    template <typename Load>
-    static double largestPart (const Load& load, double limit)
-    {
-        double low = 0.0, high = 1.0;
-        if (! (load (low) < limit)) return 0.0;
-        for (int i = 0; i < 40; ++i)
-            (load (0.5 * (low + high)) <= limit ? low : high) = 0.5 * (low + high);
-        return low;
-    }
-
-    /// Changes that make one contact passive without another rate or device.
-    std::vector<std::string> passiveWays (const Contact& c) const
-    {
-        constexpr double unclaimed = 1.5, least = 1e-3;
-        const auto softer = [&] (double part) { return c.load (part * c.stiffness, c.damping, period_s); };
-        const auto lessDamped = [&] (double part) { return c.load (c.stiffness, part * c.damping, period_s); };
-        if (const double part = largestPart (softer, c.limit); part > least)
-        {
-            std::vector<std::string> ways { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
-            if (c.is_friction) ways.insert (ways.begin(), "a d_max " + atLeast (1.0 / part, "times") + " as long");
-            return ways;
-        }
-        if (c.damping > unclaimed * role.dampers) return {};
-        if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return { "a virtual damping of " + atMost (part * c.damping, "N*s/m") };
-        return { "a virtual damping below that of the device and a softer contact" };
-    }
-
-    /// The rate from which on a contact is passive; infinite if there is none.
-    double passiveRate (const Contact& contact) const
-    {
-        constexpr double fastest = 1e6;   // times the rate
-        const auto load = [&] (double part) { return contact.load (contact.stiffness, contact.damping, std::max (part, 1.0 / fastest) * period_s); };
-        const double part = largestPart (load, contact.limit);
-        return part > 1.0 / fastest ? 1.0 / (part * period_s) : std::numeric_limits<double>::infinity();
-    }
-
-    /// Changes that make all of these contacts passive. `load`: what the device would have to dissipate, in N s/m.
-    std::string passiveRemedy (const std::vector<Contact>& broken, double load) const
-    {
-        double rate = 0.0;
-        std::string each;
-        std::vector<std::string> ways;
-        for (const auto& contact : broken)
-        {
-            rate = std::max (rate, passiveRate (contact));
-            auto its = passiveWays (contact);
-            if (broken.size() == 1)
-                ways = std::move (its);
-            else if (! its.empty())
-                each += (each.empty() ? "for '" : ", and for '") + contact.node + "' " + anyOf (its);
-        }
-        const bool is_unclaimed = broken.size() == 1 && ways.empty();
-        if (rate < inf && reaches (numbers, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
-        ways.push_back ("a device with a damping of " + atLeast (load, "N*s/m"));
-        if (is_unclaimed) ways.emplace_back ("a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)");
-        return each.empty() ? anyOf (ways) : each + "; or for all of them " + anyOf (ways);
     }
 
     /// Finds which nodes the verdict is about. One that only trials give, or that is not explained by the loops of single nodes, is about the whole.
@@ -377,15 +337,10 @@ private:
     std::vector<Condition::Loop> passiveNodes() const
     {
         std::vector<Condition::Loop> nodes;
-        const Slope* last = nullptr;   // many places have the same response
-        for (const auto& s : role.slopes)
+        for (const auto& place : places())
         {
-            const auto& response = responseAt (s);
-            if (isOverdamped() || isSlow (demand, numbers) || (response.empty() && s.stiffness > 0.0)) return {};
-            if (last != nullptr && last->brake == s.brake && isLike (responseAt (*last), response)) continue;
-            last = &s;
-            const double limit = loadAt (s).limit;
-            for (const auto& one : nodeResponses (s, response))
+            const double limit = loadAt (*place.slope).limit;
+            for (const auto& one : place.nodes)
             {
                 const double load = one.passivityLoad (numbers, period_s), room = load > 0.0 ? limit / load : inf;
                 const auto& path = demand.nodes[one.node].path;

@@ -322,7 +322,6 @@ private:
             const auto& node = flat.nodes[n];
             if (! its[n] || node.type->bind != nullptr) continue;   // a source or a sink
             const auto claims = node.type->claims != nullptr ? node.type->claims (plan->instances()[n].node.get()) : Claims {};
-            d.dampers += claims.damping;
             double gain = 1.0;
             bool counts = claims.passive && node.section == 0;
             for (const auto& w : flat.wires)
@@ -343,6 +342,7 @@ private:
                     gain = std::max (gain, w.gain);
                 }
             }
+            d.dampers += gain * claims.damping;
             if (counts)
             {
                 d.claimed_stiffness += gain * claims.stiffness;

@@ -420,7 +420,7 @@ std::vector<NodeResponse> nodeResponses (const Slope& slope, std::span<const Jac
             const Eigen::Vector3d d = parts.eigenvectors().col (i);
             if (std::ranges::any_of (taken, [&] (const auto& t) { return std::abs (t.dot (d)) > parallel; })) continue;
             taken.push_back (d);
-            all.push_back ({ n, along (d, response) });
+            all.push_back ({ n, along (d, response), { d.x(), d.y(), d.z() } });
         }
     }
     return all;

@@ -97,6 +97,7 @@ struct NodeResponse
 {
     std::size_t node = 0;
     std::vector<double> response {};
+    std::array<double, 3> direction {};   ///< a unit vector
 
     double mayGrow (const DeviceNumbers&, double period_s) const;         ///< roomToGrow(); mass and damping must be known
     double passivityLoad (const DeviceNumbers&, double period_s) const;   ///< of this loop alone, in N s/m

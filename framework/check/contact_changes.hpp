@@ -3,6 +3,8 @@
 
 #include <tactus/run/device/device_numbers.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +12,23 @@
 
 namespace tactus::check
 {
+
+/// A contact that is not passive, along the force of one node or of all together.
+struct Contact
+{
+    std::string node;                                         ///< its path, if there are several; "" for all together
+    bool is_friction = false;                                 ///< a longer d_max makes it softer
+    double stiffness = 0.0;                                   ///< sigma, in N/m
+    double damping = 0.0;                                     ///< b, in N s/m
+    double limit = 0.0;                                       ///< what the device can dissipate, in N s/m
+    std::function<double (double, double, double)> load {};   ///< what it has to dissipate, in N s/m, by sigma, b and the period in s: convex in each
+
+    double share (double period_s) const { return load (stiffness, damping, period_s) / std::max (limit, 1e-12); }
+};
+
+/// The changes that make all of these contacts passive, in words. Each contact has a part, and any of the ways in it suffices; a rate or a device is for all.
+/// `load`: what the device would have to dissipate, in N s/m. `dampers`: what all nodes claim to damp, in N s/m. [any thread]
+std::string passiveRemedy (std::span<const Contact>, double load, double dampers, const DeviceNumbers&, double period_s);
 
 /// A change of a contact or its device, and how many times the response could then be as large before the loop swings (roomToGrow()).
 struct Change

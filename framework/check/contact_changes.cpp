@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "strongest_change.hpp"
+#include "contact_changes.hpp"
+#include "judging.hpp"
 #include "sampled_loop.hpp"
 #include "spring_and_damper.hpp"
 
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -47,7 +50,64 @@ std::vector<double> faster (std::span<const double> response, double period_s)
 }
 
 std::string withUnit (double v) { return roundedText (v, 3) + " N*s/m"; }
+
+/// The largest part of 1 with which the device can dissipate a load, if it can with less; 0 if it never can. `load` is convex.
+template <typename Load>
+double largestPart (const Load& load, double limit)
+{
+    double low = 0.0, high = 1.0;
+    if (! (load (low) < limit)) return 0.0;
+    for (int i = 0; i < 40; ++i)
+        (load (0.5 * (low + high)) <= limit ? low : high) = 0.5 * (low + high);
+    return low;
+}
+
+/// Changes that make one contact passive without another rate or device.
+std::vector<std::string> passiveWays (const Contact& c, double dampers, double period_s)
+{
+    using namespace judging;
+    constexpr double unclaimed = 1.5, least = 1e-3;
+    const auto softer = [&] (double part) { return c.load (part * c.stiffness, c.damping, period_s); };
+    const auto lessDamped = [&] (double part) { return c.load (c.stiffness, part * c.damping, period_s); };
+    if (const double part = largestPart (softer, c.limit); part > least)
+    {
+        std::vector<std::string> ways { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
+        if (c.is_friction) ways.insert (ways.begin(), "a d_max " + atLeast (1.0 / part, "times") + " as long");
+        return ways;
+    }
+    if (c.damping > unclaimed * dampers) return { "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)" };
+    if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return { "a virtual damping of " + atMost (part * c.damping, "N*s/m") };
+    return { "a virtual damping below that of the device and a softer contact" };
+}
+
+/// The rate from which on a contact is passive, in Hz; infinite if there is none.
+double passiveRate (const Contact& c, double period_s)
+{
+    constexpr double fastest = 1e6;   // times the rate
+    const auto load = [&] (double part) { return c.load (c.stiffness, c.damping, std::max (part, 1.0 / fastest) * period_s); };
+    const double part = largestPart (load, c.limit);
+    return part > 1.0 / fastest ? 1.0 / (part * period_s) : std::numeric_limits<double>::infinity();
+}
 }   // namespace
+
+std::string passiveRemedy (std::span<const Contact> broken, double load, double dampers, const DeviceNumbers& device, double period_s)
+{
+    using namespace judging;
+    double rate = 0.0;
+    std::string each;
+    for (const auto& contact : broken)
+    {
+        rate = std::max (rate, passiveRate (contact, period_s));
+        const auto along = contact.node.empty() ? std::string() : "along the force of '" + contact.node + "' ";
+        each += (each.empty() ? "" : ", and ") + along + anyOf (passiveWays (contact, dampers, period_s));
+    }
+    std::vector<std::string> ways;
+    if (std::isfinite (rate) && reaches (device, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
+    ways.push_back ("a device with a damping of " + atLeast (load, "N*s/m"));
+    if (broken.size() > 1) return each + "; or for all of them " + anyOf (ways);
+    ways.insert (ways.begin(), each);
+    return anyOf (ways);
+}
 
 std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s, bool drags,
                                        std::span<const std::vector<double>> others)
