@@ -6,6 +6,7 @@
 #include <host/base/platform/signals.hpp>
 #include <host/base/platform/wire_file.hpp>
 #include <host/cli/report.hpp>
+#include <host/devices/failsafe/failsafe.hpp>
 #include <host/devices/hid_link/capture.hpp>
 #include <host/devices/hid_link/hid_device.hpp>
 #include <host/devices/hid_link/open_device.hpp>
@@ -131,10 +132,18 @@ ChosenDevice chooseDevice (const std::string& text, const hid::LoadedProfiles& p
     return std::move (known.front());
 }
 
+void readUnguarded() noexcept
+{
+#if ! defined(__linux__)
+    Failsafe::allowUnguarded();
+#endif
+}
+
 void captureDevice (const DeviceCapture& options)
 {
     watchForStop();
     if (captureService (options)) return;
+    readUnguarded();
     const auto profiles = loadProfileLibrary();
     const auto chosen = chooseDevice (options.device, profiles);
     const auto descriptor = chosen.device.wire == Wire::hid ? thisComputer().reportDescriptor (chosen.device) : Bytes {};

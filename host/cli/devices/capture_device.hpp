@@ -33,4 +33,8 @@ struct DeviceCapture
 /// Ends the command if that is not possible. [main thread]
 void captureDevice (const DeviceCapture&);
 
+/// From now on, devices open where the system has no guardian. Call it only where nothing is driven, and after the drivers in plugins: they may enable motors
+/// as they open. Does nothing on Linux. [main thread]
+void readUnguarded() noexcept;
+
 }   // namespace tactus::host

@@ -10,7 +10,6 @@
 #include <host/cli/commands.hpp>
 #include <host/cli/report.hpp>
 #include <host/devices/audio/card.hpp>
-#include <host/devices/failsafe/failsafe.hpp>
 #include <host/devices/hid/usb_adapter.hpp>
 #include <host/devices/hid_link/driver_ports.hpp>
 #include <host/devices/hid_link/force_feedback.hpp>
@@ -317,9 +316,6 @@ void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& eve
 void run (const DevicesOptions& options)
 {
     if (! options.tried.empty()) return tryOnDevice (options.tried, options.report);
-#if ! defined(__linux__)
-    Failsafe::allowUnguarded();   // a device that is only read needs no guardian
-#endif
     if (! options.capture.device.empty() && ! options.probe && options.capture.file.empty())
     {
         if (listFoundDevices (options.capture.device, options.json)) return;
@@ -333,6 +329,7 @@ void run (const DevicesOptions& options)
         return captureDevice (capture);
     }
     if (! options.capture.device.empty() && probeDriver (options.capture.device, options.duration_s, options.json)) return;
+    readUnguarded();
     const auto profiles = loadProfileLibrary();
     warnOfFiles (profiles.messages);
 
