@@ -9,6 +9,7 @@
 #include <host/app/run/playback.hpp>
 #include <host/app/scene/reach.hpp>
 #include <host/app/storage/settings.hpp>
+#include <host/base/platform/preset_folder.hpp>
 
 namespace tactus::host
 {
@@ -75,12 +76,20 @@ struct Desk
     std::function<std::vector<scene::Reach>()> reaches = [] { return std::vector<scene::Reach>(); };                   ///< where devices can reach
     std::function<void (const std::string& role, const Vec3& origin)> moveOrigin = [] (const auto&, const auto&) {};   ///< of a workspace, in m
 
+    /// The folder where the user saves next: that of the graph, if it is the user's file, or the user's own.
+    Path savingFolder() const
+    {
+        const auto beside = document.file().parent_path();
+        return beside.empty() || beside == presetFolder() ? ownFolder() : beside;
+    }
+
     /// Asks where to save a file of the user, with this name at first.
     void chooseOwnFile (const std::string& name, TakePath chosen) const
     {
+        const auto folder = savingFolder();
         std::error_code failed;
-        std::filesystem::create_directories (ownFolder(), failed);
-        chooseFile (true, ownFolder() / name, std::move (chosen));
+        std::filesystem::create_directories (folder, failed);
+        chooseFile (true, folder / name, std::move (chosen));
     }
 
     /// A message that the user closes. With `use`, what was made can be used at once.

@@ -25,12 +25,12 @@ namespace tactus::host
 
 namespace
 {
-/// "Dry wood stems 2" if there is a folder "Dry wood stems" among the own files: only a name that the user gives replaces stems.
-std::string freeFolder (const std::string& name)
+/// "Dry wood stems 2" if the folder has "Dry wood stems": only a name that the user gives replaces stems.
+std::string freeName (const std::filesystem::path& folder, const std::string& name)
 {
     std::error_code failed;
     auto free = name;
-    for (int n = 2; std::filesystem::exists (ownFolder() / free, failed); ++n)
+    for (int n = 2; std::filesystem::exists (folder / free, failed); ++n)
         free = name + ' ' + std::to_string (n);
     return free;
 }
@@ -122,7 +122,7 @@ void StemExport::ask()
                                      // A point would begin the ending of another kind of file.
                                      const auto legal = juce::File::createLegalFileName (name).replaceCharacter ('.', '_').toStdString();
                                      const auto write = [this, graph, options] (const auto& into) { render (*graph, options, into); };
-                                     desk.chooseOwnFile (freeFolder (legal + " stems"), write);
+                                     desk.chooseOwnFile (freeName (desk.savingFolder(), legal + " stems"), write);
                                  } };
     };
     constexpr double rate_hz = 48000.0;

@@ -112,6 +112,26 @@ TEST_CASE ("a second export proposes another folder, so that no stems are replac
     CHECK (proposed == std::vector { own / "Bronze bell stems", own / "Bronze bell stems 2", own / "Bronze bell stems 3" });
 }
 
+TEST_CASE ("stems are proposed beside the user's graph, and a preset's among the own files", "[app][stems]")
+{
+    const TemporaryFolder own;
+    const Environment own_is { "TACTUS_GRAPHS", own.path() };
+    DeskRig r ("bronze_bell.json");
+    const auto proposed = [&r] {
+        std::filesystem::path folder;
+        r.desk.chooseFile = [&folder] (bool, const std::filesystem::path& begin, const auto&) { folder = begin.parent_path(); };
+        StemExport stems (r.desk);
+        stems.ask();
+        r.question.answer (0);
+        return folder;
+    };
+    CHECK (proposed() == own.path());
+    r.document.open (r.document.graph(), { .file = r.home / "bell.json" }, "open");
+    CHECK (proposed() == r.home.path());
+    r.document.open (r.document.graph(), { .file = presetFolder() / "bronze_bell.json" }, "open");
+    CHECK (proposed() == own.path());
+}
+
 TEST_CASE ("the question before an export names the motion that is rendered", "[app][stems]")
 {
     DeskRig r ("bronze_bell.json");
