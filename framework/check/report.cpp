@@ -2,10 +2,10 @@
 #include "report.hpp"
 
 #include <tactus/text/list_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tactus::check
 {
@@ -120,12 +120,7 @@ Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::spa
 
 std::string scopeOf (const Demand& demand, const JudgeOptions& options, std::string_view motion)
 {
-    const auto number_text = [] (double v) {
-        char buffer[32];
-        std::snprintf (buffer, sizeof buffer, "%.3g", v);
-        return std::string (buffer);
-    };
-    auto text = "judged along " + number_text (demand.lasts_s) + " s of " + std::string (motion)
+    auto text = "judged along " + roundedText (demand.lasts_s, 3) + " s of " + std::string (motion)
                 + ": slopes at " + std::to_string (demand.linked.size()) + " places";
     if (options.trials != nullptr)
         text += ", and " + std::to_string (options.trials->runs) + " trials of tools that are let go at " + std::to_string (options.trials->places) + " places";
@@ -185,11 +180,18 @@ std::string describe (const DeviceNumbers& numbers)
     for (const auto& s : symbols)
         if (const auto& n = numbers.*s.member)
         {
-            char value[32];
-            std::snprintf (value, sizeof value, "%.3g", s.factor * n->value);
-            addToList (text, std::string (s.name) + " " + value + s.unit + (n->guess ? " (guess)" : ""));
+            const auto value = std::isfinite (n->value) ? roundedText (s.factor * n->value, 3) + s.unit : std::string ("infinite");
+            addToList (text, std::string (s.name) + " " + value + (n->guess ? " (guess)" : ""));
         }
     return text.empty() ? "nothing is known" : text;
+}
+
+std::string describe (double value, double limit)
+{
+    int digits = 3;
+    while (digits < 9 && value != limit && roundedText (value, digits) == roundedText (limit, digits))
+        ++digits;
+    return roundedText (value, digits) + " of " + roundedText (limit, digits);
 }
 
 }   // namespace tactus::check

@@ -27,4 +27,7 @@ std::vector<NotJudged> notJudged (const Demand&, std::span<const Condition>, con
 /// "M 0.1 kg, B 0.05 N*s/m, …": the known numbers of a device, with their symbols.
 std::string describe (const DeviceNumbers&);
 
+/// "1.0004 of 1": a value and its limit with three digits, or as many as it takes to tell the two apart, up to nine.
+std::string describe (double value, double limit);
+
 }   // namespace tactus::check

@@ -41,7 +41,10 @@ std::string describe (const check::Condition& c)
                                                                             : c.node;
     auto line = "  " + padded (nameOf (c.verdict), 12) + padded (c.id, 18) + padded (printableName (about), 16);
     if (c.verdict != check::Verdict::not_reached)
-        line += padded (number (c.value) + " of " + (c.isKnown() ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
+    {
+        const auto compared = c.isKnown() ? check::describe (c.value, c.limit) : number (c.value) + " of ?";
+        line += padded (compared + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
+    }
     if (c.isKnown()) line += padded ("margin " + (std::isnan (c.margin()) ? "?" : number (c.margin())), 18);
     line += std::string (c.law) + '\n';
     if (c.verdict == check::Verdict::holds) return line;

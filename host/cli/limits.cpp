@@ -94,9 +94,9 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
         std::cout << "  sensor of " << number (1e6 * n.quantum->value) << " um and dry friction of " << number (n.coulomb->value)
                   << " N: rests where it is held up to " << number (here.stiffest_held) << " N/m (2 f_f/delta), without blows up to a damping of "
                   << number (here.quietest_damper) << " N*s/m over one tick (f_f T/delta); both are sufficient (Abbott & Okamura 2005; Diolaiti et al. 2006)\n";
-    std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " (" << number (here.damping)
-              << " of " << number (here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
-              << number (here.stiffness * here.period_s) << " of " << number (here.damping + B) << " N*s/m)\n";
+    std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " ("
+              << check::describe (here.damping, here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
+              << check::describe (here.stiffness * here.period_s, here.damping + B) << " N*s/m)\n";
 }
 
 bool isTable (const std::string& file) { return file.ends_with (".csv"); }

@@ -56,12 +56,7 @@ std::string mm (const Vec3& v)
     return text;
 }
 
-std::string rounded (double v, const char* format = "%.3g")
-{
-    char text[32];
-    std::snprintf (text, sizeof text, format, v);
-    return text;
-}
+std::string rounded (double v) { return roundedText (v, 3); }
 
 /// Thrown where a person ends the trial; the report says so.
 struct Ended
@@ -243,7 +238,7 @@ private:
         add ("noise", "measured", "standard deviation along x, y, z: " + mm (noise) + "; smallest step between two readings: " + step);
         delay_s = run.meanAge();
         auto text = "age of a reading at its tick: " + rounded (1e3 * delay_s) + " ms on average, " + rounded (1e3 * run.oldest()) + " ms at most";
-        if (plugin != nullptr) text += "; " + rounded (static_cast<double> (plugin->counts().readings - readings) / took_s, "%.0f") + " readings per second";
+        if (plugin != nullptr) text += "; " + rounded (static_cast<double> (plugin->counts().readings - readings) / took_s) + " readings per second";
         const int told = indexOf (device.layout().axes, "delay");
         if (const double by_driver = device.read().axes[told]; by_driver > 0.0)
         {

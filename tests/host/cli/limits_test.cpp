@@ -100,10 +100,10 @@ TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact 
     INFO (ran.out << ran.err);
     CHECK (ran.status == 0);
     CHECK (ran.out.find ("'wall' at ") != std::string::npos);
-    CHECK (ran.out.find ("stiffness 2e+03 N/m, virtual damping 0 N*s/m; passive\n") != std::string::npos);
-    CHECK (ran.out.find ("2e+03       at most 4e+03 ") != std::string::npos);
+    CHECK (ran.out.find ("stiffness 2000 N/m, virtual damping 0 N*s/m; passive\n") != std::string::npos);
+    CHECK (ran.out.find ("2000        at most 4000 ") != std::string::npos);
     CHECK (ran.out.find ("0           at most 1 ") != std::string::npos);
-    CHECK (ran.out.find ("1e+03       at least 500 ") != std::string::npos);   // sigma/(2B)
+    CHECK (ran.out.find ("1000        at least 500 ") != std::string::npos);   // sigma/(2B)
     // A little damping makes a wall rest that swings without any, so the range of the damping does not begin at 0.
     const auto stiff = runTactus ({ "limits", file, "--set", "wall.damping=0", "--set", "wall.stiffness=4600" });
     INFO (stiff.out << stiff.err);

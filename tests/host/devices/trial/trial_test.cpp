@@ -229,8 +229,8 @@ TEST_CASE ("a trial of an honest device finds everything as expected, and its ca
     else
     {
         // 2 B / T without a delay, by hand.
-        CHECK (verdict (report, "wall of 1e+03 N/m") == "as expected");
-        CHECK (verdict (report, "wall of 4e+03 N/m") == "as expected");
+        CHECK (verdict (report, "wall of 1000 N/m") == "as expected");
+        CHECK (verdict (report, "wall of 4000 N/m") == "as expected");
         CHECK (device.largest > 0.5);
         CHECK (device.largest <= trial_wall);
         CHECK (report.at ("capture").size() == 9);
