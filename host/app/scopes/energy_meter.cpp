@@ -181,7 +181,7 @@ void EnergyMeter::add (const Vector& p, const Vector& f, const Vector& acting, d
 std::string describe (const EnergyBalance& b)
 {
     const auto joule = [] (double v) {
-        auto text = withPrefix (v, "J", 2);
+        auto text = v == 0.0 ? std::string ("0 J") : withPrefix (v, "J", 2);
         const auto gap = text.find (' ');
         return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };

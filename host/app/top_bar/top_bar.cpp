@@ -381,7 +381,8 @@ void TopBar::morph (int from, int to)
 {
     auto made = morphBetween (document.graph(), from, to, desk.types);
     if (! made) return desk.notify (fromUtf8 (messageText (made.error())));
-    auto text = filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1."), made->params, from, to);
+    auto text = filled (TRANS ("Numbers that the new control moves from snapshot %2 to snapshot %3: %1. It begins with the graph as in snapshot %2."),
+                        made->params, from, to);
     if (! made->replaced.empty())
         text << " "
              << filled (TRANS ("It takes the place of the knobs %1: until it is removed, other snapshots do not move what they set. Undo brings them back."),
