@@ -222,15 +222,21 @@ private:
         std::string left_out;
         const auto [s, b, sum, value, limit] = countedLoad (left_out);
         const double late = delay() + (s->stiffness > 0.0 ? s->lag / (s->stiffness * period_s) : 0.0);   // d, in ticks
+        // A wall damps along its normal, where a friction is stiff along the surface: then b and sigma are of two directions.
+        const bool is_elsewhere = b > 0.0 && s->responses.size() > 1;
         auto& c = add ("stiffness", passive_law, "N*s/m",
-                       "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + ", d " + text (late) + ", T " + text (1e3 * period_s, "ms")
-                           + left_out);
+                       "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + (is_elsewhere ? " along another direction" : "") + ", d "
+                           + text (late) + ", T " + text (1e3 * period_s, "ms") + left_out);
         if (! numbers.damping) return unknown (c, value, "damping");
 
         const double held = s->stiffness * period_s;
-        c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
-        const auto* const steepest = s;                                                                                       // clang 14 does not capture structured bindings
-        const bool has_all = std::ranges::any_of (role.slopes, [steepest] (const Slope& own) { return &own == steepest; });   // else without the textures
+        const double own_b = is_elsewhere ? std::max (0.0, springAndDamper (s->responses.front(), period_s).damping) : b;
+        c.text += "; sigma T " + text (held, "N*s/m") + (held < own_b + limit ? " < " : " >= ") + "b + B " + text (own_b + limit, "N*s/m") + " (footnote 2"
+                  + (is_elsewhere ? ", along sigma)" : ")");
+        const auto* const steepest = s;   // clang 14 does not capture structured bindings
+
+        // Else the load is that without the textures.
+        const bool has_all = std::ranges::any_of (role.slopes, [steepest] (const Slope& own) { return &own == steepest; });
         auto broken = has_all ? brokenContacts (limit > 0.0 ? value / limit : inf) : std::vector<Contact> {};
         if (broken.empty())
         {

@@ -149,6 +149,8 @@ void run (LimitsCommandOptions& options)
 {
     if (! options.file.empty() && ! isTable (options.file) && ! isJson (options.file) && ! isFigureFile (options.file))
         throw UsageError ("--out", quotePath (options.file) + " should end in " + figure_kinds + ", in .csv or in .json");
+    if (options.file.empty() && ! (options.x.empty() && options.y.empty()))
+        throw UsageError (options.x.empty() ? "--y" : "--x", "only a file shows what varies along two axes: name one with -o");
     options.readSize();
     refuseOverwriting ({ options.file }, { options.graph });
     options.checkOn = [] {

@@ -141,6 +141,28 @@ TEST_CASE ("who follows the remedies of a wall and a friction makes the contact 
     CHECK (faster > 3);
 }
 
+TEST_CASE ("footnote 2 of the chapter is told with the damping along the steepest direction", "[check]")
+{
+    int along_wall = 0, along_drag = 0;
+    test::property ("a wall and a friction", [&] {
+        const auto pick = [] (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); };
+        const WallAndDrag both { .stiffness = pick (300.0, 9000.0), .damping = pick (0.5, 3.0), .d_max = pick (4e-5, 1e-3) };
+        auto wall = both, drag = both;
+        wall.has_drag = drag.has_wall = false;
+        const auto sigma = [] (const WallAndDrag& w) { return *numberAfter (w.judged().text, "sigma "); };
+        const double of_wall = sigma (wall), of_drag = sigma (drag);
+        RC_PRE (std::abs (of_wall - of_drag) > 0.05 * of_wall);
+        const bool is_wall = of_wall > of_drag;
+        ++(is_wall ? along_wall : along_drag);
+        const auto text = both.judged().text;
+        const auto told = numberAfter (text, "b + B ");
+        RC_ASSERT (told.has_value());
+        if (std::abs (*told - both.tool.damping - (is_wall ? both.damping : 0.0)) > 0.01 * *told) RC_FAIL (text);
+    });
+    CHECK (along_wall > 5);
+    CHECK (along_drag > 5);
+}
+
 TEST_CASE ("walls that are not at right angles have no remedies of their own, because each is felt along the other", "[check]")
 {
     // Without damping, a device of 2 N s/m at 1 kHz allows 4000 N/m. Two softer walls at 72.5 degrees are steeper together.

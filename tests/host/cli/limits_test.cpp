@@ -494,6 +494,7 @@ TEST_CASE ("`tactus limits` refuses bad input, and says where it is and what wou
     axis ("wall.normal=0:1", 1, "has no param 'normal' that is a number");
     axis ("wall.stiffness=-5:100", 1, "wall.stiffness=-5");
     refused ({ "--x", "stiffness=0:1" }, 2, "give both, or none");
+    checkRefused ({ "limits", file, "--x", "stiffness=0:1", "--y", "damping=0:5" }, 2, "name one with -o", out);
     refused ({ "--role", "tap" }, 1, "did you mean 'tip'");
     checkRefused ({ "limits", file, "-o", scratch.path ("out.txt") }, 2, "should end in", scratch.path ("out.txt"));
     checkRefused ({ "limits", scratch.write ("g.json", wallOn (R"({ "driver": "gesture", "path": "press" })")), "-o", out }, 1,
