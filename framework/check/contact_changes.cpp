@@ -71,9 +71,10 @@ std::vector<std::string> passiveWays (const Contact& c, double dampers, double p
     const auto lessDamped = [&] (double part) { return c.load (c.stiffness, part * c.damping, period_s); };
     if (const double part = largestPart (softer, c.limit); part > least)
     {
-        std::vector<std::string> ways { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
-        if (c.is_friction) ways.insert (ways.begin(), "a d_max " + atLeast (1.0 / part, "times") + " as long");
-        return ways;
+        // A friction may be twice as stiff as its own stiffness, on a reversal.
+        if (c.softer == Stretch::Softer::stiffness) return { "a stiffness " + atMost (part, "times") + " as large" };
+        if (c.softer == Stretch::Softer::d_max) return { "a d_max " + atLeast (1.0 / part, "times") + " as long" };
+        return { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
     }
     if (c.damping > unclaimed * dampers) return { "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)" };
     if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return { "a virtual damping of " + atMost (part * c.damping, "N*s/m") };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "measure.hpp"
+
 #include <tactus/run/device/device_numbers.hpp>
 
 #include <algorithm>
@@ -17,7 +19,7 @@ namespace tactus::check
 struct Contact
 {
     std::string node;                                         ///< its path, if there are several; "" for all together
-    bool is_friction = false;                                 ///< a longer d_max makes it softer
+    Stretch::Softer softer = Stretch::Softer::unknown;        ///< of a friction
     double stiffness = 0.0;                                   ///< sigma, in N/m
     double damping = 0.0;                                     ///< b, in N s/m
     double limit = 0.0;                                       ///< what the device can dissipate, in N s/m

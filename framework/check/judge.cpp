@@ -233,15 +233,16 @@ private:
         const double own_b = is_elsewhere ? std::max (0.0, springAndDamper (s->responses.front(), period_s).damping) : b;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < own_b + limit ? " < " : " >= ") + "b + B " + text (own_b + limit, "N*s/m") + " (footnote 2"
                   + (is_elsewhere ? ", along sigma)" : ")");
-        const auto* const steepest = s;   // clang 14 does not capture structured bindings
+        const auto* const worst = s;   // clang 14 does not capture structured bindings
 
         // Else the load is that without the textures.
-        const bool has_all = std::ranges::any_of (role.slopes, [steepest] (const Slope& own) { return &own == steepest; });
+        const bool has_all = std::ranges::any_of (role.slopes, [worst] (const Slope& own) { return &own == worst; });
         auto broken = has_all ? brokenContacts (limit > 0.0 ? value / limit : inf) : std::vector<Contact> {};
         if (broken.empty())
         {
             const auto load = [ticks = 0.5 + late] (double k, double d, double T) { return k * ticks * T + d; };
-            broken.push_back ({ {}, isDragged (*s), s->stiffness, b, limit, load });
+            const auto node = steepest (*s);
+            broken.push_back ({ {}, node ? softer (demand, *node) : Stretch::Softer::unknown, s->stiffness, b, limit, load });
         }
         auto remedy = passiveRemedy (broken, value, role.dampers, numbers, period_s);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
@@ -307,7 +308,7 @@ private:
                     return NodeResponse { n, parts.response (stiffness, damping * period_s / T) }.passivityLoad (numbers, T);
                 };
                 const auto& path = demand.nodes[one.node].path;
-                Contact contact { are_several ? path : std::string(), drags (demand, one.node), parts.stiffness, parts.damping, limit, load };
+                Contact contact { are_several ? path : std::string(), softer (demand, one.node), parts.stiffness, parts.damping, limit, load };
                 const auto known = std::ranges::find (all, contact.node, &Contact::node);
                 if (known == all.end())
                     all.push_back (std::move (contact));
@@ -370,18 +371,20 @@ private:
         c.remedy = "a virtual damping that is at any speed " + below (largestDamper(), "N*s/m");
     }
 
-    /// True if the node with the steepest force at a place is a friction.
-    bool isDragged (const Slope& s) const
+    /// The node with the steepest force at a place.
+    static std::optional<std::size_t> steepest (const Slope& s)
     {
         const auto most = std::ranges::max_element (s.by_node);
-        return most != s.by_node.end() && *most > 0.0 && drags (demand, static_cast<std::size_t> (most - s.by_node.begin()));
+        if (most == s.by_node.end() || ! (*most > 0.0)) return std::nullopt;
+        return static_cast<std::size_t> (most - s.by_node.begin());
     }
 
-    /// The same for the place where this response was measured.
+    /// True if the node with the steepest force is a friction at the place where this response was measured.
     bool isDragged (const std::vector<double>* response) const
     {
         return std::ranges::any_of (role.slopes, [&] (const Slope& s) {
-            return isDragged (s) && std::ranges::any_of (s.responses, [&] (const auto& r) { return &r == response; });
+            const auto node = steepest (s);
+            return node && drags (demand, *node) && std::ranges::any_of (s.responses, [&] (const auto& r) { return &r == response; });
         });
     }
 

@@ -176,6 +176,13 @@ inline bool drags (const Demand& demand, std::size_t node)
     return std::ranges::any_of (demand.stretches, [node] (const Stretch& s) { return s.node == node; });
 }
 
+/// The param that decides how stiff a friction is.
+inline Stretch::Softer softer (const Demand& demand, std::size_t node)
+{
+    const auto at = std::ranges::find (demand.stretches, node, &Stretch::node);
+    return at == demand.stretches.end() ? Stretch::Softer::unknown : at->softer;
+}
+
 inline constexpr std::string_view passive_law = "sup of T/2 Re[(1 - e^-jwT) H]/(1 - cos wT) <= B";
 
 /// Changes the verdict on the slopes of a role, or of several linked roles, by three more facts: the claims of the nodes, the energy that the graph gave

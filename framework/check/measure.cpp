@@ -217,7 +217,7 @@ private:
             {
                 if (! its[w.node()] || role.axis) continue;
                 if (w.shortest() < inf)
-                    demand.stretches.push_back ({ w.node(), role.role, w.shortest(), w.teeth(), fastestAt (r, w.feltTicks()) });
+                    demand.stretches.push_back ({ w.node(), role.role, w.shortest(), w.teeth(), fastestAt (r, w.feltTicks()), w.softer() });
                 else if (! w.wasFelt())
                     demand.unreached.push_back ({ w.node(), role.role, false });
             }

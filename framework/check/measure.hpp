@@ -91,11 +91,20 @@ struct RoleDemand
 /// A contact that stretches a little before it slides: any node with a param d_max in m, and deform.surface.
 struct Stretch
 {
+    /// The param that decides how stiff it is.
+    enum class Softer
+    {
+        unknown,
+        d_max,
+        stiffness   ///< of its own, so that d_max has no effect on it
+    };
+
     std::size_t node = 0;
     std::string role;
     double d_max = 0.0;   ///< the shortest stretch at which it slides while at least half of its largest drag is felt, in m
     double teeth = 0.0;   ///< length of the teeth of stick-slip, in m; 0 without stick-slip
     double speed = 0.0;   ///< largest speed of the tool while at least half of the largest drag is felt, in m/s
+    Softer softer = Softer::unknown;
 };
 
 /// A wall of hold.deadbeat. It computes its force two ticks ahead for a known mass, so it has no slope that a condition could judge.

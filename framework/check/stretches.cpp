@@ -55,6 +55,7 @@ std::optional<StretchWatch> StretchWatch::of (const Plan& plan, std::size_t node
 StretchWatch::StretchWatch (const Plan& plan, std::size_t n, Kind k) : its_node (n), kind (k), forces (plan, n)
 {
     if (valueInFile (plan, n, "adhesion", 0.0) == 0.0) static_ratio = valueInFile (plan, n, "static_ratio", 1.0);   // only `stick` has teeth
+    if (k != Kind::surface) its_softer = valueInFile (plan, n, "stiffness", 0.0) > 0.0 ? Stretch::Softer::stiffness : Stretch::Softer::d_max;
 }
 
 void StretchWatch::poll (const Plan& plan, std::size_t tick)

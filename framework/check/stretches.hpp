@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench.hpp"
+#include "measure.hpp"
 
 #include <limits>
 #include <optional>
@@ -36,7 +37,8 @@ public:
     double shortest() const noexcept;                          ///< s, in m; infinite if the node gave no force
     bool wasFelt() const noexcept { return ! seen.empty(); }   ///< the node gave a force
     double teeth() const noexcept;                             ///< length of the teeth of stick-slip at this stretch, in m; 0 without stick-slip
-    std::vector<std::size_t> feltTicks() const;                ///< the ticks at which at least half of its largest drag is felt
+    Stretch::Softer softer() const noexcept { return its_softer; }
+    std::vector<std::size_t> feltTicks() const;   ///< the ticks at which at least half of its largest drag is felt
 
 private:
     enum class Kind
@@ -57,6 +59,7 @@ private:
 
     std::size_t its_node;
     Kind kind;
+    Stretch::Softer its_softer = Stretch::Softer::unknown;
     NodeForces forces;
     /// A tick with a force.
     struct Seen

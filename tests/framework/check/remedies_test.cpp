@@ -67,6 +67,7 @@ const std::vector<std::pair<std::string, Follow>>& remedies()
     static const std::vector<std::pair<std::string, Follow>> all {
         { "a d_max at least ", [] (Case& c, double v) { c.makeStiff (c.role().slopes.front().stiffness / v); } },
         { "a stiffness of at most ", [] (Case& c, double v) { c.makeStiff (v); } },
+        { "a stiffness at most ", [] (Case& c, double v) { c.makeStiff (c.role().slopes.front().stiffness * v); } },
         { "a rate of at least ", [] (Case& c, double v) { c.tickAt (v); } },
         { "a rate above ", [] (Case& c, double v) { c.tickAt (v * beyond); } },
         { "a virtual damping of at most ", [] (Case& c, double v) { c.role().slopes.front().damping = v; } },
@@ -310,6 +311,25 @@ TEST_CASE ("the remedy for a stiff friction is a longer stretch, no predictive h
     const auto hard = Stroke { 0.5, 8000.0 }.judged ("stiffness");
     CHECK (hard.value > hard.limit);
     CHECK (hard.remedy.find ("a d_max") == std::string::npos);
+}
+
+TEST_CASE ("a friction with a stiffness of its own is told a softer one, because its d_max has no effect on it", "[check]")
+{
+    const auto type = GENERATE (as<std::string> {}, "friction.elasto_plastic", "friction.anisotropic");
+    const auto adhesion = GENERATE (as<std::string> {}, "stick", "dahl");   // dahl is twice as stiff on a reversal
+    const auto rubbed = [&] (double stiffness, double d_max) {
+        Stroke s { 0.5 };
+        s.sketch.node ("drag", type, { { "stiffness", stiffness }, { "d_max", d_max }, { "adhesion", adhesion } });
+        s.sketch.wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("drag.force -> motor.force");
+        return s.judged ("stiffness");
+    };
+    const auto before = rubbed (9000.0, 1e-4), longer = rubbed (9000.0, 1e-2);
+    INFO (type << ", " << adhesion << ": " << before.text << "; " << before.remedy);
+    CHECK (before.value > before.limit);
+    CHECK (longer.value == Approx (before.value));
+    CHECK (before.remedy.find ("d_max") == std::string::npos);
+    const auto after = rubbed (9000.0 * numberAfter (before, "a stiffness at most "), 1e-4);
+    CHECK (after.value <= 1.00001 * after.limit);
 }
 
 TEST_CASE ("no remedy asks for a rate that the device cannot follow", "[check]")
