@@ -101,22 +101,37 @@ std::vector<std::size_t> strikers (const plan::Flat& flat)
     const auto follows = followers (flat);
     std::vector<std::size_t> all;
     for (const auto& w : flat.wires)
-        if (w.from && follows[at (w.from->node)] && ! follows[at (w.to.node)]) all.push_back (at (w.from->node));
+        if (w.from && follows[at (w.from->node)] && w.to.role == Role::input && isStruck (flat, w.to.node)) all.push_back (at (w.from->node));
     return all;
 }
 
+/// By node: true if a device reaches it by wires to its params, as an envelope of the contact that turns a clip up, but not by its inputs.
+std::vector<bool> modulated (const plan::Flat& flat, const std::vector<bool>& follows)
+{
+    std::vector<bool> is_modulated = follows;
+    for (std::size_t n = 0; n < follows.size(); ++n)
+        if (flat.nodes[n].type->bind != nullptr) is_modulated[n] = false;
+    for (const auto& w : flat.wires)
+        if (w.from && follows[at (w.from->node)] && w.to.role == Role::input && ! isStruck (flat, w.to.node)) is_modulated[at (w.to.node)] = false;
+    return is_modulated;
+}
+
 /// A node without a path from a device, other than by hits. It plays by itself if its outputs still change in the second half of the motion, or are 0
-/// again after a change. A node that only settles, such as a filter after a constant, does not play.
+/// again after a change. A node that only settles, such as a filter after a constant, does not play. One with params that follow a device plays if its
+/// outputs change then while these params stay the same.
 struct PlayWatch
 {
     std::size_t node;
     std::vector<const double*> outputs;
-    std::vector<double> first {}, middle {};
+    std::vector<const double*> modulators {};   // what drives its params
+    std::vector<double> first {}, middle {}, driven {};
+    int quiet = 0;   // ticks since these have changed
     bool changes = false, plays = false;
 
     void poll (bool is_second_half)
     {
         if (plays) return;
+        if (! modulators.empty()) return pollModulated (is_second_half);
         auto& before = is_second_half ? middle : first;
         for (std::size_t i = 0; i < before.size(); ++i)
             if (*outputs[i] != before[i]) (is_second_half ? plays : changes) = true;
@@ -125,25 +140,51 @@ struct PlayWatch
                 before.push_back (*v);
     }
 
+    void pollModulated (bool is_second_half)
+    {
+        constexpr int settled = 64;   // more ticks than wires delay
+        std::vector<double> now, then;
+        for (const auto* v : outputs)
+            now.push_back (*v);
+        for (const auto* v : modulators)
+            then.push_back (*v);
+        quiet = then == driven ? quiet + 1 : 0;
+        plays = is_second_half && quiet > settled && now != middle;
+        middle = std::move (now);
+        driven = std::move (then);
+    }
+
     bool hasPlayed() const
     {
         return plays || (changes && std::ranges::all_of (outputs, [] (const double* v) { return *v == 0.0; }));
     }
 };
 
+/// The values of the outputs of a node, or of one of them.
+std::vector<const double*> outputsOf (const Plan& plan, std::size_t node, std::optional<std::size_t> port = {})
+{
+    std::vector<const double*> all;
+    const auto& instance = plan.instances()[node];
+    const auto& rows = plan.flat().nodes[node].type->outputs;
+    if (instance.outputs == nullptr) return all;
+    for (std::size_t p = 0; p < rows.size(); ++p)
+        for (int i = 0; i < rows[p].width && ! rows[p].list && (! port || p == *port); ++i)
+            all.push_back (instance.output (rows[p].offset + sizeof (double) * at (i)));
+    return all;
+}
+
 std::vector<PlayWatch> freeNodes (const Plan& plan)
 {
     const auto& flat = plan.flat();
-    const auto follows = followers (flat);
+    const auto follows = followers (flat), is_modulated = modulated (flat, follows);
     std::vector<PlayWatch> all;
     for (std::size_t n = 0; n < follows.size(); ++n)
     {
-        const auto& instance = plan.instances()[n];
-        if (instance.outputs == nullptr || follows[n] || ! flat.nodes[n].runs()) continue;
-        PlayWatch w { .node = n, .outputs = {} };
-        for (const auto& row : flat.nodes[n].type->outputs)
-            for (int i = 0; i < row.width && ! row.list; ++i)
-                w.outputs.push_back (instance.output (row.offset + sizeof (double) * static_cast<std::size_t> (i)));
+        if ((follows[n] && ! is_modulated[n]) || ! flat.nodes[n].runs()) continue;
+        PlayWatch w { .node = n, .outputs = outputsOf (plan, n) };
+        for (const auto& wire : flat.wires)
+            if (is_modulated[n] && wire.to.node == static_cast<int> (n) && wire.to.role == Role::param && wire.from)
+                std::ranges::copy (outputsOf (plan, at (wire.from->node), at (wire.from->port)), std::back_inserter (w.modulators));
         if (! w.outputs.empty()) all.push_back (std::move (w));
     }
     return all;

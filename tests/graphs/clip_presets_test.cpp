@@ -79,6 +79,23 @@ test::Sketch padWithClip (const char* drive)
 }
 }   // namespace
 
+TEST_CASE ("a clip that plays by itself is left out of the trials, also if the contact turns it up", "[graphs][check]")
+{
+    const auto chest = loadGraph (clip_presets / "heartbeat.json").graph;
+    const auto plain = contactOf (chest);
+    const auto modulator = GENERATE (as<std::string> {}, "signal.envelope", "signal.gain");
+    test::Sketch s { chest };
+    std::erase_if (s.graph.controls, [] (const graph::Control& c) { return c.id == "strength"; });
+    const bool is_envelope = modulator == "signal.envelope";
+    s.node ("turn", modulator).wire (is_envelope ? "touch.gain -> turn.gate" : "touch.gain -> turn.in").wire ("turn.out -> beat.gain");
+    s.graph.root.wires.back().gain = "0.5 N";
+    const auto c = contactOf (s.graph);
+    INFO (modulator << ": " << c.text);
+    CHECK (c.verdict == plain.verdict);
+    CHECK (c.value == Approx (plain.value).epsilon (1e-3));
+    CHECK (c.text.find ("'beat' plays by itself, and is left out") != std::string::npos);
+}
+
 TEST_CASE ("a clip that plays over time and that the contact fades in counts neither as stiffness nor as damping", "[graphs][check]")
 {
     const auto g = loadGraph (clip_presets / "heartbeat.json").graph;
