@@ -27,7 +27,9 @@ MadeDevice makeHand (const Json& description, const std::filesystem::path& folde
     auto ideal = Json::object();
     for (const auto& [key, value] : description.items())
         if (std::ranges::count (judged, key) == 0) ideal[key] = value;
-    return makeDevice (ideal, folder);
+    auto made = makeDevice (ideal, folder);
+    made.messages = makeDevice (description, folder).messages;   // also what is wrong with the rest of the description
+    return made;
 }
 
 std::optional<DeviceNumbers> numbersOf (const Json& description, const std::filesystem::path& folder)

@@ -191,6 +191,19 @@ TEST_CASE ("`tactus check` refuses a role, a profile and a file that do not exis
     CHECK (id ("tip=missing.json").find ("device/unreadable") != std::string::npos);
 }
 
+TEST_CASE ("`tactus check` and `tactus limits` say what is wrong with the description of a device, instead of judging without its numbers", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto command = GENERATE (as<std::string> {}, "check", "limits");
+    const auto key = GENERATE (as<std::string> {}, "quantum", "delay", "first_mode", "coulomb", "end_mass", "guard");
+    const auto device = R"({ "driver": "sim", "mass": 0.1, "damping": 1, ")" + key + R"(": "5e-5 yd", "hand": { "path": "press" } })";
+    const auto ran = runTactus ({ command, scratch.write ("wall.json", graphWith ("1 N/mm", device)) });
+    INFO (command << ": " << ran.out << ran.err);
+    CHECK (ran.status == 1);
+    CHECK (ran.err.find (key) != std::string::npos);
+    CHECK (ran.out.find ("broken") == std::string::npos);
+}
+
 TEST_CASE ("the profiles of PHANTOM and Pantograph limit the speed over a grating as the chapter says", "[check][cli]")
 {
     Scratch scratch;
