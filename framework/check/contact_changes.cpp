@@ -62,30 +62,43 @@ double largestPart (const Load& load, double limit)
     return low;
 }
 
+/// The b of a contact that is softer by a part, or ticks faster. What no damper claims falls with it, as behind a hold.predictive.
+double dampingOf (const Contact& c, double dampers, double part)
+{
+    if (! judging::isUnclaimed (c.damping, dampers)) return c.damping;
+    const double stays = std::min (c.damping, dampers);
+    return stays + part * (c.damping - stays);
+}
+
 /// Changes that make one contact passive without another rate or device.
 std::vector<std::string> passiveWays (const Contact& c, double dampers, double period_s)
 {
     using namespace judging;
-    constexpr double unclaimed = 1.5, least = 1e-3;
-    const auto softer = [&] (double part) { return c.load (part * c.stiffness, c.damping, period_s); };
+    constexpr double least = 1e-3;
+    const bool is_unclaimed = isUnclaimed (c.damping, dampers);
+    const auto softer = [&] (double part) { return c.load (part * c.stiffness, dampingOf (c, dampers, part), period_s); };
     const auto lessDamped = [&] (double part) { return c.load (c.stiffness, part * c.damping, period_s); };
     if (const double part = largestPart (softer, c.limit); part > least)
     {
-        // A friction may be twice as stiff as its own stiffness, on a reversal.
-        if (c.softer == Stretch::Softer::stiffness) return { "a stiffness " + atMost (part, "times") + " as large" };
-        if (c.softer == Stretch::Softer::d_max) return { "a d_max " + atLeast (1.0 / part, "times") + " as long" };
+        if (is_unclaimed)
+            return { "a stiffness of " + atMost (part * c.stiffness, "N/m") + " (if the b that no damper claims falls with it)" };
+
+        // A factor, because a friction may be twice as stiff as its own stiffness, on a reversal. A softer one is stretched otherwise at the same place.
+        constexpr double stretched = 0.99;
+        if (c.softer == Stretch::Softer::stiffness) return { "a stiffness " + atMost (stretched * part, "times") + " as large" };
+        if (c.softer == Stretch::Softer::d_max) return { "a d_max " + atLeast (1.0 / (stretched * part), "times") + " as long" };
         return { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
     }
-    if (c.damping > unclaimed * dampers) return { "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)" };
+    if (is_unclaimed) return { "a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive may cause)" };
     if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return { "a virtual damping of " + atMost (part * c.damping, "N*s/m") };
     return { "a virtual damping below that of the device and a softer contact" };
 }
 
 /// The rate from which on a contact is passive, in Hz; infinite if there is none.
-double passiveRate (const Contact& c, double period_s)
+double passiveRate (const Contact& c, double dampers, double period_s)
 {
     constexpr double fastest = 1e6;   // times the rate
-    const auto load = [&] (double part) { return c.load (c.stiffness, c.damping, std::max (part, 1.0 / fastest) * period_s); };
+    const auto load = [&] (double part) { return c.load (c.stiffness, dampingOf (c, dampers, part), std::max (part, 1.0 / fastest) * period_s); };
     const double part = largestPart (load, c.limit);
     return part > 1.0 / fastest ? 1.0 / (part * period_s) : std::numeric_limits<double>::infinity();
 }
@@ -98,7 +111,7 @@ std::string passiveRemedy (std::span<const Contact> broken, double load, double 
     std::string each;
     for (const auto& contact : broken)
     {
-        rate = std::max (rate, passiveRate (contact, period_s));
+        rate = std::max (rate, passiveRate (contact, dampers, period_s));
         const auto along = contact.node.empty() ? std::string() : "along the force of '" + contact.node + "' ";
         each += (each.empty() ? "" : ", and ") + along + anyOf (passiveWays (contact, dampers, period_s));
     }

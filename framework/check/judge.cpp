@@ -227,6 +227,7 @@ private:
         auto& c = add ("stiffness", passive_law, "N*s/m",
                        "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + (is_elsewhere ? " along another direction" : "") + ", d "
                            + text (late) + ", T " + text (1e3 * period_s, "ms") + left_out);
+        c.damping = b;
         if (! numbers.damping) return unknown (c, value, "damping");
 
         const double held = s->stiffness * period_s;
@@ -439,7 +440,10 @@ private:
         const auto best = bestChange (c, places);
         if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < 1.0 && ! (c.may_grow > 0.0))) return;
         if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
-            c.remedy = "at most " + text (c.may_grow) + " times this stiffness and virtual damping; " + c.remedy;
+        {
+            const double weakest = c.loops.empty() ? c.may_grow : std::min (c.may_grow, c.loops.front().may_grow);
+            c.remedy = atMost (weakest, "times") + " this stiffness and virtual damping, by the linear loop; " + c.remedy;
+        }
         else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
     }
@@ -552,15 +556,17 @@ private:
         if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
         const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
         std::vector<std::string> ways;
-        if (limit > 0.0)
+        if (isUnclaimed (virtualDamping(), role.dampers))
+            ways.emplace_back ("a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive may cause)");
+        else if (limit > 0.0)
         {
             ways.push_back ("a window of " + atLeast (1e3 * virtualDamping() * delta / limit, "ms")
                             + " for the speed (the setting \"window\" or a motion.velocity)");
             ways.push_back ("a virtual damping of " + atMost (virtualDamping() * limit / value, "N*s/m"));
-            ways.push_back ("a quantum of " + atMost (1e6 * delta * limit / value, "um"));
         }
         else
             ways.emplace_back ("no virtual damping");
+        if (limit > 0.0) ways.push_back ("a quantum of " + atMost (1e6 * delta * limit / value, "um"));
         ways.push_back ("a device with a dry friction of " + atLeast (value, "N"));
         decide (c, value, limit, Strict::no, 1.0, anyOf (ways));
     }

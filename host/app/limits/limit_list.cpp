@@ -186,6 +186,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             auto nodes = nodesOf (c, demand, plan);
             const bool is_slope = c.id == "stiffness" || c.id == "quantum" || c.id == "damping";
             auto about = c.node.empty() && is_slope && ! nodes.empty() ? nodes.front() : c.node;
+            if (isMostlyDamping (c) && c.loops.empty() && nodes.size() > 1) about.clear();   // the stiffest node need not be the one with the dampers
             const auto details = detailsOf (c, device, is_broken);
             list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c), details });
             for (std::size_t i = 1; i < c.loops.size() && (is_broken ? ! std::isnan (c.may_grow) : isPastPassivity (c)); ++i)

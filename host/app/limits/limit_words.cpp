@@ -77,9 +77,11 @@ bool isPastPassivity (const check::Condition& c)
     return is_contact && c.verdict == check::Verdict::stable && c.value > c.limit && std::isfinite (c.may_grow);
 }
 
+bool isMostlyDamping (const check::Condition& c) { return c.id == "stiffness" && c.damping > 0.5 * c.value; }
+
 std::string limitSentence (const check::Condition& c, const std::string& node, const std::string& device)
 {
-    const auto* found = std::ranges::find (nouns, c.id, &LimitNoun::id);
+    const auto* found = std::ranges::find (nouns, isMostlyDamping (c) ? "damping" : c.id, &LimitNoun::id);
     const auto noun = found == std::end (nouns) ? juce::String (std::string (c.id)) : juce::translate (found->noun);
     const bool of_device = found != std::end (nouns) && found->is_of_device;
     const auto role = filled ("%1 (%2)", printableName (c.role), printableName (device));

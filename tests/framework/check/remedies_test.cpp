@@ -115,7 +115,7 @@ bool isInWords (const std::string& way)
 {
     static const std::set<std::string> all { "weaker forces", "a coarser texture", "a texture.antialias", "a softer contact", "slower strokes",
                                              "a softer onset", "a force that does not step",
-                                             "a smaller b (that no damper of the graph claims and a ceiling or a filter may cause)",
+                                             "a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive may cause)",
                                              "a virtual damping below that of the device and a softer contact" };
     static const std::array begin { "a texture.antialias with f_max ", "a lower f_max of ", "a filter.butterworth2 at " };
     return all.contains (way) || std::ranges::any_of (begin, [&] (const char* b) { return way.starts_with (b); });
@@ -330,6 +330,27 @@ TEST_CASE ("a friction with a stiffness of its own is told a softer one, because
     CHECK (before.remedy.find ("d_max") == std::string::npos);
     const auto after = rubbed (9000.0 * numberAfter (before, "a stiffness at most "), 1e-4);
     CHECK (after.value <= 1.00001 * after.limit);
+}
+
+TEST_CASE ("the remedy behind a hold.predictive is a softer wall or a higher rate, since its b falls with them", "[check]")
+{
+    const auto predicted = [] (double stiffness, double rate_hz) {
+        Stroke s { 0.5, stiffness };
+        s.sketch.graph.rate_hz = rate_hz;
+        s.sketch.graph.root.wires.pop_back();   // wall.force -> motor.force
+        s.sketch.node ("hold", "hold.predictive").wire ("wall.force -> hold.in").wire ("hold.out -> motor.force");
+        return s.judged ("stiffness");
+    };
+    const auto before = predicted (8000.0, 2000.0);
+    INFO (before.text << "; " << before.remedy);
+    CHECK (before.value > before.limit);
+    CHECK (before.remedy.find ("a smaller b") == std::string::npos);
+    const auto softer = predicted (numberAfter (before, "a stiffness of at most "), 2000.0);
+    CHECK (softer.value <= 1.001 * softer.limit);
+    CHECK (softer.value > 0.99 * softer.limit);
+    const auto faster = predicted (8000.0, numberAfter (before, "a rate of at least "));
+    CHECK (faster.value <= 1.001 * faster.limit);
+    CHECK (faster.value > 0.99 * faster.limit);
 }
 
 TEST_CASE ("no remedy asks for a rate that the device cannot follow", "[check]")
