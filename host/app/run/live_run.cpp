@@ -303,7 +303,7 @@ void LiveRun::end()
     port_feed.clear();
     pointer.reset();
     transported.reset();
-    delay_ticks.reset();
+    graph_delay.reset();
 }
 
 const std::vector<DeviceHealth>& LiveRun::health() const noexcept
@@ -358,9 +358,10 @@ void LiveRun::note (const Plan& plan)
 {
     needed = needsOf (plan);
     scene_feed.show (&plan);
-    delay_ticks.reset();
+    graph_delay.reset();
     for (const auto& d : plan.delays())
-        delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);
+        graph_delay = graph_delay ? Delay { std::min (graph_delay->shortest, d.shortest), std::max (graph_delay->longest, d.longest) }
+                                  : Delay { d.shortest, d.longest };
 }
 
 void LiveRun::emergencyStop (By who) noexcept
@@ -401,21 +402,20 @@ std::optional<RunStatus> LiveRun::status() const
 }
 
 /// If a sound card ticks the run, all ticks of a block use the same reading, which adds the length of a block.
-std::optional<std::int64_t> LiveRun::delay() const
+std::optional<LiveRun::Delay> LiveRun::delay() const
 {
-    if (! delay_ticks) return std::nullopt;
-    auto ticks = *delay_ticks + static_cast<std::int64_t> (std::ceil (hand_delay));
-    if (! rig || rig->clock() == nullptr) return ticks;
-    const auto card = rig->status().card;
-    if (card.rate_hz > 0.0) ticks += static_cast<std::int64_t> (std::ceil (card.block * rate() / card.rate_hz));
-    return ticks;
+    if (! graph_delay) return std::nullopt;
+    auto ticks = static_cast<std::int64_t> (std::ceil (hand_delay));
+    if (rig && rig->clock() != nullptr)
+        if (const auto card = rig->status().card; card.rate_hz > 0.0) ticks += static_cast<std::int64_t> (std::ceil (card.block * rate() / card.rate_hz));
+    return Delay { graph_delay->shortest + ticks, graph_delay->longest + ticks };
 }
 
 std::optional<double> LiveRun::stiffnessLeft() const
 {
     const auto ticks = delay();
     if (! session || hand_damping <= 0.0 || ! ticks) return std::nullopt;
-    return check::stiffestWall (hand_damping, 1.0 / rate(), static_cast<double> (*ticks));
+    return check::stiffestWall (hand_damping, 1.0 / rate(), static_cast<double> (ticks->longest));
 }
 
 std::optional<double> LiveRun::mostForce() const

@@ -153,14 +153,20 @@ public:
     /// The run's tick rate, in Hz.
     double rate() const noexcept { return session ? session->rate() : document.graph().rate_hz; }
 
-    /// The delay from hand to motor in ticks: that of the slowest source-sink pair, where each pair counts by its shortest path, and that of the hand's
-    /// device. Empty if no source is connected to a sink.
-    std::optional<std::int64_t> delay() const;
+    /// Ticks from a movement of the hand to its effect on the motor, by the fastest and by the slowest path.
+    struct Delay
+    {
+        std::int64_t shortest = 0, longest = 0;
+    };
+
+    /// The delay of the graph and of the hand's device. Empty if no source is connected to a sink.
+    std::optional<Delay> delay() const;
 
     /// The delay of the hand's device, in ticks; 0 if it is not known.
     double handDelay() const noexcept { return hand_delay; }
 
-    /// The stiffness that a wall may have on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is unknown.
+    /// The stiffness that a wall may have on the first device before it buzzes, K < 2b/((2d+1)T), in N/m, on the slowest path. Empty if the damping of the
+    /// device is unknown.
     std::optional<double> stiffnessLeft() const;
 
     /// The largest force that the guards let through, in N; empty if they do not limit it.
@@ -317,7 +323,7 @@ private:
     double hand_delay = 0.0;     // of that device, in ticks
     std::vector<RoleNeeds> needed;
     std::optional<Fuser::Options> fuses;   // empty: runs by the plan
-    std::optional<std::int64_t> delay_ticks;
+    std::optional<Delay> graph_delay;
     std::shared_ptr<PointerPath> pointer;
     std::shared_ptr<TransportPath> transported;
     Snapshot<std::array<double, 6>> seen;   // the tool's position and the force on it

@@ -76,7 +76,8 @@ juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
     if (! d) return TRANS ("no path from hand to motor");
-    return filled (*d == 1 ? TRANS ("delay %1 tick") : TRANS ("delay %1 ticks"), *d);
+    if (d->shortest < d->longest) return filled (TRANS ("delay %1 to %2 ticks"), d->shortest, d->longest);
+    return filled (d->longest == 1 ? TRANS ("delay %1 tick") : TRANS ("delay %1 ticks"), d->longest);
 }
 
 juce::String wallsText (const LiveRun& run)
@@ -206,6 +207,7 @@ SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
     showGuards (run, *status, now);
     now.force = newtonText (status->force) + "  |  " + filled (TRANS ("peak %1"), newtonText (status->peak));
     now.misses = filled (TRANS ("late ticks: %1"), status->misses);
+    if (! run.isRunning()) return now;   // an edit may have changed the delay and the rate since it stopped
     now.delay = delayText (run);
     now.walls = wallsText (run);
     return now;
@@ -334,8 +336,8 @@ void SafetyStrip::paint (juce::Graphics& g)
           TRANS ("How many ticks pass from a movement of the hand to its effect on the motor, in the graph and in the device as far as its delay is "
                  "known. Each tick of delay makes a stiff wall less stable.") },
         { shown.walls,
-          TRANS ("The largest stiffness with which a wall without damping returns no energy, whatever the hand does, with this delay and the damping of the "
-                 "device. A stiffer one may rest, vibrate or kick. Problems has what the check says about this graph.") },
+          TRANS ("The largest stiffness with which a wall without damping returns no energy, whatever the hand does, with the longest delay and the damping "
+                 "of the device. A stiffer one may rest, vibrate or kick. Problems has what the check says about this graph.") },
     };
     for (const auto& [text, meaning] : rest)   // left out rather than cut off
         if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim, meaning);

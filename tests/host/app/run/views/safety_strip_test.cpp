@@ -250,11 +250,34 @@ TEST_CASE ("the strip counts the delay of the device, and says so if a device co
     auto& device = wood.devices.front().second;
     device["damping"] = 1.0;
     CHECK (says (wood, "undamped walls passive up to 8.0 N/mm"));   // 2 B / T
+    auto late = wood;                                               // one of several paths
+    std::ranges::find (late.root.wires, "motor", [] (const graph::Wire& w) { return w.to.node; })->delay = 2;
+    CHECK (says (late, "delay 0 to 2 ticks"));
+    CHECK (says (late, "undamped walls passive up to 1.6 N/mm"));
     device["delay"] = 3;
     CHECK (says (wood, "delay 3 ticks"));
     CHECK (says (wood, "undamped walls passive up to 1.1 N/mm"));   // 2 B / ((2 d + 1) T)
     device["mass"] = -3;
     CHECK (says (wood, "runs without a device: ", graph::SetParam { "", "grain", "spatial_frequency", Json ("1000 1/m") }));
+}
+
+TEST_CASE ("the strip of a graph that is stopped has no delay and no stiffness, since an edit may change its rate", "[app][words]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    StripRig seen { rig };
+    seen.strip.setSize (1920, SafetyStrip::height);
+    const auto says = [&seen] (const juce::String& part) {
+        seen.playback.poll();
+        seen.strip.refresh();
+        return std::ranges::any_of (readTexts (seen.strip), [&] (const auto& t) { return t.text.contains (part); });
+    };
+    seen.playback.start ({});
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] { return says ("undamped walls passive up to"); }));
+    seen.playback.stop();
+    REQUIRE (tactus::test::eventually (std::chrono::milliseconds (5), [&] { return ! seen.playback.run().isRunning(); }));
+    CHECK_FALSE (says ("undamped walls passive up to"));
+    CHECK_FALSE (says ("delay"));
+    seen.playback.run().letGo();
 }
 
 TEST_CASE ("each part of the strip says what it means", "[app][words]")
