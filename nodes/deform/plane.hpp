@@ -272,10 +272,10 @@ inline std::string Plane::warning (const Setup& setup) const
     const double digit = math::pow (10.0, std::floor (math::log10 (needed)) - 1.0);
 
     auto text = "a tool of " + roundedText (tool.mass, 2) + " kg that hits at " + roundedText (hard_hit, 2) + " m/s comes back at " + roundedText (wrong, 2)
-                + " times its speed instead of " + roundedText (right, 2) + " times, because the contact lasts only "
+                + " times its speed instead of " + roundedText (right, 2) + " times, even without a delay, because the contact lasts only "
                 + roundedText (rebound.duration * setup.rate_hz, 2) + " samples; ";
     if (const double rate = std::ceil (needed / digit) * digit; needed <= highest)
-        text += "raise the rate to " + roundedText (rate, 7) + " Hz, which gives " + roundedText (farthest (rate), 2) + " times, or ";
+        text += "raise the rate to " + roundedText (rate, 7) + " Hz, which gives " + roundedText (farthest (rate), 2) + " times without a delay, or ";
     return text + "use a softer law";
 }
 

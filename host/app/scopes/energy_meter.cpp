@@ -199,7 +199,7 @@ std::string describe (const EnergyBalance& b)
     if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
     if (matters (-b.elsewhere(), 0.02))
         text << "; "
-             << filled (TRANS ("the nodes report %1 more than the hand gave: the force was limited or faded, or the tool or its "
+             << filled (TRANS ("the nodes report %1 more than the hand gave: their force was turned down, as by a mixer, limited or faded, or the tool or its "
                                "sensor moves too far in a tick"),
                         joule (-b.elsewhere()));
     return text.toStdString();

@@ -279,8 +279,8 @@ TEST_CASE ("plane: a rate too low for a hard hit is reported, with the rate that
     CHECK (node.warning ({ .rate_hz = 1000.0 }) == "");   // without a mass, the node cannot judge the rate
     node.learn ({ .mass = 0.05 });
     CHECK (node.warning ({ .rate_hz = 1000.0 })
-           == "a tool of 0.05 kg that hits at 2 m/s comes back at 1.5 times its speed instead of 0.41 times, because the contact lasts only 5.2 samples; "
-              "raise the rate to 3800 Hz, which gives 0.45 times, or use a softer law");
+           == "a tool of 0.05 kg that hits at 2 m/s comes back at 1.5 times its speed instead of 0.41 times, even without a delay, because the contact lasts "
+              "only 5.2 samples; raise the rate to 3800 Hz, which gives 0.45 times without a delay, or use a softer law");
     CHECK (node.warning ({ .rate_hz = 2200.0 }) == "");
     CHECK (node.warning ({ .rate_hz = 20'000.0 }) == "");
 

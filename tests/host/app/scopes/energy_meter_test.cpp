@@ -155,7 +155,7 @@ TEST_CASE ("scopes: what nodes report beyond the work of the hand is not blamed 
     CHECK (meter.balance().elsewhere() == Approx (-0.02).epsilon (1e-3));
     const auto said = describe (meter.balance());
     INFO (said);
-    CHECK (said.find ("more than the hand gave: the force was limited or faded, or ") != std::string::npos);
+    CHECK (said.find ("more than the hand gave: their force was turned down, as by a mixer, limited or faded, or ") != std::string::npos);
 }
 
 TEST_CASE ("scopes: the energy sum does not depend on how the ticks are batched", "[app][scopes]")
