@@ -80,7 +80,7 @@ struct FileDialogs::SaveWords
     /// The words for a dialog, by the file name that it proposes.
     static SaveWords of (const std::filesystem::path& begin)
     {
-        if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };
+        if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format: .haptic, .ahap, .hjif or .wav"), clip_patterns };
         const auto name = begin.filename().string();
         if (extensionOf (begin) == ".csv") return { name.starts_with ("gesture") ? TRANS ("Save gesture") : TRANS ("Save data"), "*.csv" };
         if (extensionOf (begin) == ".jsonl") return { name.starts_with ("take") ? TRANS ("Save take") : TRANS ("Save test"), "*.jsonl" };

@@ -347,8 +347,8 @@ void Files::restoreNext (bool runs)
     if (autosave() && has_takes) crashed.front().discard();   // only now that the document is autosaved in this session
     const auto more = crashed.size() - 1;
     crashed.clear();
-    auto text = TRANS ("Recovered. Press Ctrl+S to save.");
-    if (! runs || safe) text << " " << TRANS ("The graph is not running: check it, then press START.");
+    auto text = runs && ! safe ? TRANS ("Recovered. Press Ctrl+S to save.")
+                               : TRANS ("Recovered without running: check the graph before you press START. Press Ctrl+S to save.");
     if (more > 0) text << " " << filled (TRANS ("At the next start, Tactus offers to recover %1 more."), more);
     callbacks.notify (text);
 }

@@ -27,6 +27,7 @@ public:
     {
         auto all = desk.liveMessages();
         std::ranges::copy (desk.playback.run().messages(), std::back_inserter (all));
+        dropRepeated (all);
         findMissing();
         std::ranges::copy (missing, std::back_inserter (all));
         is_error = hasErrors (all);
@@ -53,6 +54,20 @@ public:
     }
 
 private:
+    /// The run and its devices may each say the same of a description.
+    static void dropRepeated (Messages& all)
+    {
+        Messages once;
+        for (auto& m : all)
+        {
+            const auto isSame = [&m] (const Message& other) {
+                return other.id == m.id && other.severity == m.severity && other.where == m.where && other.text == m.text;
+            };
+            if (std::ranges::none_of (once, isSame)) once.push_back (std::move (m));
+        }
+        all = std::move (once);
+    }
+
     /// Looks for what the graph needs before it can be felt, and for nodes that no motor and no scope shows.
     void findMissing()
     {
