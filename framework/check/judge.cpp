@@ -227,7 +227,7 @@ private:
         auto& c = add ("stiffness", passive_law, "N*s/m",
                        "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + (is_elsewhere ? " along another direction" : "") + ", d "
                            + text (late) + ", T " + text (1e3 * period_s, "ms") + left_out);
-        c.damping = b;
+        c.damping = is_elsewhere ? 0.0 : b;
         if (! numbers.damping) return unknown (c, value, "damping");
 
         const double held = s->stiffness * period_s;

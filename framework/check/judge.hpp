@@ -66,7 +66,7 @@ struct Condition
     /// Of `stiffness`: the loops of the nodes, the weakest first: for `unstable`, the one that swings first, and else, the one that is passive up to the
     /// least. Empty if they do not explain the verdict.
     std::vector<Loop> loops {};
-    double damping = 0.0;   ///< of `stiffness`: the part of the value that is virtual damping
+    double damping = 0.0;   ///< of `stiffness`: the part of the value that is virtual damping along the steepest direction
     bool falls = false;     ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning

@@ -11,7 +11,7 @@ namespace tactus::host
 /// True for a contact whose slopes are more than what is passive, and whose sampled loop comes to rest with usual hands.
 bool isPastPassivity (const check::Condition&);
 
-/// True for a contact that is more damped than stiff, as far as its condition goes.
+/// True for a contact that is more damped than stiff, as far as its condition goes. Not if several nodes have loops of their own.
 bool isMostlyDamping (const check::Condition&);
 
 /// 5.1, 42, 4200: two digits, and no exponent; three near 1.

@@ -50,6 +50,13 @@ struct Case
         demand.stretches.front().teeth *= factor;
     }
 
+    /// What no damper claims of the damping falls with the stiffness and the period, as behind a hold.predictive.
+    void letDampingFall (double part)
+    {
+        auto& damping = role().slopes.front().damping;
+        if (damping > 1.5 * role().dampers) damping = std::min (damping, role().dampers) + part * (damping - std::min (damping, role().dampers));
+    }
+
     void tickAt (double rate_hz)
     {
         for (auto& s : role().slopes)
@@ -165,13 +172,16 @@ Case drawnCase()
     if (*rc::gen::arbitrary<bool>()) slope.damping = drawn (1e-2, 50.0);
     if (*rc::gen::arbitrary<bool>()) slope.lag = slope.stiffness / c.demand.rate_hz * drawn (0.1, 3.0);
     const double peak = drawn (0.1, 20.0), fastest = drawn (10.0, 1e6), speed = drawn (0.01, 2.0);
-    c.demand.roles = { { .role = "tip", .slopes = { slope }, .peak_force = peak, .fastest_force = fastest, .speed = speed } };
+    const double dampers = *rc::gen::arbitrary<bool>() ? slope.damping * drawn (0.1, 2.0) : 0.0;
+    c.demand.roles = { { .role = "tip", .slopes = { slope }, .peak_force = peak, .fastest_force = fastest, .speed = speed, .dampers = dampers } };
     const double frequency = drawn (10.0, 1e4), amplitude = drawn (1e-3, 5.0), steepness = drawn (1.0, 1e6), stroke = drawn (1e-3, 2.0);
     c.demand.textures = { { .node = 1, .role = "tip", .spatial_frequency = frequency, .amplitude = amplitude, .slope = steepness, .speed = stroke } };
     if (*rc::gen::arbitrary<bool>())
     {
         const double d_max = drawn (1e-7, 1e-3), teeth = *rc::gen::arbitrary<bool>() ? 0.0 : drawn (1e-8, 1e-3), slide = drawn (1e-3, 2.0);
-        c.demand.stretches = { { .role = "tip", .d_max = d_max, .teeth = teeth, .speed = slide } };
+        using Softer = check::Stretch::Softer;
+        const auto softer = *rc::gen::element (Softer::unknown, Softer::d_max, Softer::stiffness);
+        c.demand.stretches = { { .role = "tip", .d_max = d_max, .teeth = teeth, .speed = slide, .softer = softer } };
     }
     if (*rc::gen::arbitrary<bool>()) c.demand.jumps = { { .role = "tip", .node = 0, .force = drawn (1e-3, 5.0) } };
     return c;
@@ -195,7 +205,13 @@ void followAll (const Case& c, std::map<std::string, int>& followed)
             if (known == remedies().end()) RC_FAIL ("not known: " + way);
             auto after = c;
             if (condition.text.find (", without b,") != std::string::npos) after.role().slopes.front().damping = 0.0;   // which `damping` asks for
+            const double stiff = after.role().slopes.front().stiffness, period_s = 1.0 / after.demand.rate_hz;
             known->second (after, std::strtod (way.c_str() + known->first.size(), nullptr));
+            if (condition.id == "stiffness")
+            {
+                const double part = known->first.starts_with ("a rate") ? 1.0 / (after.demand.rate_hz * period_s) : after.role().slopes.front().stiffness / stiff;
+                after.letDampingFall (part);
+            }
             ++followed[known->first];
             const auto all = after.conditions();
             // A force that rises has a stiffness instead of a jump.
