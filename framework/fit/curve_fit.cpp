@@ -281,7 +281,13 @@ void reportValues (CurveFit& fit, int points, FitCourse* course)
     const double spacing = fit.depth_in.back() / few;
     const auto sd = [] (double variance) { return std::sqrt (std::max (0.0, variance)); };
     const auto in = errorsOfBranch (fit.depth_in, fit.force_in, spacing, few);
-    values.push_back (detail::withInterval ("work on the way in", "J", fit.work, sd (in.ofWork()), in.freedom));
+
+    // The deepest row is the one whose error is largest, as a rule one to two deviations too deep.
+    const double noise = noiseOf (fit.depth_in), of_work = sd (in.ofWork()), of_end = 1.5 * noise * fit.law (fit.depth_in.back());
+    values.push_back (detail::withInterval ("work on the way in", "J", fit.work, std::hypot (of_work, of_end), in.freedom));
+    if (of_end > of_work)
+        fit.report.notes.push_back ("the depth has noise of " + roundedText (1e6 * noise, 2)
+                                    + " um rms, so the deepest row is not known better; only the interval of the work includes it");
     Eigen::MatrixXd of_mean = in.covariance;
     detail::setShare (course, 0.5);
     if (detail::isCancelled (course)) return;

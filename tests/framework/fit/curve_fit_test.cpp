@@ -62,6 +62,32 @@ TEST_CASE ("curve fit: the curve is the mean of both ways, and the hysteresis is
     CHECK (fit->drop == 0.0);
 }
 
+TEST_CASE ("curve fit: the interval of the work holds if the depth has noise", "[kit][fit]")
+{
+    int holds = 0;
+    constexpr int seeds = 40, rows = 1000;
+    constexpr double deepest = 2e-3, true_work = 2e2 * deepest * deepest / 2.0 + 1e5 * deepest * deepest * deepest / 3.0;
+    for (unsigned seed = 0; seed < seeds; ++seed)
+    {
+        std::mt19937 dice (seed);
+        std::normal_distribution<double> noise (0.0, 1.0);
+        RecordedLoop loop;
+        for (int i = 0; i < 2 * rows; ++i)
+        {
+            const double d = deepest * (i < rows ? i : 2 * rows - 1 - i) / (rows - 1.0);
+            loop.depth.push_back (d + 1e-6 * noise (dice));
+            loop.force.push_back ((i < rows ? 1.0 : 0.9) * (2e2 * d + 1e5 * d * d) + 3e-3 * noise (dice));
+        }
+        const auto fit = fitCurve (loop, 40);
+        REQUIRE (fit);
+        const auto& work = fit->report.values.front();
+        REQUIRE (work.name == "work on the way in");
+        holds += work.low <= true_work && true_work <= work.high ? 1 : 0;
+        CHECK (fit->report.notes.size() == 1);
+    }
+    CHECK (holds >= 35);
+}
+
 TEST_CASE ("curve fit: without a way out, the curve is the way in", "[kit][fit]")
 {
     auto loop = push (hertz, hertz);
