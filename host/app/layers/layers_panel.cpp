@@ -179,6 +179,8 @@ void LayersPanel::mixIn (const UnmixedSignal& u)
 void LayersPanel::requestTraces()
 {
     std::vector<std::string> levels, signals;
+    for (std::size_t i = 0; i < strips.size() && ! isVisible() && ! all.empty(); ++i)   // what a layer has reached counts while the panel is hidden, too
+        levels.push_back (chosen.path + ".level[" + std::to_string (i) + ']');
     if (isVisible() && ! all.empty())
     {
         levels = { chosen.path + ".out", chosen.path + ".reduction" };
@@ -208,11 +210,11 @@ void LayersPanel::refresh()
 {
     const double now = juce::Time::getMillisecondCounterHiRes();
     const double dt = std::clamp ((now - refreshed_ms) * 1e-3, 1e-3, 1.0);
-    if (! isVisible()) return;
     refreshed_ms = now;
-    const bool with_spectrum = ++refreshes % spectrum_every == 0;
+    const bool with_spectrum = isVisible() && ++refreshes % spectrum_every == 0;
     for (auto& s : strips)
         s->refresh (traces, dt, with_spectrum);
+    if (! isVisible()) return;
     for (auto& s : past)
         s->refresh (traces, dt);
     if (total) total->refresh (traces, behind.motors, dt);

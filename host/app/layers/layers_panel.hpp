@@ -20,7 +20,7 @@ public:
     LayersPanel (Document&, Traces&, const Catalogue&);
     ~LayersPanel() override;
 
-    void refresh();   ///< call many times a second; does nothing while hidden
+    void refresh();   ///< call many times a second
 
     std::function<void (const std::string& patch, graph::Id node)> onSelect;
     std::function<void (const std::string& patch, graph::Id node)> onAdded;   ///< receives the node of a layer that the user has just added

@@ -90,8 +90,15 @@ bool MeterFeed::take (const PortTraces& traces, double factor, double dt_s)
         const auto& trace = *traces.front();
         unit = trace.unit();
         quantity = trace.quantity();
-        has_changed = of.lock() != traces.front() || trace.end() < seen;
+    }
+    if (! traces.empty() && traces.front()->begin() < traces.front()->end())
+    {
+        const auto& trace = *traces.front();
+        // Another trace of the same run, such as after a time in which fewer ports were recorded, continues.
+        const bool is_same = of.lock() == traces.front();
+        has_changed = is_first || trace.end() < seen || (is_same ? beginnings > 0 && trace.beginnings() != beginnings : trace.begin() < seen);
         of = traces.front();
+        beginnings = trace.beginnings();
         if (has_changed)
         {
             meter = {};

@@ -20,7 +20,7 @@ struct MeterFeed
     std::string unit;   ///< symbol in SI; empty: not known
     Quantity quantity = Quantity::any;
     double newest = 0.0;        ///< the greatest level that came with the last take(), before the factor
-    bool has_changed = false;   ///< true if the last take() had another trace than the one before, such as that of a new run
+    bool has_changed = false;   ///< true if the last take() was the first one of a run
 
     /// Returns true if there is a trace. `factor` scales the level.
     bool take (const PortTraces&, double factor, double dt_s);
@@ -28,7 +28,8 @@ struct MeterFeed
 private:
     std::uint64_t seen = 0;
     std::weak_ptr<const Trace> of;
-    bool has_begun = false;   // what a trace held before was of another layer, or of an earlier run
+    std::uint64_t beginnings = 0;   // of this trace
+    bool has_begun = false;         // what a trace held before was of another layer, or of an earlier run
     std::vector<double> latest;
 };
 

@@ -293,8 +293,10 @@ TEST_CASE ("during a run, the strips show the level after gain, and the spectrum
     CHECK (sounded > 0.0);
     CHECK (rig.picture().isValid());
 
-    rig.panel->setVisible (false);   // a hidden panel needs no traces
-    CHECK (rig.live_run->traces().ports().empty());
+    rig.panel->setVisible (false);   // a hidden panel needs only what its layers reach
+    const auto ports = rig.live_run->traces().ports();
+    CHECK (ports.size() == rig.panel->layers());
+    CHECK (std::ranges::all_of (ports, [] (const std::string& p) { return p.find (".level[") != p.npos; }));
 }
 
 TEST_CASE ("with several mixers, the shown one is kept through a rename, and another is shown when it is deleted", "[layers]")
