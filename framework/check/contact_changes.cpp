@@ -62,40 +62,40 @@ double largestPart (const Load& load, double limit)
     return low;
 }
 
-/// The b of a contact that is softer by a part, or ticks faster. What no damper claims falls with it, as behind a hold.predictive.
-double dampingOf (const Contact& c, double dampers, double part)
+/// The b of a contact that is softer by a part, or ticks faster. A hold.predictive makes its b from the force, so what no damper claims falls with it.
+double dampingOf (const Contact& c, const Dampers& dampers, double part)
 {
-    if (! judging::isUnclaimed (c.damping, dampers)) return c.damping;
-    const double stays = std::min (c.damping, dampers);
+    if (! dampers.are_predicted || ! dampers.leaveUnclaimed (c.damping)) return c.damping;
+    const double stays = std::min (c.damping, dampers.claimed);
     return stays + part * (c.damping - stays);
 }
 
-/// Changes that make one contact passive without another rate or device.
-std::vector<std::string> passiveWays (const Contact& c, double dampers, double period_s)
+/// The change that makes one contact passive without another rate or device.
+std::string passiveWay (const Contact& c, const Dampers& dampers, double period_s)
 {
     using namespace judging;
     constexpr double least = 1e-3;
-    const bool is_unclaimed = isUnclaimed (c.damping, dampers);
+    const bool is_unclaimed = dampers.leaveUnclaimed (c.damping);
     const auto softer = [&] (double part) { return c.load (part * c.stiffness, dampingOf (c, dampers, part), period_s); };
     const auto lessDamped = [&] (double part) { return c.load (c.stiffness, part * c.damping, period_s); };
     if (const double part = largestPart (softer, c.limit); part > least)
     {
-        if (is_unclaimed)
-            return { "a stiffness of " + atMost (part * c.stiffness, "N/m") + " (if the b that no damper claims falls with it)" };
+        if (is_unclaimed && dampers.are_predicted)
+            return "a stiffness of " + atMost (part * c.stiffness, "N/m") + " (if the b that no damper claims falls with it)";
 
         // A factor, because a friction may be twice as stiff as its own stiffness, on a reversal. A softer one is stretched otherwise at the same place.
         constexpr double stretched = 0.99;
-        if (c.softer == Stretch::Softer::stiffness) return { "a stiffness " + atMost (stretched * part, "times") + " as large" };
-        if (c.softer == Stretch::Softer::d_max) return { "a d_max " + atLeast (1.0 / (stretched * part), "times") + " as long" };
-        return { "a stiffness of " + atMost (part * c.stiffness, "N/m") };
+        if (c.softer == Stretch::Softer::stiffness) return "a stiffness " + atMost (stretched * part, "times") + " as large";
+        if (c.softer == Stretch::Softer::d_max) return "a d_max " + atLeast (1.0 / (stretched * part), "times") + " as long";
+        return "a stiffness of " + atMost (part * c.stiffness, "N/m");
     }
-    if (is_unclaimed) return { "a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive may cause)" };
-    if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return { "a virtual damping of " + atMost (part * c.damping, "N*s/m") };
-    return { "a virtual damping below that of the device and a softer contact" };
+    if (is_unclaimed) return smaller_b;
+    if (const double part = largestPart (lessDamped, c.limit); part > 0.0) return "a virtual damping of " + atMost (part * c.damping, "N*s/m");
+    return "a virtual damping below that of the device and a softer contact";
 }
 
 /// The rate from which on a contact is passive, in Hz; infinite if there is none.
-double passiveRate (const Contact& c, double dampers, double period_s)
+double passiveRate (const Contact& c, const Dampers& dampers, double period_s)
 {
     constexpr double fastest = 1e6;   // times the rate
     const auto load = [&] (double part) { return c.load (c.stiffness, dampingOf (c, dampers, part), std::max (part, 1.0 / fastest) * period_s); };
@@ -104,7 +104,7 @@ double passiveRate (const Contact& c, double dampers, double period_s)
 }
 }   // namespace
 
-std::string passiveRemedy (std::span<const Contact> broken, double load, double dampers, const DeviceNumbers& device, double period_s)
+std::string passiveRemedy (std::span<const Contact> broken, double load, const Dampers& dampers, const DeviceNumbers& device, double period_s)
 {
     using namespace judging;
     double rate = 0.0;
@@ -113,10 +113,12 @@ std::string passiveRemedy (std::span<const Contact> broken, double load, double 
     {
         rate = std::max (rate, passiveRate (contact, dampers, period_s));
         const auto along = contact.node.empty() ? std::string() : "along the force of '" + contact.node + "' ";
-        each += (each.empty() ? "" : ", and ") + along + anyOf (passiveWays (contact, dampers, period_s));
+        each += (each.empty() ? "" : ", and ") + along + passiveWay (contact, dampers, period_s);
     }
     std::vector<std::string> ways;
-    if (std::isfinite (rate) && reaches (device, rate)) ways.push_back ("a rate of " + atLeast (rate, "Hz"));
+    const bool falls = dampers.are_predicted && std::ranges::any_of (broken, [&] (const Contact& c) { return dampers.leaveUnclaimed (c.damping); });
+    if (std::isfinite (rate) && reaches (device, rate))
+        ways.push_back ("a rate of " + atLeast (rate, "Hz") + (falls ? " (if this b falls with the period)" : ""));
     ways.push_back ("a device with a damping of " + atLeast (load, "N*s/m"));
     if (broken.size() > 1) return each + "; or for all of them " + anyOf (ways);
     ways.insert (ways.begin(), each);

@@ -23,14 +23,28 @@ struct Contact
     double stiffness = 0.0;                                   ///< sigma, in N/m
     double damping = 0.0;                                     ///< b, in N s/m
     double limit = 0.0;                                       ///< what the device can dissipate, in N s/m
-    std::function<double (double, double, double)> load {};   ///< what it has to dissipate, in N s/m, by sigma, b and the period in s: convex in each
+    std::function<double (double, double, double)> load {};   ///< what it has to dissipate, in N s/m, by sigma, b and the period in s
 
     double share (double period_s) const { return load (stiffness, damping, period_s) / std::max (limit, 1e-12); }
 };
 
+/// The dampers between hand and motor.
+struct Dampers
+{
+    double claimed = 0.0;         ///< what all nodes claim to damp, in N s/m
+    bool are_predicted = false;   ///< a hold.predictive makes more b, from the force
+
+    /// True if a virtual damping is much more than what is claimed, as behind a hold.predictive, a filter or a ceiling.
+    bool leaveUnclaimed (double damping) const noexcept { return damping > 1.5 * claimed; }
+};
+
+/// What helps if b is large though the graph has no damper, or smaller ones.
+inline constexpr const char* smaller_b = "a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive "
+                                         "may cause)";
+
 /// The changes that make all of these contacts passive, in words. Each contact has a part, and any of the ways in it suffices; a rate or a device is for all.
-/// `load`: what the device would have to dissipate, in N s/m. `dampers`: what all nodes claim to damp, in N s/m. [any thread]
-std::string passiveRemedy (std::span<const Contact>, double load, double dampers, const DeviceNumbers&, double period_s);
+/// `load`: what the device would have to dissipate, in N s/m. [any thread]
+std::string passiveRemedy (std::span<const Contact>, double load, const Dampers&, const DeviceNumbers&, double period_s);
 
 /// A change of a contact or its device, and how many times the response could then be as large before the loop swings (roomToGrow()).
 struct Change

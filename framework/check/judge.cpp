@@ -16,6 +16,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -96,6 +97,8 @@ private:
             most = std::max (most, s.damping);
         return most;
     }
+
+    Dampers dampers() const { return { role.dampers, std::ranges::find (demand.nodes, "hold.predictive", &MeasuredNode::type) != demand.nodes.end() }; }
 
     double motorMass() const { return check::motorMass (numbers, period_s); }
 
@@ -223,15 +226,16 @@ private:
         const auto [s, b, sum, value, limit] = countedLoad (left_out);
         const double late = delay() + (s->stiffness > 0.0 ? s->lag / (s->stiffness * period_s) : 0.0);   // d, in ticks
         // A wall damps along its normal, where a friction is stiff along the surface: then b and sigma are of two directions.
-        const bool is_elsewhere = b > 0.0 && s->responses.size() > 1;
+        const double own_b = b > 0.0 && s->responses.size() > 1 ? std::max (0.0, springAndDamper (s->responses.front(), period_s).damping) : b;
+        const bool is_elsewhere = own_b < 0.5 * b;
         auto& c = add ("stiffness", passive_law, "N*s/m",
                        "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + (is_elsewhere ? " along another direction" : "") + ", d "
                            + text (late) + ", T " + text (1e3 * period_s, "ms") + left_out);
-        c.damping = is_elsewhere ? 0.0 : b;
+        c.damping = own_b;
+        c.is_partial = ! left_out.empty();
         if (! numbers.damping) return unknown (c, value, "damping");
 
         const double held = s->stiffness * period_s;
-        const double own_b = is_elsewhere ? std::max (0.0, springAndDamper (s->responses.front(), period_s).damping) : b;
         c.text += "; sigma T " + text (held, "N*s/m") + (held < own_b + limit ? " < " : " >= ") + "b + B " + text (own_b + limit, "N*s/m") + " (footnote 2"
                   + (is_elsewhere ? ", along sigma)" : ")");
         const auto* const worst = s;   // clang 14 does not capture structured bindings
@@ -245,9 +249,15 @@ private:
             const auto node = steepest (*s);
             broken.push_back ({ {}, node ? softer (demand, *node) : Stretch::Softer::unknown, s->stiffness, b, limit, load });
         }
-        auto remedy = passiveRemedy (broken, value, role.dampers, numbers, period_s);
+        auto remedy = passiveRemedy (broken, value, dampers(), numbers, period_s);
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, value, limit, remedy);
+        if (c.is_partial && ! c.isBroken())   // nothing is said of the whole contact
+        {
+            c.verdict = Verdict::unknown;
+            c.remedy = isOverdamped() ? "first what helps with 'damping', then check again" : "first what helps with 'gain', then check again";
+            return;
+        }
         if (c.verdict == Verdict::broken) closeLoop (c);
         const auto* const its = &role;
         weigh (demand, options.trials, c, { &its, 1 }, turns(), claimedLoad() <= limit);
@@ -293,11 +303,15 @@ private:
         std::vector<Contact> all;
         double largest = 0.0;
         const auto known_places = places();
-        const bool are_several = std::ranges::any_of (known_places, [] (const Place& p) { return p.nodes.size() > 1; });
+        std::set<std::size_t> acting;
+        for (const auto& place : known_places)
+            for (const auto& one : place.nodes)
+                acting.insert (one.node);
+        const bool are_several = acting.size() > 1;
         for (const auto& place : known_places)
         {
             if (! areAtRightAngles (place.nodes)) return {};
-            const double own = loadAt (*place.slope).limit, limit = (are_several ? together : 1.0) * own;
+            const double own = loadAt (*place.slope).limit, limit = (place.nodes.size() > 1 ? together : 1.0) * own;
             for (const auto& one : place.nodes)
             {
                 const double its = one.passivityLoad (numbers, period_s);
@@ -556,8 +570,8 @@ private:
         if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
         const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
         std::vector<std::string> ways;
-        if (isUnclaimed (virtualDamping(), role.dampers))
-            ways.emplace_back ("a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive may cause)");
+        if (dampers().are_predicted && dampers().leaveUnclaimed (virtualDamping()))
+            ways.emplace_back (smaller_b);
         else if (limit > 0.0)
         {
             ways.push_back ("a window of " + atLeast (1e3 * virtualDamping() * delta / limit, "ms")

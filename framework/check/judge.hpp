@@ -66,8 +66,9 @@ struct Condition
     /// Of `stiffness`: the loops of the nodes, the weakest first: for `unstable`, the one that swings first, and else, the one that is passive up to the
     /// least. Empty if they do not explain the verdict.
     std::vector<Loop> loops {};
-    double damping = 0.0;   ///< of `stiffness`: the part of the value that is virtual damping along the steepest direction
-    bool falls = false;     ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
+    double damping = 0.0;      ///< of `stiffness`: the part of the value that is virtual damping along the steepest direction
+    bool is_partial = false;   ///< of `stiffness`: without the virtual damping or the textures, which break a condition of their own
+    bool falls = false;        ///< for `unstable`: the linear loop swings nowhere; it runs away, since the graph pushes the tool off its place
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
 
@@ -93,17 +94,18 @@ DeviceNumbers numbersFor (std::span<const RoleDevice>, const RoleDemand&);
 /// The result of the trials of a role.
 struct Trial
 {
-    std::string role, axis {};   ///< as in RoleDemand
-    bool is_tried = false;       ///< its tool was let go: in all planned trials, or until one of them swung
-    bool swings = false;         ///< in one of them, the tool did not come to rest
-    bool runs_away = false;      ///< the graph drove it away
-    bool dies = false;           ///< its swing became smaller, but was still a swing at the end
-    bool is_doubtful = false;    ///< no tool swings, but one nearly does
-    bool is_lost = false;        ///< in one of them, the tool swung until the hand drove it away from the motion
-    double range = 0.0;          ///< of its movement in the last stretch of the trial, in m
-    double after_s = 0.0;        ///< time from the release to the start of this stretch
-    double t_s = 0.0;            ///< the time of the motion at which it was let go
-    double off = 0.0;            ///< distance from its rest at the start, in m
+    std::string role, axis {};    ///< as in RoleDemand
+    bool is_tried = false;        ///< its tool was let go: in all planned trials, or until one of them swung
+    bool swings = false;          ///< in one of them, the tool did not come to rest
+    bool runs_away = false;       ///< the graph drove it away
+    bool dies = false;            ///< its swing became smaller, but was still a swing at the end
+    bool is_doubtful = false;     ///< no tool swings, but one nearly does
+    bool rests_without = false;   ///< the tool comes to rest if the nodes Demand::modulated are silent
+    bool is_lost = false;         ///< in one of them, the tool swung until the hand drove it away from the motion
+    double range = 0.0;           ///< of its movement in the last stretch of the trial, in m
+    double after_s = 0.0;         ///< time from the release to the start of this stretch
+    double t_s = 0.0;             ///< the time of the motion at which it was let go
+    double off = 0.0;             ///< distance from its rest at the start, in m
     HeldHand hand {};
 };
 

@@ -183,9 +183,6 @@ inline Stretch::Softer softer (const Demand& demand, std::size_t node)
     return at == demand.stretches.end() ? Stretch::Softer::unknown : at->softer;
 }
 
-/// True if a virtual damping is much more than all dampers of the graph claim together, as behind a hold.predictive, a filter or a ceiling.
-inline bool isUnclaimed (double damping, double dampers) { return damping > 1.5 * dampers; }
-
 inline constexpr std::string_view passive_law = "sup of T/2 Re[(1 - e^-jwT) H]/(1 - cos wT) <= B";
 
 /// Changes the verdict on the slopes of a role, or of several linked roles, by three more facts: the claims of the nodes, the energy that the graph gave

@@ -117,21 +117,17 @@ std::vector<bool> modulated (const plan::Flat& flat, const std::vector<bool>& fo
 }
 
 /// A node without a path from a device, other than by hits. It plays by itself if its outputs still change in the second half of the motion, or are 0
-/// again after a change. A node that only settles, such as a filter after a constant, does not play. One with params that follow a device plays if its
-/// outputs change then while these params stay the same.
+/// again after a change. A node that only settles, such as a filter after a constant, does not play.
 struct PlayWatch
 {
     std::size_t node;
     std::vector<const double*> outputs;
-    std::vector<const double*> modulators {};   // what drives its params
-    std::vector<double> first {}, middle {}, driven {};
-    int quiet = 0;   // ticks since these have changed
+    std::vector<double> first {}, middle {};
     bool changes = false, plays = false;
 
     void poll (bool is_second_half)
     {
         if (plays) return;
-        if (! modulators.empty()) return pollModulated (is_second_half);
         auto& before = is_second_half ? middle : first;
         for (std::size_t i = 0; i < before.size(); ++i)
             if (*outputs[i] != before[i]) (is_second_half ? plays : changes) = true;
@@ -140,51 +136,82 @@ struct PlayWatch
                 before.push_back (*v);
     }
 
-    void pollModulated (bool is_second_half)
-    {
-        constexpr int settled = 64;   // more ticks than wires delay
-        std::vector<double> now, then;
-        for (const auto* v : outputs)
-            now.push_back (*v);
-        for (const auto* v : modulators)
-            then.push_back (*v);
-        quiet = then == driven ? quiet + 1 : 0;
-        plays = is_second_half && quiet > settled && now != middle;
-        middle = std::move (now);
-        driven = std::move (then);
-    }
-
     bool hasPlayed() const
     {
         return plays || (changes && std::ranges::all_of (outputs, [] (const double* v) { return *v == 0.0; }));
     }
 };
 
-/// The values of the outputs of a node, or of one of them.
-std::vector<const double*> outputsOf (const Plan& plan, std::size_t node, std::optional<std::size_t> port = {})
+/// A node that a device reaches by its params only, while the hands stay where they are. It plays by itself if its outputs still change then.
+struct HeldWatch
+{
+    std::size_t node;
+    std::vector<const double*> outputs;
+    double largest = 0.0;
+    std::vector<double> low {}, high {};   // late
+
+    void poll (bool is_late)
+    {
+        for (const auto* v : outputs)
+            largest = std::max (largest, std::abs (*v));
+        if (! is_late) return;
+        low.resize (outputs.size(), inf);
+        high.resize (outputs.size(), -inf);
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+        {
+            low[i] = std::min (low[i], *outputs[i]);
+            high[i] = std::max (high[i], *outputs[i]);
+        }
+    }
+
+    bool plays() const
+    {
+        constexpr double settled = 1e-3;   // part of the largest value: an envelope or a speed need not have come to its end
+        for (std::size_t i = 0; i < low.size(); ++i)
+            if (high[i] - low[i] > settled * largest) return true;
+        return false;
+    }
+};
+
+/// The same motion until the largest force in its first half; there, the hands stay.
+HandMotion held (HandMotion motion, const Forces& forces)
+{
+    std::size_t place = 0;
+    double most = 0.0;
+    for (std::size_t k = 0; 2 * k < motion.ticks; ++k)
+    {
+        double sum = 0.0;
+        for (const auto& of_role : forces)
+            sum += of_role[k].norm();
+        if (sum > most) most = sum, place = k;
+    }
+    for (auto& r : motion.roles)
+        for (std::size_t k = place + 1; k < r.readings.size(); ++k)
+            r.readings[k] = r.readings[place];
+    return motion;
+}
+
+/// The values of all outputs of a node but lists.
+std::vector<const double*> outputsOf (const Plan& plan, std::size_t node)
 {
     std::vector<const double*> all;
     const auto& instance = plan.instances()[node];
-    const auto& rows = plan.flat().nodes[node].type->outputs;
     if (instance.outputs == nullptr) return all;
-    for (std::size_t p = 0; p < rows.size(); ++p)
-        for (int i = 0; i < rows[p].width && ! rows[p].list && (! port || p == *port); ++i)
-            all.push_back (instance.output (rows[p].offset + sizeof (double) * at (i)));
+    for (const auto& row : plan.flat().nodes[node].type->outputs)
+        for (int i = 0; i < row.width && ! row.list; ++i)
+            all.push_back (instance.output (row.offset + sizeof (double) * at (i)));
     return all;
 }
 
 std::vector<PlayWatch> freeNodes (const Plan& plan)
 {
     const auto& flat = plan.flat();
-    const auto follows = followers (flat), is_modulated = modulated (flat, follows);
+    const auto follows = followers (flat);
     std::vector<PlayWatch> all;
     for (std::size_t n = 0; n < follows.size(); ++n)
     {
-        if ((follows[n] && ! is_modulated[n]) || ! flat.nodes[n].runs()) continue;
+        if (follows[n] || ! flat.nodes[n].runs()) continue;
         PlayWatch w { .node = n, .outputs = outputsOf (plan, n) };
-        for (const auto& wire : flat.wires)
-            if (is_modulated[n] && wire.to.node == static_cast<int> (n) && wire.to.role == Role::param && wire.from)
-                std::ranges::copy (outputsOf (plan, at (wire.from->node), at (wire.from->port)), std::back_inserter (w.modulators));
         if (! w.outputs.empty()) all.push_back (std::move (w));
     }
     return all;
@@ -250,6 +277,7 @@ private:
         });
         ticks = 0;
         if (! striking.empty()) forcesAlong (subject, motion, striking, [&] (const Plan& running) { watchPlayers (running, free, ticks++); });
+        findModulatedPlayers (striking);
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
         {
             const auto& role = motion.roles[r];
@@ -263,6 +291,24 @@ private:
                     demand.unreached.push_back ({ w.node(), role.role, false });
             }
         }
+    }
+
+    /// Lists the players that a device turns up or down.
+    void findModulatedPlayers (const std::vector<std::size_t>& striking)
+    {
+        const auto is_modulated = modulated (plan->flat(), followers (plan->flat()));
+        if (std::ranges::count (is_modulated, true) == 0) return;
+        std::vector<HeldWatch> watches;
+        std::size_t ticks = 0;
+        forcesAlong (subject, held (motion, forces), striking, [&] (const Plan& running) {
+            for (std::size_t n = 0; n < is_modulated.size() && ticks == 0; ++n)
+                if (is_modulated[n] && running.flat().nodes[n].runs()) watches.push_back ({ .node = n, .outputs = outputsOf (running, n) });
+            for (auto& w : watches)
+                w.poll (4 * ticks >= 3 * motion.ticks);
+            ++ticks;
+        });
+        for (const auto& w : watches)
+            if (w.plays()) demand.modulated.push_back (w.node);
     }
 
     /// Lists the players after the last tick of the motion.
@@ -364,6 +410,7 @@ private:
             if (! its[n] || node.type->bind != nullptr) continue;   // a source or a sink
             const auto claims = node.type->claims != nullptr ? node.type->claims (plan->instances()[n].node.get()) : Claims {};
             double gain = 1.0;
+            std::optional<double> onward;   // of the damping
             bool counts = claims.passive && node.section == 0;
             for (const auto& w : flat.wires)
             {
@@ -379,11 +426,12 @@ private:
                     const bool is_load = flat.node (w.to).type->bind == nullptr && w.to.role == Role::input
                                          && flat.node (w.to).type->inputs[at (w.to.port)].id == "normal_force";
                     if (is_load) continue;
+                    onward = std::max (onward.value_or (0.0), std::abs (w.gain));
                     if (flat.node (w.to).type->bind == nullptr || ! (w.gain > 0.0) || w.delay != 0 || w.to.component >= 0 || w.gain_dimension) counts = false;
                     gain = std::max (gain, w.gain);
                 }
             }
-            d.dampers += gain * claims.damping;
+            d.dampers += onward.value_or (1.0) * claims.damping;
             if (counts)
             {
                 d.claimed_stiffness += gain * claims.stiffness;

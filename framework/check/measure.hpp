@@ -157,8 +157,9 @@ struct Demand
     std::vector<Deadbeat> deadbeats {};
     std::vector<Texture> textures {};
     std::vector<Unreached> unreached {};
-    std::vector<std::size_t> players {};   ///< numbers of the nodes that play by themselves, whatever the tools do, such as an lfo
-    std::vector<MeasuredNode> nodes {};    ///< by node number
+    std::vector<std::size_t> players {};     ///< numbers of the nodes that play by themselves, whatever the tools do, such as an lfo
+    std::vector<std::size_t> modulated {};   ///< numbers of those that play by themselves, and that a device turns up or down
+    std::vector<MeasuredNode> nodes {};      ///< by node number
 };
 
 /// The number of points and ticks with which a graph is measured. More points take longer.

@@ -43,6 +43,7 @@ struct Shown
 {
     const Trial* worst = nullptr;      // the largest swing; null if no tool swings
     const Trial* doubtful = nullptr;   // nearly a swing
+    const Trial* played = nullptr;     // the tool does not come to rest, but does without the nodes that play and that a device turns up
     bool are_tried = true, is_lost = false;
 };
 
@@ -54,6 +55,8 @@ Shown shownBy (const Trials& trials, std::span<const RoleDemand* const> roles)
         const auto trial = std::ranges::find_if (trials.by_role, [&] (const Trial& t) { return t.role == role->role && t.axis == role->axis; });
         shown.are_tried = shown.are_tried && trial != trials.by_role.end() && trial->is_tried;
         if (trial == trials.by_role.end()) continue;
+        if (trial->rests_without && (shown.played == nullptr || trial->range > shown.played->range)) shown.played = &*trial;
+        if (trial->rests_without) continue;
         if (trial->swings && (shown.worst == nullptr || trial->range > shown.worst->range)) shown.worst = &*trial;
         shown.is_lost = shown.is_lost || trial->is_lost;
         if (trial->is_doubtful) shown.doubtful = &*trial;
@@ -88,6 +91,7 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
     if (given > uncertain) return "the graph gives " + text (1e3 * given, "mJ") + " along this motion";
     is_here = true;
     if (! demand.players.empty()) return "'" + demand.nodes[demand.players.front()].path + "' plays by itself, and is left out";
+    if (! demand.modulated.empty()) return "'" + demand.nodes[demand.modulated.front()].path + "' plays by itself, and a device turns it up or down";
     for (const auto* role : roles)
     {
         if (! role->claims_nothing.empty()) return "'" + role->claims_nothing.front() + "' claims nothing about other motions";
@@ -113,7 +117,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         }
     }
     if (trials == nullptr) return;
-    auto [worst, doubtful, are_tried, is_lost] = shownBy (*trials, roles);
+    auto [worst, doubtful, played, are_tried, is_lost] = shownBy (*trials, roles);
     const Trial* slowest = nullptr;                                          // a passive contact near its limit takes long to settle
     if (worst != nullptr && worst->dies && c.verdict != Verdict::unstable)   // only the trial says that it swings, and the swing dies there
         (c.verdict == Verdict::passive ? slowest : doubtful) = std::exchange (worst, nullptr);
@@ -122,6 +126,16 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         return "let go " + from + " at " + text (t.t_s, "s") + " " + handText (t.hand) + ", the tool ";
     };
     const auto moves = [] (const Trial& t) { return "by " + text (1e6 * t.range, "um") + " after " + text (t.after_s, "s"); };
+    if (played != nullptr && worst == nullptr)
+    {
+        const auto name = "'" + demand.nodes[demand.modulated.front()].path + "'";
+        c.text = letGo (*played) + "does not come to rest while " + name + " plays, which a device turns up or down; without it, the tool comes to rest; "
+                 + c.text;
+        if (c.verdict == Verdict::unstable) return;
+        c.verdict = Verdict::unknown;
+        c.remedy = "try it by hand with " + name + " at its strongest: what it does to the loop is not known";
+        return;
+    }
     if (worst != nullptr)
     {
         if (c.verdict != Verdict::unstable) c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of the linear loop says nothing here
@@ -150,6 +164,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
         return;
     }
     auto tried = "in " + std::to_string (trials->runs) + " trials at " + std::to_string (trials->places) + " places, the tool comes to rest";
+    if (! demand.players.empty()) tried += " without '" + demand.nodes[demand.players.front()].path + "', which plays by itself";
     if (slowest != nullptr) tried += ", or its swing dies slowly: " + letGo (*slowest) + "still moves to and fro " + moves (*slowest);
     if (c.verdict == Verdict::unstable && c.falls)
     {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -437,7 +438,9 @@ private:
 };
 }   // namespace
 
-Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand& demand, std::span<const RoleDevice> devices, const TrialEffort& effort)
+namespace
+{
+Trials tryEach (const Subject& subject, const HandMotion& motion, const Demand& demand, std::span<const RoleDevice> devices, const TrialEffort& effort)
 {
     std::vector<std::unique_ptr<TrialRun>> runs;   // one for each place, so that a cut, or a motor that rang, does not last
     runs.push_back (std::make_unique<TrialRun> (subject, motion, demand, devices, effort));
@@ -451,6 +454,21 @@ Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand&
     for (std::size_t i = 1; i < found.size(); ++i)
         add (found.front(), found[i]);
     return std::move (found.front());
+}
+}   // namespace
+
+Trials tryLoops (const Subject& subject, const HandMotion& motion, const Demand& demand, std::span<const RoleDevice> devices, const TrialEffort& effort)
+{
+    const auto rests = [] (const Trial& t) { return ! t.swings && ! t.is_doubtful && ! t.is_lost; };
+    auto tried = tryEach (subject, motion, demand, devices, effort);
+    if (demand.modulated.empty() || std::ranges::all_of (tried.by_role, rests)) return tried;
+
+    auto quiet = demand;
+    std::ranges::copy (demand.modulated, std::back_inserter (quiet.players));
+    const auto without = tryEach (subject, motion, quiet, devices, effort);
+    for (std::size_t r = 0; r < tried.by_role.size(); ++r)
+        tried.by_role[r].rests_without = ! rests (tried.by_role[r]) && without.by_role[r].is_tried && rests (without.by_role[r]);
+    return tried;
 }
 
 }   // namespace tactus::check

@@ -162,12 +162,12 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                                        .stable_up_to = std::isnan (may_grow) ? 0.0 : may_grow,
                                        .swinging = is_weakest_known && may_grow >= 1.0 ? c.loops.front().node : std::string() });
         };
-        for (const auto& loop : c.loops)
+        for (const auto& loop : c.is_partial ? std::vector<check::Condition::Loop> {} : c.loops)   // what it leaves out may be of these nodes
         {
             const double passive_up_to = std::isnan (loop.passive_up_to) ? c.limit / c.value : loop.passive_up_to;
             addContact (loop.node, passive_up_to, std::isnan (c.may_grow) ? c.may_grow : loop.may_grow);
         }
-        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty())   // the steepest node stands for all
+        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0 && c.loops.empty() && ! c.is_partial)   // the steepest node stands for all
             addContact (steepestOf (demand, c.role), c.limit / c.value, c.may_grow);
         const bool is_broken = c.isBroken();
         if (! c.isKnown())

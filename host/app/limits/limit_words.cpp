@@ -77,7 +77,10 @@ bool isPastPassivity (const check::Condition& c)
     return is_contact && c.verdict == check::Verdict::stable && c.value > c.limit && std::isfinite (c.may_grow);
 }
 
-bool isMostlyDamping (const check::Condition& c) { return c.id == "stiffness" && c.loops.size() < 2 && c.damping > 0.5 * c.value; }
+bool isMostlyDamping (const check::Condition& c)
+{
+    return c.id == "stiffness" && c.loops.size() < 2 && c.damping > 0.5 * c.value && (c.value <= c.limit || c.damping >= c.limit);
+}
 
 std::string limitSentence (const check::Condition& c, const std::string& node, const std::string& device)
 {

@@ -50,13 +50,6 @@ struct Case
         demand.stretches.front().teeth *= factor;
     }
 
-    /// What no damper claims of the damping falls with the stiffness and the period, as behind a hold.predictive.
-    void letDampingFall (double part)
-    {
-        auto& damping = role().slopes.front().damping;
-        if (damping > 1.5 * role().dampers) damping = std::min (damping, role().dampers) + part * (damping - std::min (damping, role().dampers));
-    }
-
     void tickAt (double rate_hz)
     {
         for (auto& s : role().slopes)
@@ -205,13 +198,7 @@ void followAll (const Case& c, std::map<std::string, int>& followed)
             if (known == remedies().end()) RC_FAIL ("not known: " + way);
             auto after = c;
             if (condition.text.find (", without b,") != std::string::npos) after.role().slopes.front().damping = 0.0;   // which `damping` asks for
-            const double stiff = after.role().slopes.front().stiffness, period_s = 1.0 / after.demand.rate_hz;
             known->second (after, std::strtod (way.c_str() + known->first.size(), nullptr));
-            if (condition.id == "stiffness")
-            {
-                const double part = known->first.starts_with ("a rate") ? 1.0 / (after.demand.rate_hz * period_s) : after.role().slopes.front().stiffness / stiff;
-                after.letDampingFall (part);
-            }
             ++followed[known->first];
             const auto all = after.conditions();
             // A force that rises has a stiffness instead of a jump.

@@ -14,6 +14,7 @@
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/limit_watch.hpp>
 #include <host/app/run/views/live_feed.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include "support/waiting.hpp"
 
@@ -381,6 +382,29 @@ TEST_CASE ("the steepest contact of a role has its limits, in multiples of what 
     CHECK (LimitBlock::textOf (passive.contacts[0]).startsWith ("Passive on "));
     CHECK (stable.contacts[0].verdict == check::Verdict::unstable);
     CHECK (LimitBlock::textOf (stable.contacts[0]).startsWith ("It swings on "));
+}
+
+TEST_CASE ("a contact of which something is left out that breaks its own limit is not said to be passive", "[app][limits]")
+{
+    auto g = wall ("\"damping\": 2");
+    SECTION ("a damper that makes a light tool swing")
+    {
+        for (auto& n : g.root.nodes)
+            if (n.name == "wall") n.params["damping"] = 250.0;   // above 2M/T + 4B/3
+        CHECK (idsOf (checked (g)).find ("damping!") != std::string::npos);
+    }
+    SECTION ("a texture that is too steep")
+    {
+        graph::Node ribs;
+        ribs.name = "ribs";
+        ribs.type = "texture.grating";
+        ribs.params = { { "amplitude", 2.0 }, { "spatial_frequency", 1200.0 } };
+        g.root.nodes.push_back (ribs);
+        for (const auto* text : { "hand.position -> ribs.position", "ribs.force -> motor.force" })
+            g.root.wires.push_back (*graph::parseWire (text));
+        CHECK (idsOf (checked (g)).find ("gain!") != std::string::npos);
+    }
+    CHECK (checked (g).contacts.empty());
 }
 
 TEST_CASE ("a check that is stopped finds nothing, and closing does not wait for it", "[app][limits]")
