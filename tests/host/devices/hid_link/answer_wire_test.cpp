@@ -172,7 +172,7 @@ TEST_CASE ("dry wood on an arm that only answers: each torque at its far end is 
     REQUIRE (hand.device);
     ArmBench bench { std::move (hand.device) };
     OnTheBench there { bench };
-    checkForces (bench, there, compiled.plan, true, [] (const Bytes& heard) { return heard != rest; });
+    REQUIRE (checkForces (bench, there, compiled.plan, true, [] (const Bytes& heard) { return heard != rest; }));
 }
 
 TEST_CASE ("a report that pushes waits for the answer to the one before, and one that brings to rest does not", "[wires][hid][safety]")

@@ -88,14 +88,19 @@ TEST_CASE ("dry wood over a wire: each force at its far end is that of the offli
     INFO (test::text (compiled.messages));
     REQUIRE (compiled.plan);
     const auto way = GENERATE (Way { Wire::serial, "cobs" }, Way { Wire::serial, "length" }, Way { Wire::serial, "none" }, Way { Wire::udp, "cobs" });
-    auto hand = makeDevice (*graph.device ("stylus"), {});
-    REQUIRE (hand.device);
     INFO ("wire " << static_cast<int> (way.wire) << ", framing " << way.framing);
-    Bench bench { way.wire, board (way.framing), std::move (hand.device) };
-    OnTheBench there { bench };
-    checkForces (bench, there, compiled.plan, false,
-                 [] (const Bytes& heard) { return numberAt (heard, 8) != 0 || numberAt (heard, 12) != 0 || numberAt (heard, 16) != 0; });
-    CHECK (bench.device->counts().lost == 0);
+    const auto isPush = [] (const Bytes& heard) { return numberAt (heard, 8) != 0 || numberAt (heard, 12) != 0 || numberAt (heard, 16) != 0; };
+    bool has_run = false;
+    for (int tries = 0; tries < 3 && ! has_run; ++tries)   // over UDP, a board that is silent for a second of wall time is gone
+    {
+        auto hand = makeDevice (*graph.device ("stylus"), {});
+        REQUIRE (hand.device);
+        Bench bench { way.wire, board (way.framing), std::move (hand.device) };
+        OnTheBench there { bench };
+        has_run = checkForces (bench, there, compiled.plan, false, isPush);
+        CHECK ((! has_run || bench.device->counts().lost == 0));
+    }
+    CHECK (has_run);
 }
 
 TEST_CASE ("a device on a wire that is unplugged comes back, with another name, and its force starts from zero", "[wires][hid][safety]")
