@@ -52,13 +52,6 @@ struct Contact
         return work (force, size());
     }
 
-    /// The deepest row of the recording in this contact. The touches that were added are no rows of it.
-    std::size_t deepestRow() const
-    {
-        const bool has_touch = ! d.empty() && d.front() == 0.0 && f.front() == 0.0;
-        return first_row + deepest() - (has_touch ? 1 : 0);
-    }
-
     std::size_t deepest() const { return static_cast<std::size_t> (std::ranges::max_element (d) - d.begin()); }
 };
 
@@ -91,11 +84,10 @@ void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside
     contact.t.push_back (is_between ? then : t[outside] + d[outside] / (d[outside] - d[inside]) * (t[inside] - t[outside]));
 }
 
-/// `row`: the deepest one; by default, of the whole recording.
-Result<Contact> contactOf (const RecordedLoop& loop, std::optional<std::size_t> row = {})
+Result<Contact> contactOf (const RecordedLoop& loop)
 {
     const auto& d = loop.depth;
-    const auto deepest = row.value_or (static_cast<std::size_t> (std::ranges::max_element (d) - d.begin()));
+    const auto deepest = static_cast<std::size_t> (std::ranges::max_element (d) - d.begin());
     if (! (d[deepest] > 0.0)) return detail::fitError ("fit/no_contact", "the depth is never above 0", "give the depth in m, positive inside the object");
     auto first = deepest, last = deepest;
     while (first > 0 && d[first - 1] > 0.0)
@@ -206,26 +198,20 @@ double depthVariance (const Contact& c)
     return sum / std::max (1.0, rows);
 }
 
-/// The rows of a contact in a recording, as a smooth curve with this weight goes through them.
-void smoothRows (RecordedLoop& loop, const Contact& c, double weight)
-{
-    const Eigen::Map<const Eigen::VectorXd> rows (&loop.depth[c.first_row], static_cast<Eigen::Index> (c.last_row - c.first_row + 1));
-    std::ranges::copy (detail::smoothed (rows, weight), &loop.depth[c.first_row]);
-}
-
-/// Noise of the depth would be in the speed and in the way at the same time, so that a weak damping would have the recorded area. So a noisy depth is taken
-/// from a smooth curve, if the rows of the contact are evenly spaced. The weight of the curve is 0 if the depth stays as it is.
-detail::SmoothColumn smoothDepth (const RecordedLoop& loop, const Contact& c)
+/// Noise of the depth would be in the speed and in the way at the same time, so that a weak damping would have the recorded area. If the rows of the contact
+/// are evenly spaced, takes their depth from a smooth curve; then returns its noise, in m.
+std::optional<double> smoothDepth (RecordedLoop& loop, const Contact& c)
 {
     constexpr double evenly = 0.01, nothing = 3e-5, followed = 1.5;
     const auto first = c.first_row, rows = c.last_row - first + 1;
     const double spacing = (loop.time[c.last_row] - loop.time[first]) / static_cast<double> (rows - 1), variance = depthVariance (c);
     for (std::size_t i = first; i < c.last_row; ++i)
-        if (std::abs (loop.time[i + 1] - loop.time[i] - spacing) > evenly * spacing) return {};
-    if (! (std::sqrt (variance) > nothing * c.d[c.deepest()])) return {};
-    auto curve = detail::smoothed (Eigen::Map<const Eigen::VectorXd> (&loop.depth[first], static_cast<Eigen::Index> (rows)));
-    if (curve.noise * curve.noise > followed * followed * variance) return {};   // it cuts corners
-    return curve;
+        if (std::abs (loop.time[i + 1] - loop.time[i] - spacing) > evenly * spacing) return std::nullopt;
+    if (! (std::sqrt (variance) > nothing * c.d[c.deepest()])) return std::nullopt;
+    const auto curve = detail::smoothed (Eigen::Map<const Eigen::VectorXd> (&loop.depth[first], static_cast<Eigen::Index> (rows)));
+    if (curve.noise * curve.noise > followed * followed * variance) return std::nullopt;   // it cuts corners
+    std::ranges::copy (curve.values, &loop.depth[first]);
+    return curve.noise;
 }
 
 /// Variances by the errors of the depth.
@@ -234,18 +220,17 @@ struct DepthErrors
     double speed = 0.0, mass = 0.0;   // of the speed at the touch, in (m/s)^2, and of the mass by the times, in kg^2
 };
 
-/// The errors of the depth matter at the touches, where the speeds come from a few rows each. `curve`: from which the depth is taken; its weight is 0 if there
-/// is none.
-DepthErrors depthErrors (const RecordedLoop& loop, const Contact& c, const detail::SmoothColumn& curve)
+/// The errors of the depth matter at the touches, where the speeds come from a few rows each.
+DepthErrors depthErrors (const RecordedLoop& loop, const Contact& c)
 {
-    const auto reach = rowsOfTouch (c) + (curve.weight > 0.0 ? static_cast<std::size_t> (4.0 * curve.rows) : 0);   // a row moves the curve around it
+    const auto reach = rowsOfTouch (c);
     const double variance = depthVariance (c), step = std::sqrt (variance);
     if (! (step > 0.0)) return {};
+    auto moved = loop;
     const auto estimatesWith = [&] (std::size_t row, double by) {
-        auto moved = loop;
-        moved.depth[row] += by;
-        if (curve.weight > 0.0) smoothRows (moved, c, curve.weight);
-        auto contact = contactOf (moved, c.deepestRow());
+        moved.depth[row] = loop.depth[row] + by;
+        auto contact = contactOf (moved);
+        moved.depth[row] = loop.depth[row];
         if (! contact) return Eigen::Array2d { inf, inf };
         setRatesByTime (*contact);
         return Eigen::Array2d { contact->rate.front(), massByTime (*contact) };
@@ -507,17 +492,10 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     auto found = contactOf (loop);
     if (! found) return found.error();
     const bool has_times = ! loop.time.empty();
+    auto smooth = loop;
+    const auto noise = has_times ? smoothDepth (smooth, *found) : std::nullopt;
     const auto recorded = *found;
-    auto curve = has_times ? smoothDepth (loop, recorded) : detail::SmoothColumn {};
-    if (curve.weight > 0.0)
-    {
-        auto smooth = loop;
-        smoothRows (smooth, recorded, curve.weight);
-        if (auto again = contactOf (smooth, recorded.deepestRow()))
-            found = std::move (again);
-        else
-            curve.weight = 0.0;
-    }
+    if (auto again = noise ? contactOf (smooth) : found) found = std::move (again);
     auto& x = *found;
 
     if (has_times) setRatesByTime (x);
@@ -559,10 +537,10 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* cou
     if (detail::isCancelled (course)) return detail::fitCancelled();
     detail::setShare (course, 0.8);
     fit.recorded = x.f;
-    const auto errors = has_times ? depthErrors (loop, recorded, curve) : DepthErrors {};
+    const auto errors = has_times ? depthErrors (loop, recorded) : DepthErrors {};
     fit.speed_error = std::sqrt (errors.speed);
-    if (curve.weight > 0.0)
-        fit.report.notes.push_back ("the depth has noise of " + roundedText (1e6 * curve.noise, 2)
+    if (noise)
+        fit.report.notes.push_back ("the depth has noise of " + roundedText (1e6 * *noise, 2)
                                     + " um rms, so it is smoothed; the intervals leave out slower errors of the depth");
     reportShock (x, law, estimates_mass ? std::optional (errors.mass) : std::nullopt, fit);
     if (detail::isCancelled (course)) return detail::fitCancelled();
