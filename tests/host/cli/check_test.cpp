@@ -44,7 +44,8 @@ TEST_CASE ("`tactus check` says which condition a wall breaks, by how much, and 
     CHECK (ran.status == 1);
     CHECK (ran.out.find ("tip on numbers: M 0.075 kg, B 1 N*s/m (guess)") != std::string::npos);
     CHECK (ran.out.find ("unstable    stiffness") != std::string::npos);
-    CHECK (ran.out.find ("whatever the hand does: a stiffness of at most 2000 N/m, a rate of at least 50000 Hz") != std::string::npos);
+    CHECK (ran.out.find ("whatever the hand does: along the force of 'wall' a stiffness of at most 2000 N/m, a rate of at least 50000 Hz")
+           != std::string::npos);
     CHECK (ran.out.find ("unknown     force_resolution") != std::string::npos);
 }
 

@@ -73,6 +73,7 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
     }
     SECTION ("frozen, and then not: the force stays away")
     {
+        const auto enabled = arm.enables.load();   // on a busy computer, the arm may have been opened twice
         program.signal (SIGSTOP);
         CHECK (eventually ([&] {
             const auto last = arm.commanded_at.load();
@@ -87,7 +88,7 @@ TEST_CASE ("a program that is killed, frozen or ended leaves an arm of Force Dim
         const auto forces = arm.forces.load();
         CHECK (test::soon ([&] { return arm.forces > forces + 100; }));
         CHECK (played.lab.acting() == 0.0);
-        CHECK (arm.enables == 1);
+        CHECK (arm.enables == enabled);
         static_cast<void> (program.stop());
         CHECK (arm.stopped_before_close == 1);
     }
