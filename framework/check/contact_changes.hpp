@@ -38,7 +38,7 @@ struct Dampers
     bool leaveUnclaimed (double damping) const noexcept { return damping > 1.5 * claimed; }
 };
 
-/// What helps if b is large though the graph has no damper, or smaller ones.
+/// The remedy for a b that is much larger than what the dampers of the graph claim.
 inline constexpr const char* smaller_b = "a smaller b (that no damper of the graph claims and a ceiling or a filter or a hold.predictive "
                                          "may cause)";
 
