@@ -77,6 +77,7 @@ public:
 
 private:
     void documentChanged() override;
+    void documentLeft() override { document.keepUi (uiToWrite()); }
     std::string knownHash() const;
     AutosavedDocument autosaved (bool is_changed, std::string text) const;   ///< the document as it is now
     Json uiToWrite() const;

@@ -57,6 +57,7 @@ void Document::addWindowStep (const std::string& name, std::function<void()> und
 
 void Document::open (graph::Graph g, Source source, const std::string& step)
 {
+    notify ([] (Listener& l) { l.documentLeft(); });
     auto saved = source.is_changed ? std::string() : writeGraph (g);
     const auto to = std::make_shared<const graph::Graph> (std::move (g));
     (void)edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } }, graph::Step::of_another_graph);   // cannot be refused
@@ -80,6 +81,7 @@ void Document::beginHistory()
 void Document::goTo (std::size_t position)
 {
     const auto before = edits.position();
+    if (origins[std::min (position, origins.size() - 1)] != origins[before]) notify ([] (Listener& l) { l.documentLeft(); });
     std::vector<std::function<void()>> of_window;
     while (edits.position() > position && edits.undo())
         if (edits.position() < window_steps.size()) of_window.push_back (window_steps[edits.position()].first);

@@ -28,6 +28,7 @@ public:
     {
         virtual ~Listener() = default;
         virtual void documentChanged() = 0;                ///< after an edit, an undo, or when another graph is opened
+        virtual void documentLeft() {}                     ///< before another graph is opened, or an undo or a redo brings another one back
         virtual void documentRefused (const Message&) {}   ///< called when an edit was refused; nothing has changed
 
         /// The catalogue has other node types now. documentChanged() follows; after both, nothing may point into the earlier types, because
@@ -59,6 +60,10 @@ public:
 
     /// Identifies the open graph: changes when another graph is opened, and changes back when that is undone.
     const void* identity() const noexcept { return &origin(); }
+
+    /// The `ui` of the graph as panels show it when the graph is opened: as it was when the graph was left for another one, or else as in the graph.
+    Json ui() const { return origin().ui ? *origin().ui : graph().extra.value ("ui", Json()); }
+    void keepUi (Json ui) { origin().ui = std::move (ui); }   ///< call it from documentLeft()
 
     /// Returns false if the edit was refused; the listeners get the reason.
     bool perform (graph::Command, graph::Step = graph::Step::own);
@@ -110,7 +115,8 @@ private:
     struct Origin
     {
         Source source;
-        std::string saved;   // the text of the graph in its file
+        std::string saved;           // the text of the graph in its file
+        std::optional<Json> ui {};   // if the graph was left
     };
 
     /// Notifies the listeners. A listener may remove itself or others while it is being notified.

@@ -94,12 +94,11 @@ Json writeScopes (const std::vector<ScopeSpec>& scopes)
     return all;
 }
 
-std::optional<std::vector<ScopeSpec>> readScopes (const graph::Graph& graph)
+std::optional<std::vector<ScopeSpec>> readScopes (const Json& ui)
 {
-    const auto ui = graph.extra.find ("ui");
-    if (ui == graph.extra.end() || ! ui->is_object()) return std::nullopt;
-    const auto list = ui->find ("scopes");
-    if (list == ui->end() || ! list->is_array()) return std::nullopt;
+    if (! ui.is_object()) return std::nullopt;
+    const auto list = ui.find ("scopes");
+    if (list == ui.end() || ! list->is_array()) return std::nullopt;
     std::vector<ScopeSpec> all;
     for (const auto& json : *list)
         if (auto s = readScope (json); s && all.size() < most_scopes_read) all.push_back (std::move (*s));

@@ -11,7 +11,7 @@ namespace tactus::host
 /// The scopes that the user has made for a graph, as its file keeps them: the list "scopes" under `ui`. Cursors and zoomed ranges are not kept.
 Json writeScopes (const std::vector<ScopeSpec>&);
 
-/// Reads them. Empty if the graph has no such list. Entries that are no scopes are left out, and numbers out of range are replaced.
-std::optional<std::vector<ScopeSpec>> readScopes (const graph::Graph&);
+/// Reads them from `ui`. Empty if it has no such list. Entries that are no scopes are left out, and numbers out of range are replaced.
+std::optional<std::vector<ScopeSpec>> readScopes (const Json& ui);
 
 }   // namespace tactus::host

@@ -157,7 +157,7 @@ void ScopePanel::openAdders()
 void ScopePanel::showOwn()
 {
     listPorts();
-    const auto kept = readScopes (document.graph());
+    const auto kept = readScopes (document.ui());
     restore (kept ? *kept : suggestedScopes (document.graph(), catalogue));
     suggested.reset();
     if (kept) return;

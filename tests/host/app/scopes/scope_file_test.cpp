@@ -13,11 +13,11 @@ using tactus::host::test::DeskRig;
 
 namespace
 {
-graph::Graph withScopes (Json scopes)
+Json withScopes (Json scopes)
 {
-    graph::Graph g;
-    g.extra["ui"]["scopes"] = std::move (scopes);
-    return g;
+    Json ui;
+    ui["scopes"] = std::move (scopes);
+    return ui;
 }
 }   // namespace
 
@@ -44,15 +44,15 @@ TEST_CASE ("scopes: what a file keeps of them is read as it was written", "[app]
     const std::vector<ScopeSpec> all { over, time, spectrum, tool };
     CHECK (readScopes (withScopes (writeScopes (all))) == all);
     CHECK (readScopes (withScopes (Json::array())) == std::vector<ScopeSpec> {});
-    CHECK_FALSE (readScopes (graph::Graph {}));
+    CHECK_FALSE (readScopes (Json()));
 }
 
 TEST_CASE ("scopes: whatever a file says about them, what is read can be shown", "[app][scopes]")
 {
-    const auto g = withScopes (*Json::tryParse (R"([ 3, {}, { "kind": "radar" },
+    const auto ui = withScopes (*Json::tryParse (R"([ 3, {}, { "kind": "radar" },
         { "kind": "time", "seconds": -1e300, "share": 1e300, "component": 77, "ports": [ 1, "", "no.port" ], "edge": "sideways", "level": "high" },
         { "kind": "spectrogram", "up_to_hz": -5, "ports": "motor.force", "decibels": 3 }, { "kind": "tool", "node": [] } ])"));
-    const auto scopes = readScopes (g);
+    const auto scopes = readScopes (ui);
     REQUIRE (scopes);
     REQUIRE (scopes->size() == 3);
     CHECK (scopes->front().seconds == ScopeSpec::least_s);
@@ -61,7 +61,7 @@ TEST_CASE ("scopes: whatever a file says about them, what is read can be shown",
 
     Bench b;
     auto graph = b.document.graph();
-    graph.extra["ui"]["scopes"] = g.extra.at ("ui").at ("scopes");
+    graph.extra["ui"]["scopes"] = ui.at ("scopes");
     b.document.open (graph, {}, "open");
     b.panel->showOwn();
     CHECK (b.panel->shown().size() == 3);
@@ -76,7 +76,7 @@ TEST_CASE ("the scopes that the user adds, closes or sets are saved with the gra
     std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
     const auto kinds = [] (const graph::Graph& g) {
         std::vector<ScopeKind> all;
-        for (const auto& s : readScopes (g).value_or (std::vector<ScopeSpec> {}))
+        for (const auto& s : readScopes (g.extra.value ("ui", Json())).value_or (std::vector<ScopeSpec> {}))
             all.push_back (s.kind);
         return all;
     };
@@ -90,7 +90,7 @@ TEST_CASE ("the scopes that the user adds, closes or sets are saved with the gra
             REQUIRE (r.document.save (file, written).empty());
         };
         save();
-        CHECK_FALSE (readScopes (loadGraph (file).graph));
+        CHECK_FALSE (readScopes (loadGraph (file).graph.extra.value ("ui", Json())));
         scopes.add (ScopeKind::spectrum);
         save();
         CHECK (kinds (loadGraph (file).graph) == std::vector { ScopeKind::time, ScopeKind::over, ScopeKind::energy, ScopeKind::spectrum });

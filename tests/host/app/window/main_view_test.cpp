@@ -179,6 +179,26 @@ TEST_CASE ("in safe mode, and after a recovery without running, no message start
     CHECK (o.view->run().isWanted());
 }
 
+TEST_CASE ("undo and redo of opening another graph bring back the scopes of each, saved or not", "[app][files][scopes]")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    auto& scopes = o.view->part<ScopePanel>();
+    const auto of_wood = scopes.shown().size();
+    scopes.add (ScopeKind::spectrum);
+    o.press ("ctrl + n");
+    REQUIRE (o.view->document().graph().root.nodes.empty());
+    scopes.add (ScopeKind::tool);
+    const auto of_new = scopes.shown().size();
+    o.press ("ctrl + z");
+    REQUIRE (o.view->document().graph().name == "Dry wood");
+    CHECK (scopes.shown().size() == of_wood + 1);
+    CHECK (scopes.shown().back()->shown().kind == ScopeKind::spectrum);
+    o.press ("ctrl + y");
+    CHECK (scopes.shown().size() == of_new);
+    CHECK (scopes.shown().back()->shown().kind == ScopeKind::tool);
+}
+
 TEST_CASE ("while the scene is enlarged, keys do not edit the hidden canvas")
 {
     Opened o;
