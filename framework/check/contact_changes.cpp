@@ -113,7 +113,7 @@ std::string passiveRemedy (std::span<const Contact> broken, double load, const D
     {
         rate = std::max (rate, passiveRate (contact, dampers, period_s));
         const auto along = contact.node.empty() ? std::string() : "along the force of '" + contact.node + "' ";
-        each += (each.empty() ? "" : ", and ") + along + passiveWay (contact, dampers, period_s);
+        each += (each.empty() ? "" : " and ") + along + passiveWay (contact, dampers, period_s);
     }
     std::vector<std::string> ways;
     const bool falls = dampers.are_predicted && std::ranges::any_of (broken, [&] (const Contact& c) { return dampers.leaveUnclaimed (c.damping); });

@@ -124,11 +124,11 @@ private:
         }
         c.role = nameOf (member);
         c.text += " at " + text (at->t_s, "s");
-        std::vector<std::string> ways { "all stiffnesses and dampings " + text (threeDigits (1.0 / most, false), "times") + " as large" };
+        std::vector<std::string> ways { "all stiffnesses and dampings " + text (roundedBound (1.0 / most, false), "times") + " as large" };
         // A damper does not become weaker at a higher rate.
         if (const double room = 1.0 - most_excess, times = (most - most_excess) / room; room > 0.0 && canAllTick (times * demand.rate_hz))
-            ways.push_back ("a rate " + text (threeDigits (times, true), "times") + " as high");
-        ways.push_back ("devices with " + text (threeDigits (most, true), "times") + " the damping");
+            ways.push_back ("a rate " + text (roundedBound (times, true), "times") + " as high");
+        ways.push_back ("devices with " + text (roundedBound (most, true), "times") + " the damping");
         auto remedy = anyOf (ways);
         if (const auto node = steepestNode (demand, at->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decideContact (c, most, 1.0, remedy);

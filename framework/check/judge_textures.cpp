@@ -17,7 +17,7 @@ double betterThan (double factor) noexcept { return std::max (1.0, Factors::bett
 /// The factor that the remedy aims at: the recommended one if the condition already holds with `factor`.
 double wanted (double factor, double value, double limit) noexcept { return factor * value < limit ? std::max (factor, Factors::better) : factor; }
 
-std::string slower (double speed) { return "slower than " + text (threeDigits (speed, false), "m/s"); }
+std::string slower (double speed) { return "slower than " + text (roundedBound (speed, false), "m/s"); }
 
 /// Sets the condition `scanning` for ridges of the frequency k, in 1/m, that a hand crosses at v, in m/s. `other`: a further remedy, if there is one.
 void judgeScanning (Condition& c, double k, double v, double period_s, const DeviceNumbers& numbers, double alpha, std::string other)
@@ -112,7 +112,7 @@ private:
     }
 
     /// A is what reaches the hand, which may be less than the amplitude that is set at the node. So a remedy is a factor.
-    static std::string moreThan (double factor) { return "more than " + text (threeDigits (factor, true), "times"); }
+    static std::string moreThan (double factor) { return "more than " + text (roundedBound (factor, true), "times"); }
 
     /// The chapter bounds A k, "proportional to the slope". The slope itself is 2 pi A k, and the hold bounds it like any stiffness.
     void gain()
@@ -137,7 +137,7 @@ private:
         if (! numbers.first_mode) return unknown (c, v * k, "first mode");
         const double limit = numbers.first_mode->value;
         decide (c, v * k, limit, Strict::yes, 1.0,
-                "strokes " + slower (limit / k) + ", a texture.antialias with f_max " + text (threeDigits (limit, false), "Hz")
+                "strokes " + slower (limit / k) + ", a texture.antialias with f_max " + text (roundedBound (limit, false), "Hz")
                     + ", or a device whose first mode is " + above (v * k, "Hz"));
     }
 };

@@ -5,12 +5,10 @@
 #include "sampled_loop.hpp"
 
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/rounded_bound.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <optional>
 #include <type_traits>
@@ -28,25 +26,10 @@ inline std::string text (double v, std::string_view unit) { return text (v) + " 
 
 inline constexpr double slope_error = 1e-5;   // relative error of a measured slope
 
-/// The nearest number of three digits that is not below v, or not above it, so that who follows the text has done enough. `slack`: relative.
-inline double threeDigits (double v, bool is_up, double slack = 0.0)
-{
-    char buffer[32];
-    std::snprintf (buffer, sizeof buffer, "%.2e", v);
-    const double nearest = std::strtod (buffer, nullptr);
-    const auto* exponent = std::strchr (buffer, 'e');
-    if (exponent == nullptr || (is_up ? nearest >= v * (1.0 - slack) : nearest <= v * (1.0 + slack))) return nearest;   // also for inf
-    double step = 0.01;
-    const auto power = std::strtol (exponent + 1, nullptr, 10);
-    for (long i = 0; i < std::abs (power); ++i)
-        step *= power > 0 ? 10.0 : 0.1;
-    return is_up ? nearest + step : nearest - step;
-}
-
-inline std::string atLeast (double v, std::string_view unit) { return "at least " + text (threeDigits (v, true, 0.5 * slope_error), unit); }
-inline std::string atMost (double v, std::string_view unit) { return "at most " + text (threeDigits (v, false, 0.5 * slope_error), unit); }
-inline std::string above (double v, std::string_view unit) { return "above " + text (threeDigits (v, true), unit); }
-inline std::string below (double v, std::string_view unit) { return "below " + text (threeDigits (v, false), unit); }
+inline std::string atLeast (double v, std::string_view unit) { return "at least " + text (roundedBound (v, true, 0.5 * slope_error), unit); }
+inline std::string atMost (double v, std::string_view unit) { return "at most " + text (roundedBound (v, false, 0.5 * slope_error), unit); }
+inline std::string above (double v, std::string_view unit) { return "above " + text (roundedBound (v, true), unit); }
+inline std::string below (double v, std::string_view unit) { return "below " + text (roundedBound (v, false), unit); }
 
 /// "a, b, or c". Each of them would help alone.
 inline std::string anyOf (const std::vector<std::string>& ways)

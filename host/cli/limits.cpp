@@ -18,6 +18,7 @@
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/rounded_bound.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,11 +48,12 @@ std::string padded (std::string text, std::size_t width)
 
 std::string describe (const std::optional<Range>& r, bool is_least)
 {
+    constexpr double slack = 5e-6;   // of the search for the ends
     if (! r) return "nowhere";
-    const auto least = (r->is_low_known ? "at least " : "unknown below ") + number (r->low);
+    const auto least = (r->is_low_known ? "at least " : "unknown below ") + number (roundedBound (r->low, true, slack));
     if (is_least) return least;
     if (std::isinf (r->high)) return r->is_lowest ? "any" : least;
-    return (r->is_high_known ? "at most " : "unknown above ") + number (r->high) + (r->is_lowest ? "" : ", " + least);
+    return (r->is_high_known ? "at most " : "unknown above ") + number (roundedBound (r->high, false, slack)) + (r->is_lowest ? "" : ", " + least);
 }
 
 void print (const LimitsReport& report, const LimitsCommandOptions& options)

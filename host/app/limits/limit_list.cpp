@@ -14,6 +14,7 @@
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/rounded_bound.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,13 +78,6 @@ std::string detailsOf (const check::Condition& c, const std::string& device, boo
     if (! is_broken && ! isPastPassivity (c)) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
     return unitShown (text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")"
                       + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString()));
-}
-
-/// Two digits, not above the number.
-std::string roundedDown (double v)
-{
-    const double unit = v > 0.0 ? std::pow (10.0, std::floor (std::log10 (v)) - 1.0) : 1.0;
-    return roundedText (std::floor (v / unit) * unit, 2);
 }
 
 /// The paths of the nodes that push the device of a role.
@@ -196,7 +190,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                 if (! (room < 1.0)) continue;
                 auto other = c;
                 other.may_grow = may_grow;
-                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), roundedDown (room)).toStdString();
+                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), roundedText (roundedBound (room, false), 3)).toStdString();
                 list.limits.push_back ({ is_broken, std::string (c.id), { node }, limitSentence (other, node, device), remedy, details });
             }
         }

@@ -123,7 +123,7 @@ TEST_CASE ("who follows the remedies of a wall and a friction makes the contact 
         if (follow (changed, c.remedy))
         {
             ++followed;
-            both_broken += c.remedy.find (", and along the force of '") != std::string::npos ? 1 : 0;
+            both_broken += c.remedy.find (" and along the force of '") != std::string::npos ? 1 : 0;
             const auto after = changed.judged();
             if (after.value > rounding * after.limit) RC_FAIL (c.remedy + " gives " + std::to_string (after.value) + ": " + after.text);
         }
