@@ -121,7 +121,7 @@ public:
     {
         const auto& look = lookOf (*this);
         const auto colour = stops ? look.theme().stop : look.theme().accent;
-        const float lit = over ? 1.15f : 1.0f, opacity = stops || ! isTimerRunning() ? 1.0f : 0.4f;
+        const float lit = over ? 1.15f : 1.0f, opacity = stops || (isEnabled() && ! isTimerRunning()) ? 1.0f : 0.4f;
         g.setColour (colour.withMultipliedBrightness (down ? 0.8f : lit).withMultipliedAlpha (opacity));
         g.fillRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f);
         g.setColour (look.theme().is_dark && ! stops ? look.theme().canvas : juce::Colours::white);
