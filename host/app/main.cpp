@@ -27,13 +27,15 @@ namespace tactus::host
 
 namespace
 {
-/// Maps large blocks, such as those of a mesh, one by one. A run locks the memory of the program, and locked memory goes back to the system only in
-/// mapped blocks. By default, the C library joins them with others after the first one was freed.
-void mapLargeBlocks() noexcept
+/// Tells the C library when it gives memory back to the system. A run locks the memory of the program, so new memory is costly: the system fills it
+/// with zeros at once. Large blocks, such as those of a mesh, are mapped one by one and go back when they are freed. What is between the small ones
+/// stays: a drag takes and frees some 100 kB for each picture.
+void setMemoryLimits() noexcept
 {
 #ifdef __GLIBC__
-    constexpr int large = 1 << 20;   // bytes
+    constexpr int large = 1 << 20, kept = 16 << 20;   // bytes
     ::mallopt (M_MMAP_THRESHOLD, large);
+    ::mallopt (M_TRIM_THRESHOLD, kept);
 #endif
 }
 
@@ -85,7 +87,7 @@ public:
 
     void initialise (const juce::String&) override
     {
-        mapLargeBlocks();
+        setMemoryLimits();
         if (const auto begun = caught ({}, [this] { begin(); }); ! begun) giveUp (begun.error());
     }
 
