@@ -22,11 +22,13 @@ void sleepUntil (std::chrono::steady_clock::time_point until) noexcept
         ~Timer() { ::CloseHandle (handle); }
     };
     thread_local const Timer timer;
+    const auto left = std::max (std::chrono::steady_clock::duration {}, until - std::chrono::steady_clock::now());
     LARGE_INTEGER due;   // negative: from now on, in 100 ns
-    due.QuadPart = -std::max<LONGLONG> (0, (until - std::chrono::steady_clock::now()) / std::chrono::nanoseconds (100));
+    due.QuadPart = -(left / std::chrono::nanoseconds (100));
     if (timer.handle != nullptr && ::SetWaitableTimer (timer.handle, &due, 0, nullptr, nullptr, FALSE) != 0)
     {
-        ::WaitForSingleObject (timer.handle, INFINITE);
+        constexpr DWORD more_ms = 100;   // a timer that never fires must not keep the thread that drives a motor
+        ::WaitForSingleObject (timer.handle, static_cast<DWORD> (std::chrono::ceil<std::chrono::milliseconds> (left).count()) + more_ms);
         return;
     }
 #endif

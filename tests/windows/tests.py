@@ -28,7 +28,7 @@ def files_of(program, environment):
 def run_file(program, file, environment):
     """The cases of a file that run, and those that pass; and what the program prints."""
     without = "".join('~"' + re.sub(r"([\\,\[])", r"\\\1", name) + '"' for name in LEFT_OUT.get(file, {}))   # as Catch2 reads a name
-    command = [*program, "--filenames-as-tags", f"[#{file}]~[.]{without}"]
+    command = [*program, "--filenames-as-tags", f"[#{file}]~[.]{without}", "--durations", "yes"]   # names the last case that ended
     if file in FEWER:
         environment = {**environment, "TACTUS_ROUNDS": str(FEWER[file])}
     try:
