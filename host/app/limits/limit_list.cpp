@@ -190,7 +190,8 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
                 if (! (room < 1.0)) continue;
                 auto other = c;
                 other.may_grow = may_grow;
-                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), roundedText (roundedBound (room, false), 3)).toStdString();
+                const auto most = roundedText (roundedBound (room, false), 3);
+                const auto remedy = filled (TRANS ("at most %1 times its stiffness and virtual damping"), most).toStdString();
                 list.limits.push_back ({ is_broken, std::string (c.id), { node }, limitSentence (other, node, device), remedy, details });
             }
         }

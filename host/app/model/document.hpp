@@ -135,7 +135,7 @@ private:
 
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
-    graph::History edits;                                                                // accepts edits with errors: the window shows them as problems, and offers to mend them
+    graph::History edits;                                                                // accepts edits with errors, which the window shows as problems
     std::vector<std::shared_ptr<Origin>> origins;                                        // one per position of the history
     std::vector<std::pair<std::function<void()>, std::function<void()>>> window_steps;   // one per step of the history: how to undo and redo it
     std::vector<Listener*> listeners;
