@@ -44,7 +44,7 @@ public:
         m4
     };
 
-    /// The same on a board in QEMU: compiled with arm-none-eabi-g++. For each graph, also says how many bytes it takes and how many
+    /// The same on a board in QEMU, ten graphs at a time: compiled with arm-none-eabi-g++. For each graph, also says how many bytes it takes and how many
     /// instructions a tick takes on average.
     std::string runOn (Board, const std::string& flags) const;
 
@@ -63,7 +63,7 @@ private:
     std::set<std::string> sources;
     std::vector<std::string> stems, classes;
 
-    void writeMain (const std::string& head, const std::string& per_graph) const;
+    void writeMain (const std::string& head, const std::string& per_graph, std::size_t first = 0, std::size_t count = static_cast<std::size_t> (-1)) const;
     bool succeeds (const std::string& command) const;
     bool compile (const std::string& compiler, std::string& objects) const;
     std::string compileAndRun (const std::string& compiler, const std::string& link, const std::string& run) const;
