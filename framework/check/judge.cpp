@@ -452,8 +452,9 @@ private:
         closeLoops (c, places, radius, rests, [&] (const Slope* s) { return falls (*s); });
         if (c.verdict == Verdict::broken) return;
         const auto best = bestChange (c, places);
-        if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < 1.0 && ! (c.may_grow > 0.0))) return;
-        if (c.verdict == Verdict::unstable && best->room < 1.0)   // no single change suffices
+        constexpr double enough = 1.02;   // the slopes along one motion are known to 1 %
+        if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < enough && ! (c.may_grow > 0.0))) return;
+        if (c.verdict == Verdict::unstable && best->room < enough)   // no single change suffices
         {
             const double weakest = c.loops.empty() ? c.may_grow : std::min (c.may_grow, c.loops.front().may_grow);
             c.remedy = atMost (weakest, "times") + " this stiffness and virtual damping, by the linear loop; " + c.remedy;

@@ -70,11 +70,13 @@ private:
     {
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speed();
         auto& c = add ("scanning", "alpha k v T < 1", "1", wave() + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
+        const auto guards = std::ranges::count (demand.nodes, "texture.antialias", &MeasuredNode::type);
         const auto guard = std::ranges::find (demand.nodes, "texture.antialias", &MeasuredNode::type);
-        const bool has_guard = guard != demand.nodes.end(), is_assumed = options.speed > t.speed;
-        if (has_guard && is_assumed) c.text += ", as if it were still felt at this speed, whatever '" + guard->path + "' fades out";
-        const auto other = ! has_guard ? std::string ("a texture.antialias") : is_assumed ? ""
-                                                                                          : "a lower f_max of '" + guard->path + "' if it fades this texture";
+        const auto fades = guards == 1 ? "'" + guard->path + "'" : std::string ("a texture.antialias");   // of several, it is not known which fades this one
+        const bool is_assumed = options.speed > t.speed;
+        if (guards > 0 && is_assumed) c.text += ", as if it were still felt at this speed, whatever " + fades + " fades out";
+        const auto other = guards == 0 ? fades : is_assumed ? std::string()
+                                                            : "a lower f_max of " + fades + " if it fades this texture";
         judgeScanning (c, k, v, period_s, numbers, alpha, other);
     }
 

@@ -105,6 +105,7 @@ std::string doubt (const Demand& demand, std::span<const RoleDemand* const> role
 void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<const RoleDemand* const> roles, bool turns, bool holds_as_claimed)
 {
     if (c.verdict == Verdict::unknown) return;
+    const auto of_slopes = c.verdict == Verdict::passive ? c.text + "; the slopes alone are passive" : std::string();
     if (c.verdict == Verdict::passive)
     {
         bool is_here = false;
@@ -140,6 +141,7 @@ void weigh (const Demand& demand, const Trials* trials, Condition& c, std::span<
     {
         if (c.verdict != Verdict::unstable) c.may_grow = std::numeric_limits<double>::quiet_NaN();   // that of the linear loop says nothing here
         c.verdict = Verdict::unstable;
+        if (! of_slopes.empty()) c.text = of_slopes;
         c.text = letGo (*worst) + (worst->runs_away ? "runs away" : "still moves to and fro " + moves (*worst)) + "; " + c.text;
         if (c.remedy.empty()) c.remedy = "softer or weaker forces at this place, or a device with more damping";
         return;

@@ -66,8 +66,8 @@ void print (const LimitsReport& report, const LimitsCommandOptions& options)
     const double B = contact.damping();
     std::cout << printableName (options.graph) << " at " << numberText (contact.rate()) << " Hz, " << printableName (device.role) << " on "
               << printableName (device.name) << ": " << check::describe (device.numbers) << '\n';
-    std::cout << "the heaviest contact" << (contact.axis().empty() ? "" : " of the axis " + quote (contact.axis())) << ", "
-              << (contact.node().empty() ? "" : quote (contact.node()) + " ") << "at " << number (contact.time()) << " s: stiffness "
+    std::cout << "the heaviest contact" << (contact.axis().empty() ? "" : " of the axis " + quote (contact.axis())) << " is at " << number (contact.time())
+              << " s" << (contact.node().empty() ? "" : ", steepest along the force of " + quote (contact.node())) << ": stiffness "
               << number (here.stiffness) << " N/m, virtual damping " << number (here.damping) << " N*s/m; "
               << (here.passive (B) < 0.0 ? "passive"
                   : here.rests() < 0.0   ? "stable, but not passive"

@@ -75,7 +75,7 @@ TEST_CASE ("the remedy of the weakest node holds with all nodes", "[check]")
         if (at != c.remedy.npos)
             CHECK (std::strtod (c.remedy.c_str() + at + no_delay.size(), nullptr) == Approx (std::isnan (now.may_grow) ? 0.0 : now.may_grow).epsilon (5e-3));
         else
-            CHECK (now.may_grow < 1.0);   // no single change suffices
+            CHECK (now.may_grow < 1.02);   // no single change clearly suffices
     }
 }
 

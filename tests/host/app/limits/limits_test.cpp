@@ -96,6 +96,8 @@ TEST_CASE ("a tool that does not come to rest in trials is not said to be too st
     CHECK (limitSentence (c, c.node, "simulated") == "The tool of stylus (simulated) does not come to rest at rubber/foot");
     c.may_grow = 0.5;
     CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot is 2 times what stylus (simulated) allows");
+    c.damping = 0.1;   // the factor is that of both
+    CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot together with its damping is 2 times what stylus (simulated) allows");
 }
 
 TEST_CASE ("a contact that rests but is not passive is near a limit, and each share says of what", "[app][limits]")
@@ -197,8 +199,8 @@ TEST_CASE ("each node whose loop swings is listed with its own factor, the weake
     for (const auto& l : list.limits)
         if (l.id == "stiffness") texts.push_back (l.text);
     CHECK (texts
-           == std::vector<std::string> { "The stiffness of drag is 3 times what tip (simulated) allows",
-                                         "The stiffness of wall is 1.4 times what tip (simulated) allows" });
+           == std::vector<std::string> { "The stiffness of drag together with its damping is 3 times what tip (simulated) allows",
+                                         "The stiffness of wall together with its damping is 1.4 times what tip (simulated) allows" });
     REQUIRE (list.contacts.size() == 2);
     CHECK (list.contacts[0].node == "drag");
     CHECK (list.contacts[1].node == "wall");
