@@ -275,8 +275,8 @@ void reportTones (const Ring& ring, const RingModel& model, const VectorXd& resi
 /// Reports what the modes do not explain: tones that stand out from the noise, and a residual that decays, as noise does not.
 void examineResidual (const Ring& ring, const VectorXd& residual, double least, FitReport& report)
 {
-    if (const auto left = detail::ResidualSpectrum (residual, least).strongest())
-        report.lacking.push_back ("a tone at " + roundedText (left->rate.imag() / full_turn / ring.dt, 4)
+    if (const detail::ResidualSpectrum spectrum (residual, least); spectrum.strongest())
+        report.lacking.push_back ("a tone at " + roundedText (spectrum.loudest() / full_turn / ring.dt, 4)
                                   + " Hz is left in the residual: more modes are needed (--most), or a mode changes its pitch, or is two modes that are "
                                     "closer than their bandwidths");
     const Index third = ring.size() / 3;

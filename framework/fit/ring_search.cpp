@@ -52,6 +52,7 @@ ResidualSpectrum::ResidualSpectrum (const VectorXd& residual, double least)
     const auto bands = static_cast<std::size_t> (std::clamp (n / 2.0 / 64.0, 1.0, 48.0));
     const double lines_per_band = n / 2.0 / static_cast<double> (bands);
     limit = thresholdOf (n) * (1.0 + 2.5 / std::sqrt (lines_per_band));
+    double most = 0.0;
     for (const double decay : ring_decays)
     {
         const auto power = weightedSpectrum (residual, decay / n);
@@ -69,6 +70,11 @@ ResidualSpectrum::ResidualSpectrum (const VectorXd& residual, double least)
         for (auto i = static_cast<std::size_t> (std::ceil (lowest / step)); i + 1 < power.size(); ++i)
         {
             const double angle = step * static_cast<double> (i);
+            if (power[i] > most && power[i] > limit * floorAt (angle))
+            {
+                most = power[i];
+                loudest_angle = angle;
+            }
             if (found && power[i] < found->score * least) continue;
             const double score = power[i] / floorAt (angle);
             if (score > limit && (! found || score > found->score)) found = HiddenTone { { -std::max (decay, 0.7) / n, angle }, score };

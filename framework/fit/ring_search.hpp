@@ -32,10 +32,14 @@ public:
 
     const std::optional<HiddenTone>& strongest() const { return found; }
 
+    /// Of all that stands out, the angle per row with the most power: where a tone is, rather than its skirts over a lower floor. 0 if nothing does.
+    double loudest() const { return loudest_angle; }
+
 private:
     std::vector<double> floors;   // of bands of equal width
     double limit = 0.0;
     std::optional<HiddenTone> found;
+    double loudest_angle = 0.0;
 };
 
 /// Removes the faintest tone, and refines the others, until the power of each over the noise floor exceeds `least`.

@@ -182,6 +182,20 @@ TEST_CASE ("fit of modes: a fit is poor if a tone is left, however small the res
     CHECK_FALSE (fit->report.is_good);
 }
 
+TEST_CASE ("fit of modes: what is left of two close modes is told at their frequency, not at that of the lowest noise", "[fit]")
+{
+    for (const auto& [first, second] : { std::pair { 400.0, 412.0 }, { 600.0, 610.0 }, { 1200.0, 1215.0 } })
+    {
+        const auto fit = fitModes (ringOf (
+            { { .frequency = first, .decay = 60, .amplitude = 1 }, { .frequency = second, .decay = 80, .amplitude = 0.8 } }, 10e3, 0.5, 1e-3));
+        REQUIRE (fit);
+        CAPTURE (first, fit->tones.size());
+        for (const auto& lacking : fit->report.lacking)
+            if (lacking.starts_with ("a tone at ")) CHECK (std::abs (std::strtod (lacking.c_str() + 10, nullptr) - second) < 0.1 * second);
+        CHECK (lacks (fit->report, "a tone at "));
+    }
+}
+
 TEST_CASE ("fit of modes: a ring whose pitch or decay changes is one mode, and a poor fit", "[fit]")
 {
     const double rate = 20e3;
