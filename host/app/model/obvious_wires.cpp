@@ -255,7 +255,11 @@ graph::Batch obviousWires (const graph::Graph& g, const std::string& in, const s
     const auto motor = std::ranges::find (patch->nodes, motor_type, &graph::Node::type);
     const auto out = forceOutput (*type, true);
     const bool is_only_a_part = out && ! out->is_vector && ! isTexture (node->type) && ! node->type.starts_with ("vibration.");
-    if (motor != patch->nodes.end() && ! is_only_a_part) drive (*motor, *node, g, in, catalogue, batch);
+    if (motor == patch->nodes.end()) return batch;
+    if (! is_only_a_part) drive (*motor, *node, g, in, catalogue, batch);
+    for (std::size_t i = 0; i < batch.commands.size(); ++i)   // else the surface that loads the node would not push
+        if (const auto* added = std::get_if<graph::AddWire> (&batch.commands[i].edit); added != nullptr && added->wire.from.port == "resistance")
+            if (const auto* surface = patch->find (added->wire.from.node)) drive (*motor, *surface, g, in, catalogue, batch);
     return batch;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/model/obvious_wires.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
 #include <host/base/assets/file_assets.hpp>
@@ -193,6 +194,14 @@ TEST_CASE ("what is there but cannot be felt is a problem, and a click wires it"
         }
         CHECK (hasWire (g, "wall.resistance -> rub.normal_force"));   // not felt in the air
         CHECK (g.root.wires.size() == 5);
+    }
+    SECTION ("the surface that gives the load is felt, too, also if only its position was wired by hand")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"rub":{"type":"friction.elasto_plastic"}},"wires":["hand.position -> wall.position"])");
+        REQUIRE (graph::apply (g, wiring::obviousWires (g, "", "rub", catalogue())).has_value());
+        CHECK (hasWire (g, "wall.resistance -> rub.normal_force"));
+        CHECK (hasWire (g, "wall.force -> motor.force"));
+        CHECK (unfeltIn (g).empty());
     }
     SECTION ("a load that is wired, or that no surface gives, stays as it is")
     {
