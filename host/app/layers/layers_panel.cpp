@@ -89,7 +89,7 @@ void LayersPanel::rebuild()
     for (auto& s : strips)
         s->show();
     if (total) total->show();
-    if (isVisible()) rebuildUnmixed();
+    rebuildUnmixed();
 
     for (auto& b : kinds)
         b->setEnabled (true);
@@ -149,7 +149,6 @@ void LayersPanel::rebuildStrips (std::size_t layers)
     requestTraces();
 }
 
-/// Visits all nodes of the graph, so it is not called while the panel is hidden.
 void LayersPanel::rebuildUnmixed()
 {
     auto now = all.empty() ? BehindMixer {} : behindMixer (document.graph(), chosen, catalogue);
@@ -179,9 +178,7 @@ void LayersPanel::mixIn (const UnmixedSignal& u)
 void LayersPanel::requestTraces()
 {
     std::vector<std::string> levels, signals;
-    for (std::size_t i = 0; i < strips.size() && ! isVisible() && ! all.empty(); ++i)   // what a layer has reached counts while the panel is hidden, too
-        levels.push_back (chosen.path + ".level[" + std::to_string (i) + ']');
-    if (isVisible() && ! all.empty())
+    if (! all.empty())   // peaks count while the panel is hidden, too
     {
         levels = { chosen.path + ".out", chosen.path + ".reduction" };
         std::ranges::copy (behind.motors, std::back_inserter (levels));
@@ -190,7 +187,7 @@ void LayersPanel::requestTraces()
         for (std::size_t i = 0; i < strips.size(); ++i)
         {
             levels.push_back (chosen.path + ".level[" + std::to_string (i) + ']');
-            signals.push_back (chosen.path + ".in[" + std::to_string (i) + ']');
+            if (isVisible()) signals.push_back (chosen.path + ".in[" + std::to_string (i) + ']');
         }
     }
     traces.want (std::move (levels));
@@ -199,7 +196,6 @@ void LayersPanel::requestTraces()
 
 void LayersPanel::visibilityChanged()
 {
-    if (isVisible()) rebuildUnmixed();
     requestTraces();
     if (! isVisible()) return;
     proposeMixer();
@@ -214,7 +210,6 @@ void LayersPanel::refresh()
     const bool with_spectrum = isVisible() && ++refreshes % spectrum_every == 0;
     for (auto& s : strips)
         s->refresh (traces, dt, with_spectrum);
-    if (! isVisible()) return;
     for (auto& s : past)
         s->refresh (traces, dt);
     if (total) total->refresh (traces, behind.motors, dt);
