@@ -190,7 +190,7 @@ void CommandSearch::open()
     addItems (menu.items(), {}, all);
     addNodes (all);
     for (const auto& p : parts.panels)
-        if (p.panel.actions && ! parts.welcome.isVisible())
+        if (p.panel.actions)
             for (auto& a : p.panel.actions())
                 all.push_back ({ std::move (a.name), std::move (a.about), std::move (a.act) });
     addTypes (all);

@@ -51,6 +51,19 @@ TEST_CASE ("an empty graph offers five templates, each of which can be felt at o
     CHECK (row.isShowing());
 }
 
+TEST_CASE ("the search opens every preset from the first page, not only those with a card", "[app][beginnings]")
+{
+    WindowRig w;
+    REQUIRE (w.view->part<WelcomePage>().isShowing());
+    w.key ("ctrl + k");
+    w.stage->type ("canvas weave");
+    WindowRig::settle();
+    w.key ("return");
+    WindowRig::settle();
+    CHECK (w.graph().name == "Canvas weave");
+    CHECK_FALSE (w.view->part<WelcomePage>().isShowing());
+}
+
 TEST_CASE ("each template gives a force or a vibration when its own hand moves", "[app][beginnings]")
 {
     for (const auto& entry : std::filesystem::directory_iterator (templates))
