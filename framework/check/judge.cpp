@@ -452,7 +452,7 @@ private:
         closeLoops (c, places, radius, rests, [&] (const Slope* s) { return falls (*s); });
         if (c.verdict == Verdict::broken) return;
         const auto best = bestChange (c, places);
-        constexpr double enough = 1.02;   // the slopes along one motion are known to 1 %
+        constexpr double enough = 1.02;   // the changed graph moves a little otherwise, so its slopes differ
         if (! best || best->room <= c.may_grow || (c.verdict == Verdict::unstable && best->room < enough && ! (c.may_grow > 0.0))) return;
         if (c.verdict == Verdict::unstable && best->room < enough)   // no single change suffices
         {

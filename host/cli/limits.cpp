@@ -48,7 +48,7 @@ std::string padded (std::string text, std::size_t width)
 
 std::string describe (const std::optional<Range>& r, bool is_least)
 {
-    constexpr double slack = 5e-6;   // of the search for the ends
+    constexpr double slack = 5e-6;   // the search ends inside, so that 4000 N/m is found as a little less
     if (! r) return "nowhere";
     const auto least = (r->is_low_known ? "at least " : "unknown below ") + number (roundedBound (r->low, true, slack));
     if (is_least) return least;

@@ -43,7 +43,7 @@ struct Panel
     std::function<void()> reload {};               ///< the settings were read, or a graph was opened or saved
     std::function<void()> refresh {};              ///< many times a second
     std::function<void (graph::Graph&)> keep {};   ///< stores what the file of a graph keeps of the panel in a graph that is about to be saved
-    std::function<void()> restore {};              ///< another graph is open: shows what its file keeps
+    std::function<void()> restore {};              ///< another graph is open: shows what Document::ui() keeps of it
 
     /// The window is about to close: asks about what would be lost, and then calls the function.
     std::function<void (std::function<void()>)> close {};

@@ -89,9 +89,14 @@ std::string limitSentence (const check::Condition& c, const std::string& node, c
     const bool of_device = found != std::end (nouns) && found->is_of_device;
     const auto role = filled ("%1 (%2)", printableName (c.role), printableName (device));
     constexpr double matters = 0.01;
-    const bool has_damping = c.damping > matters * c.value || c.loops.size() > 1;   // then how much of a single loop is damping is not known
+    const bool has_damping = c.damping > matters * c.value || c.loops.size() > 1;   // how much of a single loop is damping is not known
     auto who = node.empty() ? TRANS ("the graph") : juce::String (printableName (node));
-    if (c.id == "stiffness" && has_damping && ! isMostlyDamping (c)) who = filled (TRANS ("%1 together with its damping"), who);
+    if (isMostlyDamping (c))
+    {
+        if (c.value - c.damping > matters * c.value) who = filled (TRANS ("%1 together with its stiffness"), who);
+    }
+    else if (c.id == "stiffness" && has_damping)
+        who = filled (TRANS ("%1 together with its damping"), who);
     const double margin = c.margin();
     const bool has_factor = margin > 0.0 && std::isfinite (margin) && (c.isBroken() == (margin < 1.0));
     const auto percent = std::to_string (static_cast<int> (std::floor (100.0 / std::max (1.0, margin))));

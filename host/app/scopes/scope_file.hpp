@@ -3,7 +3,7 @@
 
 #include "scope_model.hpp"
 
-#include <tactus/graph/graph.hpp>
+#include <tactus/text/json.hpp>
 
 namespace tactus::host
 {

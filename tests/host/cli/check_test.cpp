@@ -176,6 +176,10 @@ TEST_CASE ("a texture that its graph fades out is judged at another speed as if 
     CHECK (fast.find ("v 3 m/s, alpha 2, as if it were still felt at this speed, whatever 'slow' fades out") != std::string::npos);
     CHECK (fast.find ("or a texture.antialias\n") == std::string::npos);
     CHECK (slow.find ("whatever 'slow' fades out") == std::string::npos);
+    const auto weave = runTactus ({ "check", "canvas_weave", "--speed", "2" }).out;   // two textures, each with its own: which is whose is not known
+    INFO (weave);
+    CHECK (weave.find ("whatever a texture.antialias fades out") != std::string::npos);
+    CHECK (weave.find ("_slow' fades out") == std::string::npos);
 }
 
 TEST_CASE ("`tactus check` refuses a role, a profile and a file that do not exist", "[check][cli]")

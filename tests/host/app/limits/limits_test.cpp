@@ -96,6 +96,10 @@ TEST_CASE ("a tool that does not come to rest in trials is not said to be too st
     CHECK (limitSentence (c, c.node, "simulated") == "The tool of stylus (simulated) does not come to rest at rubber/foot");
     c.may_grow = 0.5;
     CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot is 2 times what stylus (simulated) allows");
+    c.value = 1.6;   // mostly damping, which is too much alone
+    c.damping = 1.2;
+    CHECK (limitSentence (c, c.node, "simulated")
+           == "The virtual damping of rubber/foot together with its stiffness is 2 times what stylus (simulated) allows");
     c.damping = 0.1;   // the factor is that of both
     CHECK (limitSentence (c, c.node, "simulated") == "The stiffness of rubber/foot together with its damping is 2 times what stylus (simulated) allows");
 }

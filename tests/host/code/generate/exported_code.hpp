@@ -63,7 +63,7 @@ private:
     std::set<std::string> sources;
     std::vector<std::string> stems, classes;
 
-    void writeMain (const std::string& head, const std::string& per_graph, std::size_t first = 0, std::size_t count = static_cast<std::size_t> (-1)) const;
+    void writeMain (const std::string& head, const std::string& per_graph, std::size_t first = 0, std::size_t count = std::string::npos) const;
     bool succeeds (const std::string& command) const;
     bool compile (const std::string& compiler, std::string& objects) const;
     std::string compileAndRun (const std::string& compiler, const std::string& link, const std::string& run) const;
