@@ -184,7 +184,6 @@ TEST_CASE ("contacts that few starts make swing are not called stable or passive
                    << seen.how);
         CHECK (seen.most > 1.0);
         CHECK ((row->verdict == check::Verdict::unstable || row->verdict == check::Verdict::unknown));
-        if (row->verdict == check::Verdict::unstable) CHECK (row->text.find ("along this motion only") == std::string::npos);   // would say the opposite
     }
 }
 
