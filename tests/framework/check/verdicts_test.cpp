@@ -129,7 +129,7 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
     int blessed = 0, alarms = 0, none = 0, swings = 0;
     std::ostringstream list;
     const auto* first = std::getenv ("TACTUS_SEED");   // count on from here
-    const int from = first != nullptr ? std::atoi (first) : 0;
+    const int from = first != nullptr ? static_cast<int> (std::strtol (first, nullptr, 10)) : 0;
     for (int i = from; i < from + count; ++i)
     {
         RandomContacts draw { std::uint64_t (i) };
@@ -171,7 +171,7 @@ TEST_CASE ("no random contact that swings, bounces or runs away is called stable
 TEST_CASE ("contacts that few starts make swing are not called stable or passive", "[check]")
 {
     // 200: a friction whose loop is not known, with one of the hands only. 3050: a liquid that swings after a hard blow.
-    for (const std::uint64_t seed : { 200, 3050 })
+    for (const std::uint64_t seed : { 200u, 3050u })
     {
         RandomContacts draw { seed };
         const auto contact = draw.draw();
