@@ -44,11 +44,28 @@ void removeHeld (std::vector<float>& samples, double rate_hz, bool loops)
         v = static_cast<float> (high_pass (double { v } - first));
 }
 
+/// The largest magnitude of a vector.
+double peakOf (const std::vector<std::vector<float>>& channels)
+{
+    double most = 0.0;
+    for (std::size_t k = 0; k < channels.front().size(); ++k)
+    {
+        double squares = 0.0;
+        for (const auto& c : channels)
+            squares += double { c[k] } * double { c[k] };
+        most = std::max (most, squares);
+    }
+    return std::sqrt (most);
+}
+
 void tellHeld (const OneSignal& signal, Messages& losses)
 {
-    if (signal.lacks_held)
-        losses.push_back (Message::warning ("clip/held", {},
-                                            "a force that is held is left out, and what changes more slowly than 8 times a second is weaker: a clip vibrates"));
+    constexpr double noticed = 1.05;
+    if (! signal.lacks_held) return;
+    std::string text = "a force that is held is left out, and what changes more slowly than 8 times a second is weaker: a clip vibrates";
+    if (signal.overshoot > noticed)
+        text += ". Where such a force changes at once, the clip peaks at " + numberText (0.01 * std::round (100.0 * signal.overshoot)) + " times its peak";
+    losses.push_back (Message::warning ("clip/held", {}, std::move (text)));
 }
 }   // namespace
 
@@ -59,7 +76,7 @@ OneSignal oneSignalOf (std::vector<std::vector<float>> channels, const std::vect
     for (auto& c : channels)
         for (auto& v : c)
             if (! std::isfinite (v)) v = 0.0f;
-    const double before = squaresOf (channels);
+    const double before = squaresOf (channels), peak_before = peakOf (channels);
     for (auto& c : channels)
         removeHeld (c, rate_hz, loops);
     OneSignal one;
@@ -85,6 +102,7 @@ OneSignal oneSignalOf (std::vector<std::vector<float>> channels, const std::vect
     }
     for (const float v : one.samples)
         one.peak = std::max (one.peak, std::abs (double { v }));
+    if (peak_before > 0.0) one.overshoot = one.peak / peak_before;
     return one;
 }
 

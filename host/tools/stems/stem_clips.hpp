@@ -20,6 +20,7 @@ struct OneSignal
     std::vector<float> samples {};
     std::string channel {};   ///< "desk.in[0]", or "along 0 0 1"
     double peak = 0.0;
+    double overshoot = 0.0;    ///< the peak over that before the high-pass: above 1 where a held force is reversed at once
     bool lacks_held = false;   ///< the high-pass has left out a part that matters
 };
 

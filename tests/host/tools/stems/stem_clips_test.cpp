@@ -54,6 +54,17 @@ TEST_CASE ("a force of a take vibrates as strongly as it was recorded, and does 
     CHECK (losses[0].id == "clip/held");
 }
 
+TEST_CASE ("a clip of a held force that is reversed says how far it peaks above the force", "[stems][take]")
+{
+    auto reversed = pressed ({ 0.0, 0.0, 0.5 }, {});
+    for (std::size_t k = 3 * 2000 + 2; k < reversed.values.size(); k += 3)
+        reversed.values[k] = -0.5;
+    Messages losses;
+    CHECK (largest (playableStretch (reversed, losses)) == Approx (1.0).epsilon (0.01));   // the step, twice the force
+    REQUIRE (losses.size() == 1);
+    CHECK (losses[0].text.find ("peaks at 1.98 times its peak") != std::string::npos);
+}
+
 TEST_CASE ("a force that is held alone is a clip of silence", "[stems][take]")
 {
     Messages losses;
