@@ -347,3 +347,23 @@ TEST_CASE ("a condition that needs an unknown number of the device is unknown, n
         }
     }
 }
+
+TEST_CASE ("a contact that swings in a trial is not called passive along the motion in the same sentence", "[check]")
+{
+    Trial t;
+    t.board.knock = 0.5;   // plays by itself
+    const auto of_slopes = named (t.conditions(), "stiffness");
+    INFO (of_slopes.text);
+    REQUIRE (of_slopes.verdict == check::Verdict::passive_here);
+    REQUIRE (of_slopes.text.find ("passive along this motion only") != std::string::npos);
+    const check::Trials trials { .by_role = { { .role = "tip", .is_tried = true, .swings = true, .range = 1e-4, .after_s = 0.5, .off = 1e-3 } },
+                                 .places = 1,
+                                 .runs = 1 };
+    t.options.trials = &trials;
+    const auto tried = named (t.conditions(), "stiffness");
+    INFO (tried.text);
+    CHECK (tried.verdict == check::Verdict::unstable);
+    CHECK (tried.text.find ("still moves to and fro by 100 um") != std::string::npos);
+    CHECK (tried.text.find ("the slopes alone are passive") != std::string::npos);
+    CHECK (tried.text.find ("along this motion") == std::string::npos);
+}
