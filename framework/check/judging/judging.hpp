@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "judge.hpp"
-#include "sampled_loop.hpp"
-
+#include <tactus/check/judge.hpp>
+#include <tactus/check/sampled_loop.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/rounded_bound.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "contact_changes.hpp"
 #include "judging.hpp"
-#include "sampled_loop.hpp"
-#include "spring_and_damper.hpp"
 
+#include <tactus/check/sampled_loop.hpp>
+#include <tactus/check/spring_and_damper.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "deadbeat_loop.hpp"
 #include "judging.hpp"
+#include <tactus/check/deadbeat_loop.hpp>
 
 #include <algorithm>
 #include <cmath>

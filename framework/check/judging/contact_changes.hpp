@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "measure.hpp"
-
+#include <tactus/check/measure.hpp>
 #include <tactus/run/device/device_numbers.hpp>
 
 #include <algorithm>
