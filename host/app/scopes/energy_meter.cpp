@@ -187,8 +187,8 @@ std::string describe (const EnergyBalance& b)
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
     const auto kind = b.isPassive() ? TRANS ("passive over %5: work of the hand %1, %2 stored, %3 dissipated")
-                                    : TRANS ("active over %5: at one moment, %4 more had come out than had gone in; by now, work of the hand %1, %2 stored, "
-                                             "%3 dissipated");
+                                    : TRANS ("active over %5, without the damping of the device: at one moment, %4 more had come out than had gone in; by now, "
+                                             "work of the hand %1, %2 stored, %3 dissipated");
     auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first),
                         (b.seconds < 10.0 ? juce::String (b.seconds, 1) : juce::String (juce::roundToInt (b.seconds))) + juce::String::fromUTF8 ("\u00a0s"));
     if (matters (b.held, 0.01))
