@@ -30,7 +30,7 @@ TEST_CASE ("figure: stick, press harder, let go: 50 strokes give 0.16 mJ if the 
             work += 0.5 * (f[k] + f[k + 1]) * (x[k + 1] - x[k]);
         return work;
     };
-    for (const std::size_t strokes : { 1, 7, 50 })
+    for (const std::size_t strokes : { 1u, 7u, 50u })
     {
         CHECK (given ("scale", strokes) == Approx (static_cast<double> (strokes) * gain).epsilon (1e-6));
         CHECK (run.at ("scale.dissipated_energy", strokes * stroke) == Approx (-static_cast<double> (strokes) * gain).epsilon (1e-6));

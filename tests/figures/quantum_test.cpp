@@ -25,7 +25,7 @@ TEST_CASE ("figure: a step of the sensor gives back a triangle of energy, and fr
     REQUIRE (p.size() == 2 * per_way + 1);
     CHECK (p[per_way] - p[0] == Approx (delta));
 
-    for (const std::size_t way : { 0, 1 })
+    for (const std::size_t way : { 0u, 1u })
     {
         double held = 0.0;   // J: the work of the held force on the hand
         for (std::size_t k = way * per_way; k < (way + 1) * per_way; ++k)

@@ -20,6 +20,7 @@ class GainProcessor : public PlainProcessor
 public:
     GainProcessor (int channels, double g) : PlainProcessor (channels, channels), gain (g) {}
 
+    using PlainProcessor::processBlock;
     void processBlock (juce::AudioBuffer<double>& buffer, juce::MidiBuffer&) override
     {
         for (int c = 0; c < buffer.getNumChannels(); ++c)

@@ -20,6 +20,7 @@ public:
     void prepareToPlay (double, int) override {}
     void releaseResources() override {}
     bool supportsDoublePrecisionProcessing() const override { return true; }
+    using AudioProcessor::processBlock;
     void processBlock (juce::AudioBuffer<float>&, juce::MidiBuffer&) override {}
     double getTailLengthSeconds() const override { return 0.0; }
     bool acceptsMidi() const override { return false; }
@@ -51,6 +52,7 @@ class KernelProcessor : public PlainProcessor
 public:
     explicit KernelProcessor (N n) : PlainProcessor (componentsOf<Role::input> (n), componentsOf<Role::output> (n)), node (std::move (n)) {}
 
+    using PlainProcessor::processBlock;
     void processBlock (juce::AudioBuffer<double>& buffer, juce::MidiBuffer&) override
     {
         const auto in = detail::NodeAdapter<N>::gather (node, buffer.getArrayOfReadPointers());

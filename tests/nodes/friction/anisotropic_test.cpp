@@ -249,7 +249,8 @@ TEST_CASE ("anisotropic: stick-slip at an angle has the teeth of a slow hand at 
                 least = std::min (least, drags);
                 sum += drags;
             }
-            const auto [along, across] = drag (node.params, angle);
+            const auto its_drag = drag (node.params, angle);
+            const double along = its_drag[0], across = its_drag[1];   // clang 14 does not capture structured bindings
             const double line = angle > M_PI / 2.0 ? 0.6 : 0.3, side = 0.4;
             const auto share = [&] (double tooth) { return std::hypot ((along + tooth * way.x()) / line, (across + tooth * way.y()) / side); };
             double tooth = 0.0;
