@@ -22,7 +22,7 @@ struct RandomContact
     std::vector<std::size_t> places;   // ticks of the path at which the tool is let go
 };
 
-/// The same seed gives the same contact.
+/// The same seed gives the same contact with every compiler: no two draws are arguments of one call, whose order is open.
 class RandomContacts
 {
 public:
@@ -112,7 +112,8 @@ private:
     {
         made.kinds += "plane ";
         const auto window = chance (0.3) ? R"(, "settings": { "window": )" + number (between (2.0, 8.0) / made.rate_hz) + " }" : std::string();
-        node ("floor", "deform.plane", R"("params": { "stiffness": )" + number (stiffness()) + R"(, "damping": )" + number (damper()) + " }" + window);
+        const double b = damper(), k = stiffness();
+        node ("floor", "deform.plane", R"("params": { "stiffness": )" + number (k) + R"(, "damping": )" + number (b) + " }" + window);
         wire ("at.position -> floor.position");
         if (chance (0.15))
         {
@@ -143,9 +144,9 @@ private:
     void coupling()
     {
         made.kinds += "coupling ";
+        const double wall = between (1e3, 1e7), b = damper(), k = stiffness();
         node ("coupled", "coupling.virtual",
-              R"("params": { "stiffness": )" + number (stiffness()) + R"(, "damping": )" + number (damper()) + R"(, "wall_stiffness": )"
-                  + number (between (1e3, 1e7)) + " }");
+              R"("params": { "stiffness": )" + number (k) + R"(, "damping": )" + number (b) + R"(, "wall_stiffness": )" + number (wall) + " }");
         wire ("at.position -> coupled.position");
         wire ("coupled.force -> motor.force");
     }
@@ -204,10 +205,11 @@ private:
         made.kinds += "friction ";
         const char* adhesions[] { "stick", "dahl", "dupont" };
         const char* loads[] { "bound", "scale", "passive" };
+        const auto its_load = loads[std::size_t (3.0 * part())], adhesion = adhesions[std::size_t (3.0 * part())];
+        const double d_max = between (5e-5, 1e-3), k = chance (0.6) ? stiffness() : 0.0, mu = 0.1 + 0.6 * part();
         node ("drag", "friction.elasto_plastic",
-              R"("params": { "mu": )" + number (0.1 + 0.6 * part()) + R"(, "stiffness": )" + number (chance (0.6) ? stiffness() : 0.0) + R"(, "d_max": )"
-                  + number (between (5e-5, 1e-3)) + R"(, "adhesion": ")" + adhesions[std::size_t (3.0 * part())] + R"(", "load": ")"
-                  + loads[std::size_t (3.0 * part())] + R"(" })");
+              R"("params": { "mu": )" + number (mu) + R"(, "stiffness": )" + number (k) + R"(, "d_max": )" + number (d_max) + R"(, "adhesion": ")" + adhesion
+                  + R"(", "load": ")" + its_load + R"(" })");
         wire ("at.position -> drag.position");
         wire (load + " -> drag.normal_force");
         wire ("drag.force -> motor.force");
@@ -217,10 +219,11 @@ private:
     {
         made.kinds += "corner ";
         const double angle = (0.2 + 0.8 * part()) * 1.5707963267948966, x = std::sin (angle), z = std::cos (angle);
+        const double b = damper(), k = stiffness();
         // The stroke ends 8 mm to the right, as deep in this wall as in the floor.
         node ("side", "deform.plane",
               R"("params": { "normal": [)" + number (-x) + ", 0, " + number (z) + R"(], "offset": )" + number (-0.008 * x) + R"(, "stiffness": )"
-                  + number (stiffness()) + R"(, "damping": )" + number (damper()) + " }");
+                  + number (k) + R"(, "damping": )" + number (b) + " }");
         wire ("at.position -> side.position");
         wire ("side.force -> motor.force");
     }
