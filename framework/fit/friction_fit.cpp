@@ -303,13 +303,14 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     return found;
 }
 
-/// Whether these rows are clearly more likely than those of a fit.
+/// Whether the force follows what is in these rows and was smoothed out of those of a fit. Only its changes from row to row tell: a slow part that the
+/// model lacks, such as viscous friction, may fit better to rows with noise.
 bool areClearlyBetter (const Drag& drag, const FoundDrag& found, FitCourse* course)
 {
     constexpr double clear = 20.0;   // e^10 times as likely
     const DragSearch same (drag, found.adhesion, drag.size(), course);
-    const double sum = detail::minimise (same.problem(), found.fit.x).sumToCompare();
-    return static_cast<double> (drag.size()) * math::log (found.fit.sumToCompare() / sum) > clear;
+    const auto fit = detail::minimise (same.problem(), found.fit.x);
+    return static_cast<double> (drag.size()) * math::log (found.fit.changesToCompare() / fit.changesToCompare()) > clear;
 }
 
 /// The fits for the load as recorded, if the force follows what the smoothing takes out of it; else for the smoothed load.

@@ -31,10 +31,16 @@ struct LeastSquaresFit
     double sum() const { return residual.squaredNorm(); }
 
     /// The sum, but at least what rounding leaves in a recording without noise. Used to choose between models.
-    double sumToCompare() const
+    double sumToCompare() const { return atLeastRounding (sum()); }
+
+    /// The same for the changes of the residual from row to row. What a model lacks is mostly slow, and hardly counts.
+    double changesToCompare() const { return atLeastRounding ((residual.tail (residual.size() - 1) - residual.head (residual.size() - 1)).squaredNorm()); }
+
+private:
+    double atLeastRounding (double squares) const
     {
         constexpr double rounding = 1e-9;   // of the size
-        return std::max ({ sum(), static_cast<double> (residual.size()) * rounding * rounding * size * size, 1e-300 });
+        return std::max ({ squares, static_cast<double> (residual.size()) * rounding * rounding * size * size, 1e-300 });
     }
 };
 

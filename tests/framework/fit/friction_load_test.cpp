@@ -88,6 +88,33 @@ TEST_CASE ("fit of friction: a load that really changes from row to row is not s
     CHECK (contains (fit->report.at ("mu"), s.truth.mu));
 }
 
+TEST_CASE ("fit of friction: a force that grows with the speed does not make it follow the noise of the load", "[fit]")
+{
+    constexpr int rows = 8000;
+    constexpr double turn = 2.0 * std::numbers::pi * 4.0 / rows;   // four strokes
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    {
+        Random random { seed };
+        const FrictionFit truth { .adhesion = BristleAdhesion::stick, .mu = 0.5, .d_max = 200e-6, .reference_load = 1.0 };
+        RecordedDrag recording {};
+        for (int i = 0; i < rows; ++i)
+            recording.position.push_back (3e-3 * std::sin (turn * i));
+        recording.load.assign (rows, 1.0);
+        recording.force = truth.forceAlong (recording);
+        for (int i = 0; i < rows; ++i)
+        {
+            const auto k = static_cast<std::size_t> (i);
+            recording.force[k] -= 0.1 * std::cos (turn * i) + 0.02 * random.normal();
+            recording.load[k] += 0.01 * random.normal();
+        }
+        const auto fit = fitFriction (recording);
+        REQUIRE (fit);
+        CAPTURE (seed);
+        CHECK (notes (fit->report, "smoothed"));
+        CHECK_FALSE (notes (fit->report, "the force follows it"));
+    }
+}
+
 TEST_CASE ("a smooth column: a straight line stays, noise goes, and its size is known", "[fit]")
 {
     Random random { 2 };
