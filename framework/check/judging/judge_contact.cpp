@@ -318,7 +318,9 @@ private:
         if (c.verdict == Verdict::unstable && best->room < enough)   // no single change suffices
         {
             const double weakest = c.loops.empty() ? c.may_grow : std::min (c.may_grow, c.loops.front().may_grow);
-            c.remedy = atMost (weakest, "times") + " this stiffness and virtual damping, by the linear loop; " + c.remedy;
+            c.remedy = (isStretched (c) ? "a d_max " + atLeast (1.0 / weakest, "times") + " as long"
+                                        : atMost (weakest, "times") + " this stiffness and virtual damping")
+                       + ", by the linear loop; " + c.remedy;
         }
         else
             c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
@@ -358,6 +360,14 @@ private:
         if (by_node.size() > 1) c.text += ": " + rooms;
         const auto& first = by_node.front().along;
         return strongestChange (first.response, loops.at (*weakest), loops.period_s, drags (loops.demand, first.node), others);
+    }
+
+    /// True if the weakest loop is of a friction whose d_max decides how stiff it is.
+    bool isStretched (const Condition& c) const
+    {
+        return ! c.loops.empty() && std::ranges::any_of (loops.demand.stretches, [&] (const Stretch& s) {
+            return s.softer == Stretch::Softer::d_max && loops.demand.nodes[s.node].path == c.loops.front().node;
+        });
     }
 
     bool areLike (const Slope& a, const Slope& b) const

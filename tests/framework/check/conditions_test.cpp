@@ -367,3 +367,19 @@ TEST_CASE ("a contact that swings in a trial is not called passive along the mot
     CHECK (tried.text.find ("the slopes alone are passive") != std::string::npos);
     CHECK (tried.text.find ("along this motion") == std::string::npos);
 }
+
+TEST_CASE ("what would calm a friction is a longer d_max, not the stiffness and damping that it has not", "[check]")
+{
+    Trial t;
+    t.board.amplitude = 0.0;
+    t.board.d_max = 2e-6;
+    const auto short_one = named (t.conditions(), "stiffness");
+    INFO (short_one.text << '\n'
+                         << short_one.remedy);
+    REQUIRE (short_one.verdict == check::Verdict::unstable);
+    REQUIRE (short_one.remedy.starts_with ("a d_max at least "));
+    const double longer = std::stod (short_one.remedy.substr (17));
+    CHECK (longer == Approx (1.0 / short_one.may_grow).epsilon (0.02));
+    t.board.d_max *= 1.02 * longer;
+    CHECK (named (t.conditions(), "stiffness").verdict != check::Verdict::unstable);
+}

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The sampled loop of contacts other than a plain wall, with the response that measure() finds.
 #include <support/property.hpp>
-#include <tactus/check/judging/contact_changes.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
+#include <tactus/check/judging/contact_changes.hpp>
 #include <tactus/check/sampled_loop.hpp>
 
 #include "onset.hpp"
