@@ -413,7 +413,9 @@ if os.path.exists(os.path.join(folder, "switch_pro.board.csv")):
     # Bytes 1 and 5 begin with the amplitudes: that of the strong motor, on the left, is three times that of the weak one, on a scale of logarithms.
     amplitudes = [(s[1] >> 1, s[5] >> 1) for s in rumbled]
     check(len(rumbled) > 5 and all(strong >= weak for strong, weak in amplitudes) and max(amplitudes)[1] > 0 and sides[-1] == neutral,
-          f"switch_pro: hid-nintendo rumbles it in {len(rumbled)} of {len(sides)} reports, such as {rumbled[:1] and rumbled[0].hex()}, and it rests at the end")
+          f"switch_pro: hid-nintendo rumbles it in {len(rumbled)} of {len(sides)} reports, such as {rumbled[:1] and rumbled[0].hex()}, and it rests "
+          f"at the end: {sides[-1:] and sides[-1].hex()}; at most {max(amplitudes, default=None)}; the weak motor is the stronger one in "
+          f"{sum(weak > strong for strong, weak in amplitudes)}")
 else:
     print("skipped: a Switch controller, because the kernel has no driver for it")
 
