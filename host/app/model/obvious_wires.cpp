@@ -257,9 +257,13 @@ graph::Batch obviousWires (const graph::Graph& g, const std::string& in, const s
     const bool is_only_a_part = out && ! out->is_vector && ! isTexture (node->type) && ! node->type.starts_with ("vibration.");
     if (motor == patch->nodes.end()) return batch;
     if (! is_only_a_part) drive (*motor, *node, g, in, catalogue, batch);
-    for (std::size_t i = 0; i < batch.commands.size(); ++i)   // else the surface that loads the node would not push
-        if (const auto* added = std::get_if<graph::AddWire> (&batch.commands[i].edit); added != nullptr && added->wire.from.port == "resistance")
-            if (const auto* surface = patch->find (added->wire.from.node)) drive (*motor, *surface, g, in, catalogue, batch);
+    std::set<std::string> surfaces;   // that load the node. They would not push else
+    for (const auto& command : batch.commands)
+        if (const auto* added = std::get_if<graph::AddWire> (&command.edit); added != nullptr && added->wire.from.port == "resistance")
+            surfaces.insert (added->wire.from.node);
+    surfaces.erase (name);
+    for (const auto& loading : surfaces)
+        if (const auto* surface = patch->find (loading)) drive (*motor, *surface, g, in, catalogue, batch);
     return batch;
 }
 
